@@ -1,0 +1,23 @@
+// Scene files: JSON that references meshes. Strict: an unknown key, a wrong type, a value out of range or a missing file is an error that names the
+// file and the path inside it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "compare/problem/scene.hpp"
+
+namespace ogc::compare {
+
+inline constexpr int scene_format_version = 1;
+
+/// Reads and validates a scene file. Throws InputError that lists every problem found.
+Scene read_scene(const std::filesystem::path& file);
+
+/// Writes `folder`/NAME.json and one PLY a body (positions and, where they differ, rest positions). Returns the path of the JSON file.
+std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
+
+/// The JSON Schema of scene files.
+std::string scene_schema();
+
+}  // namespace ogc::compare

@@ -1,0 +1,39 @@
+// The oracle: exact intersection audit of a state, by CGAL, of any contestant or of none (method.md §5, "State audit").
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle };
+
+/// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, or vertex `first` lies on triangle `second` that does not contain it.
+struct Intersection {
+  IntersectionKind kind = IntersectionKind::edge_triangle;
+  Index first = -1, second = -1;
+  friend auto operator<=>(const Intersection&, const Intersection&) = default;
+};
+
+struct AuditOptions {
+  std::size_t limit = 1000;  ///< list at most so many; the count goes on
+};
+
+struct AuditResult {
+  std::vector<Intersection> intersections;  ///< ascending
+  std::size_t count = 0;
+  std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet
+};
+
+/// Exact: no rounding decides. `rigid_groups` as in DetectIn; may be empty (then no pair is left out but by a shared vertex).
+AuditResult audit(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups = {},
+                  const AuditOptions& options = {});
+
+/// "edge 12 (vertices 3, 7; body 'cloth') meets triangle 40 (…)", one line each. `names` maps a vertex to its body's name; may be empty.
+std::string describe(const AuditResult& result, const Topology& topology, const std::vector<std::string>& body_of_vertex = {});
+
+}  // namespace ogc::compare

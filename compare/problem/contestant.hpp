@@ -1,0 +1,104 @@
+// A contestant: a name, a callable for each stage that it has, and a resident simulation. The judge drives two of them through the same cases
+// and never learns who they are.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+#include "compare/stages/activation.hpp"
+#include "compare/stages/bound.hpp"
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/truncate.hpp"
+
+namespace ogc::compare {
+
+/// Why a step is not clean; bits of StepMetrics::status.
+enum StepStatus : std::uint32_t {
+  step_clean = 0,
+  step_list_grew = 1,          ///< a list was too small: it grew and the step was repeated
+  step_not_finite = 2,         ///< a position became NaN or infinite: the run stops, the last good state stays
+  step_bound_violated = 4,     ///< the motion certificate failed: ‖x − x_prev‖ > b_v in double
+};
+
+/// One row of steps.csv. Times [ms]; not-a-number where a quantity was not asked for.
+struct StepMetrics {
+  std::int64_t step = 0;                      ///< number of the step that this row ends, from 1
+  double wall_ms = 0;                         ///< CPU: steady clock; CUDA: device events over the frame, divided by its steps
+  std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
+  std::int64_t broad_phases = 0;              ///< tree refits or rebuilds followed by a query
+  std::int64_t discrete_detections = 0, continuous_detections = 0;
+  std::int64_t guess_rounds = 0, iterations = 0;
+  std::int64_t vertices_at_bound = 0;         ///< cut in the last iteration
+  double share_at_bound = 0;                  ///< vertices_at_bound / K
+  double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5)
+  double largest_lag = 0;                     ///< of prescribed vertices behind their targets [m]
+  double query_radius = 0;                    ///< r_q of the step [m]
+  double residual = 0;                        ///< Eq. 29
+  double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
+  double smallest_distance = 0;               ///< smallest d_min at the last detection (r_q where nothing is near) [m]
+  std::int64_t repeats = 0;                   ///< times the step was repeated because a list grew
+  std::uint32_t status = step_clean;
+  std::vector<double> stage_ms;               ///< with profile: time by stage, in the order of Simulation::stage_names()
+};
+
+/// State at the end of a step, with what the motion certificate needs.
+struct Snapshot {
+  std::int64_t step = 0;
+  std::vector<Vec3f> positions, velocities;   ///< [m], [m/s]
+  std::vector<Vec3f> previous;                ///< X_prev of the last detection
+  std::vector<float> bounds;                  ///< b_v of the last detection
+  float query_radius = 0;                     ///< r_q of the last detection
+};
+
+struct SimulationOptions {
+  bool profile = false;    ///< record times by stage (adds synchronisations)
+  bool energies = true;    ///< fill the energies of StepMetrics
+};
+
+/// A simulation that lives where the contestant computes; nothing of it is copied to the host except on request.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+  /// Runs `steps` steps (a frame); returns one row each. Stops early after a row whose status says not_finite or bound_violated.
+  virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
+  virtual Snapshot snapshot() = 0;
+  /// Continues from positions, velocities and step number; what else a snapshot holds is recomputed.
+  virtual void restore(const Snapshot& snapshot) = 0;
+  virtual std::vector<std::string> stage_names() const { return {}; }
+  /// One line on where it runs: "NVIDIA H200, CUDA 13.0" or "2 threads".
+  virtual std::string device() const = 0;
+};
+
+/// Empty functions are stages that the contestant does not have.
+struct Contestant {
+  std::string name;
+  std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
+  std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;
+  std::function<DetectVertexFacetOut(const DetectIn&)> detect_vertex_facet;
+  std::function<DetectEdgeEdgeOut(const DetectIn&)> detect_edge_edge;
+  std::function<BoundOut(const BoundIn&)> bound;
+  std::function<ActivationOut(const ActivationIn&)> activation;
+  std::function<TruncateOut(const TruncateIn&)> truncate;
+  std::function<std::unique_ptr<Simulation>(const Scene&, const SimulationOptions&)> start;
+};
+
+/// The contestant that is right: its answers carry what the judge needs to decide about grey cases and conditioning.
+struct Authority {
+  std::string name;
+  std::function<ClosestFaceTruth(const ClosestFaceIn&)> closest_face;
+  std::function<ClosestPointsTruth(const ClosestPointsIn&)> closest_points;
+  std::function<DetectVertexFacetTruth(const DetectIn&)> detect_vertex_facet;
+  std::function<DetectEdgeEdgeTruth(const DetectIn&)> detect_edge_edge;
+  std::function<BoundTruth(const BoundIn&)> bound;
+  std::function<ActivationTruth(const ActivationIn&)> activation;
+  std::function<TruncateTruth(const TruncateIn&)> truncate;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,61 @@
+// Meshes and their topology: names and adjacency, no geometry.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+
+namespace ogc::compare {
+
+/// Rows of different length in one array: row i is items[offsets[i] .. offsets[i+1]), ascending.
+struct CompressedRows {
+  std::vector<Index> offsets{0};
+  std::vector<Index> items;
+  std::size_t rows() const { return offsets.size() - 1; }
+  std::span<const Index> operator[](std::size_t i) const {
+    return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
+  }
+};
+
+/// What a mesh file gives: positions [m], triangles, and edges that belong to no triangle (yarn).
+struct Mesh {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  std::vector<Edge> loose_edges;
+};
+
+/// One bending stencil: an interior edge with exactly two triangles. `edge` is its number, `opposite[k]` the vertex of
+/// `triangles[k]` that is not on the edge; triangles ascending. Non-manifold edges give no hinge.
+struct Hinge {
+  Index edge = -1;
+  std::array<Index, 2> triangles{-1, -1};
+  std::array<Index, 2> opposite{-1, -1};
+};
+
+/// Adjacency of a complex of `vertex_count` vertices. Edge numbers are names that both contestants share: all edges of triangles and all loose
+/// edges, without repetition, sorted by smaller, then larger vertex.
+struct Topology {
+  Index vertex_count = 0;
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+  std::vector<std::array<Index, 3>> triangle_edges;  ///< k-th entry: the edge from corner k to corner k+1 (mod 3)
+  CompressedRows vertex_triangles;                   ///< triangles that contain v
+  CompressedRows vertex_edges;                       ///< edges that contain v
+  CompressedRows vertex_neighbours;                  ///< V_v: vertices that share an edge with v (Eq. 8)
+  CompressedRows edge_triangles;                     ///< triangles that contain e
+  CompressedRows edge_opposite;                      ///< V_e: vertices that share a triangle with e (Eq. 9), however many
+  std::vector<Hinge> hinges;                         ///< by edge number
+  std::vector<Index> boundary_edges;                 ///< edges with exactly one triangle
+  std::vector<Index> non_manifold_edges;             ///< edges with three or more triangles
+  std::vector<Index> component;                      ///< component number of each vertex, numbered by first vertex
+};
+
+/// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws std::out_of_range otherwise.
+Topology build_topology(Index vertex_count, std::span<const Triangle> triangles, std::span<const Edge> loose_edges = {});
+
+/// Number of the edge {a, b}, or -1 where there is none.
+Index find_edge(const Topology& topology, Index a, Index b);
+
+}  // namespace ogc::compare

@@ -1,0 +1,76 @@
+// A scene: everything that a contestant needs to know. Plain data in double; `round_to_single` makes each number one that single
+// precision holds exactly, so that a contestant in single and one in double are asked the same question (method.md §2).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+#include "compare/problem/settings.hpp"
+
+namespace ogc::compare {
+
+enum class MembraneModel { none, st_venant_kirchhoff };
+enum class BendingModel { none, discrete_hinge };
+
+/// Constants of one body's surface (scenes.md, "Materials of the cloth scenes").
+struct Material {
+  double density = 0.2;                 ///< mass per rest area [kg/m²]
+  MembraneModel membrane = MembraneModel::st_venant_kirchhoff;
+  double lame_mu = 10, lame_lambda = 10;  ///< plane-stress Lamé constants times thickness [N/m]
+  BendingModel bending = BendingModel::discrete_hinge;
+  double bending_stiffness = 5e-7;      ///< k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)² [J]
+  double membrane_damping = 0;          ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
+  double bending_damping = 0;           ///< the same for θ − θᵗ [s]
+  double contact_stiffness = 100;       ///< k_c [N/m]; two surfaces meet with the harmonic mean
+  double friction = 0.2;                ///< μ_c [1]; two surfaces meet with the arithmetic mean
+};
+
+/// A contiguous range of vertices and triangles with one material. A fixed body never moves and needs no energies.
+struct Body {
+  std::string name;
+  Index first_vertex = 0, vertex_count = 0;
+  Index first_triangle = 0, triangle_count = 0;
+  bool fixed = false;
+  Material material;
+};
+
+/// Rigid prescribed motion of a set of vertices: x(t) = R(ω (t − t₀)) (x(0) − c) + c + u (t − t₀), for t₀ = start ≤ t ≤ end, at rest before and
+/// after. R turns by the right-hand rule about `axis` through `centre`. Its vertices form one rigid group: pairs inside are no contacts.
+struct PrescribedMotion {
+  std::string name;
+  std::vector<Index> vertices;
+  Vec3 centre{}, axis{1, 0, 0};     ///< [m], unit vector
+  double angular_velocity = 0;      ///< ω [rad/s]
+  Vec3 velocity{};                  ///< u [m/s]
+  double start = 0, end = 1e30;     ///< [s]
+};
+
+struct Scene {
+  std::string name;
+  Mesh mesh;                          ///< start positions X⁰ [m] of all bodies
+  std::vector<Vec3> rest_positions;   ///< [m]; same length as mesh.positions
+  std::vector<Vec3> velocities;       ///< V⁰ [m/s]; same length
+  std::vector<Body> bodies;           ///< cover all vertices and triangles, in order
+  std::vector<PrescribedMotion> motions;
+  Vec3 gravity{0, -9.81, 0};          ///< [m/s²]
+  Settings settings;
+};
+
+/// Rounds every number that a stage sees (positions, rest data, velocities, materials, settings) to the nearest single-precision value, in place.
+void round_to_single(Scene& scene);
+
+/// Contact exclusion by group (method.md §2): a pair whose vertices all carry the same number ≥ 0 is left out of contact, d_min and audit.
+/// -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
+std::vector<Index> rigid_groups(const Scene& scene);
+
+/// Target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the order of motion.vertices.
+std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t);
+
+/// Positions as the stages see them.
+std::vector<Vec3f> to_single(const std::vector<Vec3>& positions);
+/// Widens without loss.
+std::vector<Vec3> to_double(const std::vector<Vec3f>& positions);
+
+}  // namespace ogc::compare

@@ -1,0 +1,44 @@
+// Every number a user can set, each with unit, range and default, in one table: `--set`, scene files, `--help` and run.json read it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace ogc::compare {
+
+struct Settings {
+  double time_step = 0.01;                    ///< h [s]
+  std::int64_t steps = 100;                   ///< steps of the run
+  std::int64_t iterations = 40;               ///< sweeps a step
+  double contact_radius = 0.005;              ///< r [m]
+  double query_radius_cap = 4;                ///< cap of r_q, in units of r (method.md §5)
+  double bound_relaxation = 0.45;             ///< γ_p, Eq. 21
+  double redetect_fraction = 0.01;            ///< γ_e, Alg. 3 line 29
+  std::int64_t redetect_every = 0;            ///< re-detect at the latest after so many iterations; 0: never by count
+  std::int64_t guess_rounds = 16;             ///< rounds of the guess loop (method.md §5); 1: as printed in Eq. 28
+  double friction_velocity = 0.01;            ///< ε_v [m/s]
+  std::int64_t frame_steps = 0;               ///< steps between stored frames; 0: max(1, round(1/(60 h)))
+  std::int64_t lanes = 0;                     ///< W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
+  std::int64_t seed = 0;                      ///< of whatever the scene draws at random
+};
+
+/// One row of the table of settings.
+struct SettingInfo {
+  std::string_view name, unit, meaning;
+  double minimum, maximum;  ///< inclusive
+  std::variant<double Settings::*, std::int64_t Settings::*> field;
+};
+
+/// All settings, in the order of the struct.
+std::span<const SettingInfo> setting_table();
+
+/// Sets `name` from text. Throws InputError that names the setting, its unit and its range (and the nearest known name for an unknown one).
+void set_setting(Settings& settings, std::string_view name, std::string_view value);
+
+/// Value of a setting as a double. Throws InputError for an unknown name.
+double get_setting(const Settings& settings, std::string_view name);
+
+}  // namespace ogc::compare

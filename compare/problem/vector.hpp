@@ -1,0 +1,38 @@
+// Plain coordinates. This room holds facts, never an algorithm, so the types carry no operators: each contestant brings its own
+// arithmetic, and none can borrow the other's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace ogc::compare {
+
+/// A point or vector of the problem, in double [unit given where it is used].
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+/// A point or vector as a stage sees it: single precision, so that both contestants answer the same question.
+struct Vec3f {
+  float x = 0, y = 0, z = 0;
+  friend bool operator==(const Vec3f&, const Vec3f&) = default;
+};
+
+using Index = std::int32_t;
+/// Vertex indices of an edge, smaller first.
+using Edge = std::array<Index, 2>;
+/// Vertex indices of a triangle, in the order of the mesh file.
+using Triangle = std::array<Index, 3>;
+
+/// A face of the complex (method.md §2): a vertex, the interior of an edge, or the interior of a triangle.
+enum class FaceKind : std::uint8_t { vertex = 0, edge = 1, triangle = 2 };
+
+/// Names one face: kind and number within its kind. Ordered by kind, then number.
+struct Face {
+  FaceKind kind = FaceKind::vertex;
+  Index index = -1;
+  friend auto operator<=>(const Face&, const Face&) = default;
+};
+
+}  // namespace ogc::compare

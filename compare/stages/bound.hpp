@@ -1,0 +1,30 @@
+// Stage bound: the conservative bound of each vertex from the smallest distances (Eq. 21, 23, 25).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+#include "compare/stages/numbers.hpp"
+
+namespace ogc::compare {
+
+struct BoundIn {
+  const Topology* topology = nullptr;
+  std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
+  float bound_relaxation = 0.45f;                                   ///< γ_p
+};
+
+struct BoundOut {
+  std::vector<float> bound;  ///< b_v [m], by vertex; never above γ_p · min(…)
+};
+
+/// Exact: the largest single-precision number that is not above the real product.
+struct BoundTruth {
+  BoundOut exact;
+};
+
+/// One-sided. Largest shortfall in units of u · b: one product, rounded down (2 u), in a kernel that may round to nearest and step down once more.
+inline constexpr double bound_below_tolerance = 4;
+
+}  // namespace ogc::compare

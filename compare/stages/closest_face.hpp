@@ -1,0 +1,47 @@
+// Stage closest_face: the face of a closed triangle whose interior holds the point closest to a given point (Alg. 1 lines 4 and 8; method.md §2).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+#include "compare/stages/numbers.hpp"
+
+namespace ogc::compare {
+
+/// Faces of a triangle (a, b, c): corners, then edges from corner k to corner k+1, then the interior.
+enum class TriangleFeature : std::uint8_t { corner_0, corner_1, corner_2, edge_01, edge_12, edge_20, interior };
+
+/// n independent cases; all arrays have length n. Coordinates [m]. A triangle of zero area is legal: its interior is never the closest face.
+struct ClosestFaceIn {
+  std::vector<Vec3f> point;
+  std::vector<std::array<Vec3f, 3>> triangle;
+};
+
+struct ClosestFaceOut {
+  std::vector<TriangleFeature> feature;          ///< on a plane that separates two features the lower-dimensional one wins
+  std::vector<std::array<float, 3>> weights;     ///< barycentric weights of the closest point, ≥ 0
+  std::vector<float> distance;                   ///< [m], nearest
+  std::vector<float> distance_below;             ///< [m], never above the exact distance
+};
+
+/// The exact answer. `accepted[i]` has bit k set where feature k is acceptable: the exact one and, in a grey case, those on the other side of a
+/// boundary. Distances: `distance_below` is the largest single-precision number that is not above the exact distance.
+struct ClosestFaceTruth {
+  ClosestFaceOut exact;
+  std::vector<std::uint8_t> accepted;
+  std::vector<double> distance;                        ///< [m], correctly rounded to double up to 1 ulp
+  std::vector<std::array<double, 3>> weights;
+  std::vector<double> weight_condition;  ///< ∂(weights)/∂(relative coordinates) summed with the coordinates' moduli; ≥ 1, infinite for zero area
+};
+
+/// Largest error accepted in `distance`, in units of u · distance. A kernel may form differences (exact to u each when the coordinates are of one
+/// size; the case's condition enters through them), a closest point, a difference again and a norm: 3 + 4 + 1 + 4 roundings, half of them systematic.
+/// Differences of the given coordinates are amplified by Σ|δ|/distance; the judge multiplies by max(1, Σ|δ|/distance).
+inline constexpr double closest_face_distance_tolerance = 12;
+/// Largest error accepted in a weight, in units of u · weight_condition: the same count.
+inline constexpr double closest_face_weight_tolerance = 12;
+/// Largest shortfall accepted in `distance_below`, in units of u · max(distance, Σ|δ|): below that the bound is valid but uselessly loose.
+inline constexpr double closest_face_below_tolerance = 24;
+
+}  // namespace ogc::compare

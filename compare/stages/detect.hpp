@@ -1,0 +1,31 @@
+// What the two detections share: their question, and how grey cases are listed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+#include "compare/stages/numbers.hpp"
+
+namespace ogc::compare {
+
+/// The question of detect_vertex_facet and detect_edge_edge. Views; the owner must outlive the call.
+struct DetectIn {
+  const Topology* topology = nullptr;
+  std::span<const Index> rigid_groups;  ///< length vertex_count; a pair whose vertices all carry one number ≥ 0 is left out (see rigid_groups(Scene))
+  std::span<const Vec3f> positions;     ///< [m], length vertex_count
+  float contact_radius = 0;             ///< r [m]
+  float query_radius = 0;               ///< r_q ≥ r [m]
+};
+
+/// A grey decision: any one of `contacts` may stand in the answer, and none at all only where `absence_accepted`.
+template <class Contact>
+struct GreyDecision {
+  std::vector<Contact> contacts;
+  bool absence_accepted = false;
+};
+
+/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as distance_below of the pair stages.
+inline constexpr double detect_below_tolerance = 32;
+
+}  // namespace ogc::compare

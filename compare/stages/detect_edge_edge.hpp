@@ -1,0 +1,31 @@
+// Stage detect_edge_edge: the set E_OGC of unordered pairs of faces of the edge-only manifold, and d_min,e (Alg. 2, Eq. 17, 24; method.md §1).
+#pragma once
+
+#include <vector>
+
+#include "compare/stages/detect.hpp"
+
+namespace ogc::compare {
+
+/// {p, q}, each a vertex or the interior of an edge, first < second as faces. `first_edge` ∋ first and `second_edge` ∋ second are the
+/// lowest-numbered edges that generate the pair: lexicographically smallest (min, max) of the two numbers.
+struct EdgeEdgeContact {
+  Face first, second;
+  Index first_edge = -1, second_edge = -1;
+  friend auto operator<=>(const EdgeEdgeContact&, const EdgeEdgeContact&) = default;
+};
+
+/// Canonical order: by (first, second).
+struct DetectEdgeEdgeOut {
+  std::vector<EdgeEdgeContact> contacts;
+  std::vector<float> d_min_edge;  ///< min over non-adjacent edges, at most r_q [m], never above the exact value
+};
+
+/// The exact answer and each grey decision.
+struct DetectEdgeEdgeTruth {
+  DetectEdgeEdgeOut exact;
+  std::vector<GreyDecision<EdgeEdgeContact>> grey;
+  std::size_t pairs = 0;
+};
+
+}  // namespace ogc::compare

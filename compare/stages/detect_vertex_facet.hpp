@@ -1,0 +1,32 @@
+// Stage detect_vertex_facet: F_OGC(v) for every vertex, and the smallest distances d_min,v and d_min,t (Alg. 1, Eq. 12, 22, 26).
+#pragma once
+
+#include <vector>
+
+#include "compare/stages/detect.hpp"
+
+namespace ogc::compare {
+
+/// v is in contact with the face: x_v ∈ U_a and d < r. `owner` is the lowest-numbered triangle that contains the face.
+struct VertexFacetContact {
+  Index vertex = -1;
+  Face face;
+  Index owner = -1;
+  friend auto operator<=>(const VertexFacetContact&, const VertexFacetContact&) = default;
+};
+
+/// Canonical order: by vertex, then face. V_OGC(t) is the same list by owner.
+struct DetectVertexFacetOut {
+  std::vector<VertexFacetContact> contacts;
+  std::vector<float> d_min_vertex;    ///< min over non-adjacent triangles, at most r_q [m], never above the exact value
+  std::vector<float> d_min_triangle;  ///< min over non-adjacent vertices, at most r_q [m], never above the exact value
+};
+
+/// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; each grey decision.
+struct DetectVertexFacetTruth {
+  DetectVertexFacetOut exact;
+  std::vector<GreyDecision<VertexFacetContact>> grey;
+  std::size_t pairs = 0;       ///< candidates within r_q, the denominator of the grey share
+};
+
+}  // namespace ogc::compare

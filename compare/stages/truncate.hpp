@@ -1,0 +1,32 @@
+// Stage truncate: a vertex's position kept within its conservative bound about X_prev (Eq. 27, Alg. 3 lines 24–27).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+#include "compare/stages/numbers.hpp"
+
+namespace ogc::compare {
+
+struct TruncateIn {
+  std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
+  std::vector<float> bound;               ///< b_v ≥ 0 [m]
+};
+
+/// The position that is *stored* obeys ‖x − x_prev‖ ≤ b_v exactly. Where nothing is exceeded the position comes back bit for bit.
+struct TruncateOut {
+  std::vector<Vec3f> position;
+  std::vector<std::uint8_t> exceeded;  ///< 1 where ‖x − x_prev‖ > b_v
+};
+
+struct TruncateTruth {
+  std::vector<std::uint8_t> exceeded, grey;  ///< grey: the exact margin lies in the grey zone, either flag is accepted
+  std::vector<Vec3> position;                ///< exact result, rounded to double
+};
+
+/// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b): storing three coordinates (√3 half ulps), a step
+/// towards x_prev where rounding went outwards (as much again), and the relative error of the scale (4 u b).
+inline constexpr double truncate_position_tolerance = 8;
+
+}  // namespace ogc::compare

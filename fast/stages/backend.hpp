@@ -1,0 +1,21 @@
+// What a stage may ask of a backend. A stage (fast/stages/*.hpp) is the order of work, a template on the backend; a kernel (fast/kernels/*.hpp) is
+// the mathematics, a functor over plain pointers. A backend brings memory, loops and a few collectives, and nothing else:
+//
+//   template <class T> using Buffer;     // T trivially copyable; resident array; movable
+//     Buffer(); T* data(); const T* data() const; std::size_t size() const;
+//     void resize(std::size_t n);        // host only, outside a step; keeps no content; never shrinks the allocation
+//     void upload(const T*, std::size_t n); void download(T*, std::size_t n) const; void fill_zero();   // host only, outside a step
+//
+//   for_each(int n, F f)                 // f(i) for 0 ≤ i < n, in any order; no result may depend on the order
+//   for_each_counted(const int* n, int capacity, F f)   // the same with a count that lives on the device, n ≤ capacity
+//   for_each_team<W>(int n, F f)         // f(i, team): team.sum<Accumulator>(count, item) adds item(k, acc) for 0 ≤ k < count: item k goes to lane
+//                                        // k mod W, the lanes are added by a fixed tree (lane l += lane l + s, s = W/2 … 1): only W can change a bit
+//   exclusive_scan(const int* in, int* out, int n)      // n + 1 outputs; out[n] is the total
+//   sort_pairs(std::uint64_t* keys, int* values, int n) // stable, ascending
+//   when(const int* flag, Body body)     // body() enqueues work that takes place only if *flag != 0 when its turn comes; not nested
+//   synchronize()                        // host only, once a frame
+//   static constexpr bool is_device
+//
+// Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies waits. Functors get raw pointers and
+// values, never a Buffer. Atomics: fast/kernels/atomic.hpp, integers and minima of non-negative floats only, whose result no order can change.
+#pragma once
