@@ -24,6 +24,7 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
   std::vector<Edge> loose_edges;
+  friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
 /// One bending stencil: an interior edge with exactly two triangles. `edge` is its number, `opposite[k]` the vertex of

@@ -25,6 +25,7 @@ struct Material {
   double bending_damping = 0;           ///< the same for θ − θᵗ [s]
   double contact_stiffness = 100;       ///< k_c [N/m]; two surfaces meet with the harmonic mean
   double friction = 0.2;                ///< μ_c [1]; two surfaces meet with the arithmetic mean
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// A contiguous range of vertices and triangles with one material. A fixed body never moves and needs no energies.
@@ -34,6 +35,7 @@ struct Body {
   Index first_triangle = 0, triangle_count = 0;
   bool fixed = false;
   Material material;
+  friend bool operator==(const Body&, const Body&) = default;
 };
 
 /// Rigid prescribed motion of a set of vertices: x(t) = R(ω (t − t₀)) (x(0) − c) + c + u (t − t₀), for t₀ = start ≤ t ≤ end, at rest before and
@@ -41,10 +43,11 @@ struct Body {
 struct PrescribedMotion {
   std::string name;
   std::vector<Index> vertices;
-  Vec3 centre{}, axis{1, 0, 0};     ///< [m], unit vector
+  Vec3 centre{}, axis{1, 0, 0};     ///< [m]; direction of the axis: not zero, its length does not matter
   double angular_velocity = 0;      ///< ω [rad/s]
   Vec3 velocity{};                  ///< u [m/s]
   double start = 0, end = 1e30;     ///< [s]
+  friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
 struct Scene {
@@ -56,9 +59,14 @@ struct Scene {
   std::vector<PrescribedMotion> motions;
   Vec3 gravity{0, -9.81, 0};          ///< [m/s²]
   Settings settings;
+  friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// Rounds every number that a stage sees (positions, rest data, velocities, materials, settings) to the nearest single-precision value, in place.
+/// Appends the mesh as a body at rest in its rest shape; `body` gives name, material and whether it is fixed, its ranges are set here. Returns its number.
+std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
+
+/// Rounds every number that a stage sees (positions, rest data, velocities, materials, gravity, settings) to the nearest single-precision value,
+/// in place. Motions stay in double: stages see their targets only.
 void round_to_single(Scene& scene);
 
 /// Contact exclusion by group (method.md §2): a pair whose vertices all carry the same number ≥ 0 is left out of contact, d_min and audit.
@@ -67,6 +75,15 @@ std::vector<Index> rigid_groups(const Scene& scene);
 
 /// Target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the order of motion.vertices.
 std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t);
+
+/// Number of the body of each vertex; -1 where no body covers it. Length: vertex count.
+std::vector<Index> body_of_vertex(const Scene& scene);
+
+/// Name of the body of each vertex, for messages of the oracle. Length: vertex count.
+std::vector<std::string> body_name_of_vertex(const Scene& scene);
+
+/// The topology of the scene's mesh.
+Topology build_topology(const Scene& scene);
 
 /// Positions as the stages see them.
 std::vector<Vec3f> to_single(const std::vector<Vec3>& positions);

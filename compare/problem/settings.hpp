@@ -23,6 +23,7 @@ struct Settings {
   std::int64_t frame_steps = 0;               ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   std::int64_t lanes = 0;                     ///< W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
   std::int64_t seed = 0;                      ///< of whatever the scene draws at random
+  friend bool operator==(const Settings&, const Settings&) = default;
 };
 
 /// One row of the table of settings.
@@ -37,6 +38,15 @@ std::span<const SettingInfo> setting_table();
 
 /// Sets `name` from text. Throws InputError that names the setting, its unit and its range (and the nearest known name for an unknown one).
 void set_setting(Settings& settings, std::string_view name, std::string_view value);
+
+/// "a number from 1 to 1024 r (cap of …)": what may stand in this row, for messages and help.
+std::string describe_range(const SettingInfo& info);
+
+/// Whether the value lies within the row's bounds (and, for `lanes`, is 0 or a power of two); not-a-number does not.
+bool in_range(const SettingInfo& info, double value);
+
+/// Value of the row's setting as a double.
+double get_setting(const Settings& settings, const SettingInfo& info);
 
 /// Value of a setting as a double. Throws InputError for an unknown name.
 double get_setting(const Settings& settings, std::string_view name);

@@ -1,0 +1,80 @@
+// Strict reading of JSON: whatever is not asked for is an error, and every error says where. Problems are collected, so that one run lists them all.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/problem/validate.hpp"
+
+namespace ogc::compare {
+
+using Json = nlohmann::ordered_json;
+
+/// Parses one JSON document. Throws InputError that names `file` and the line: bad syntax, a key twice in one object, a number beyond double.
+Json parse_json(std::string_view text, const std::string& file);
+
+/// A value, its path in the document ("/bodies/0/material"), and the list to which its problems go.
+class JsonNode {
+ public:
+  JsonNode(const Json& value, std::string file, std::string path, std::vector<Problem>& problems);
+
+  /// Adds a problem at this node.
+  void fail(const std::string& what, const std::string& remedy) const;
+  /// "FILE: PATH".
+  std::string where() const;
+  const std::string& path() const { return path_; }
+
+  /// Each reads the value into `target`; adds a problem and leaves it as it is where the type is wrong.
+  void read(bool& target) const;
+  void read(std::string& target) const;
+  void read(double& target) const;
+  void read(std::int64_t& target) const;
+  void read(Index& target) const;
+  void read(Vec3& target) const;
+
+  /// Whether the value is an object or an array; adds a problem if not.
+  bool expect_object() const;
+  bool expect_array() const;
+
+  std::size_t size() const { return value_->size(); }
+  JsonNode child(std::size_t i) const;
+  JsonNode child(const std::string& key) const;
+  const Json& value() const { return *value_; }
+
+ private:
+  void wrong_type(const std::string& wanted) const;
+  const Json* value_;
+  std::string file_, path_;
+  std::vector<Problem>* problems_;
+};
+
+/// Asks an object for its keys, one after the other; `finish` complains about keys that nobody asked for.
+class JsonObject {
+ public:
+  explicit JsonObject(const JsonNode& node);
+
+  /// Calls `use` with the key's value where it is there.
+  void optional(const std::string& key, const std::function<void(const JsonNode&)>& use);
+  /// The same; adds a problem where it is not.
+  void required(const std::string& key, const std::function<void(const JsonNode&)>& use);
+  template <class Target>
+  void optional_value(const std::string& key, Target& target) {
+    optional(key, [&](const JsonNode& node) { node.read(target); });
+  }
+  template <class Target>
+  void required_value(const std::string& key, Target& target) {
+    required(key, [&](const JsonNode& node) { node.read(target); });
+  }
+  bool has(const std::string& key) const;
+  void finish() const;
+
+ private:
+  JsonNode node_;
+  bool is_object_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace ogc::compare

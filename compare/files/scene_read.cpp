@@ -1,0 +1,243 @@
+// One pass over the document: bodies load their meshes as they are read, motions select from them, and every problem on the way is collected.
+#include <algorithm>
+#include <optional>
+
+#include "compare/files/bytes.hpp"
+#include "compare/files/json_reader.hpp"
+#include "compare/files/mesh_files.hpp"
+#include "compare/files/scene_files.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/text.hpp"
+
+namespace ogc::compare {
+namespace {
+
+void read_settings(const JsonNode& node, Settings& settings) {
+  JsonObject object(node);
+  for (const SettingInfo& info : setting_table()) {
+    object.optional(std::string(info.name), [&](const JsonNode& value) {
+      std::visit([&](auto field) { value.read(settings.*field); }, info.field);
+      const double number = get_setting(settings, info);
+      if (!in_range(info, number)) value.fail("is " + shortest(number), "give " + describe_range(info));
+    });
+  }
+  object.finish();
+}
+
+template <class Model>
+void read_model(const JsonNode& node, std::span<const std::string_view> names, Model& model) {
+  std::string name(name_of(model));
+  node.read(name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return node.fail(unknown_name("model", name, names), "");
+  model = static_cast<Model>(found - names.begin());
+}
+
+void read_material(const JsonNode& node, Material& material) {
+  JsonObject object(node);
+  for (const MaterialInfo& info : material_table()) {
+    object.optional(std::string(info.name), [&](const JsonNode& value) {
+      double& number = material.*info.field;
+      value.read(number);
+      if (number >= info.minimum && number <= info.maximum) return;
+      value.fail("is " + shortest(number), "give a number from " + shortest(info.minimum) + " to " + shortest(info.maximum) + " " + std::string(info.unit));
+    });
+  }
+  object.optional("membrane", [&](const JsonNode& value) { read_model(value, membrane_model_names(), material.membrane); });
+  object.optional("bending", [&](const JsonNode& value) { read_model(value, bending_model_names(), material.bending); });
+  object.finish();
+}
+
+class SceneReader {
+ public:
+  explicit SceneReader(const std::filesystem::path& file)
+      : folder_(file.parent_path()), name_(file.string()), json_(parse_json(read_bytes(file), name_)), root_(json_, name_, "", problems_) {}
+
+  Scene read() {
+    check_version();
+    JsonObject object(root_);
+    object.required("format_version", [](const JsonNode&) {});
+    object.required_value("name", scene_.name);
+    object.optional_value("gravity", scene_.gravity);
+    object.optional("settings", [&](const JsonNode& node) { read_settings(node, scene_.settings); });
+    object.required("bodies", [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
+    object.optional("motions", [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
+    object.finish();
+    stop_at_problems();
+    round_to_single(scene_);
+    problems_ = validate(scene_);
+    for (Problem& problem : problems_) problem.where = name_ + ": " + problem.where;
+    stop_at_problems();
+    return std::move(scene_);
+  }
+
+ private:
+  // First of all: what else is wrong with a file of another format means nothing.
+  void check_version() const {
+    if (!json_.is_object() || !json_.contains("format_version")) return;
+    const JsonNode node = root_.child("format_version");
+    std::int64_t version = 0;
+    node.read(version);
+    if (version > scene_format_version) {
+      node.fail("scene format " + std::to_string(version) + " is newer than " + std::to_string(scene_format_version) + ", the newest that this ogc reads",
+                "use a newer ogc");
+    } else if (version < 1 && node.value().is_number_integer()) {
+      node.fail("there is no scene format " + std::to_string(version), "give " + std::to_string(scene_format_version));
+    }
+    stop_at_problems();
+  }
+
+  void stop_at_problems() const {
+    if (!problems_.empty()) throw InputError(describe(problems_));
+  }
+
+  template <class Use>
+  void each(const JsonNode& array, const Use& use) {
+    if (!array.expect_array()) return;
+    for (std::size_t i = 0; i < array.size(); ++i) use(array.child(i));
+  }
+
+  // A mesh that stands by itself: read and validated; empty with problems noted where it can't be used.
+  std::optional<Mesh> read_mesh_file(const JsonNode& node) {
+    std::string text;
+    node.read(text);
+    if (!node.value().is_string()) return std::nullopt;
+    const std::filesystem::path path = folder_ / text;
+    try {
+      return read_mesh(path);
+    } catch (const InputError& error) {
+      node.fail(error.what(), "");
+      return std::nullopt;
+    }
+  }
+
+  bool is_valid(const JsonNode& node, const Mesh& mesh) {
+    const std::vector<Problem> found = validate(mesh);
+    for (const Problem& problem : found) {
+      problems_.push_back({node.where() + " (" + node.value().get<std::string>() + "): " + problem.where, problem.what, problem.remedy});
+    }
+    return found.empty();
+  }
+
+  // Vertex data in the shape of a second mesh: rest positions or velocities.
+  std::vector<Vec3> read_like(const JsonNode& node, const Mesh& mesh) {
+    std::optional<Mesh> other = read_mesh_file(node);
+    if (!other) return {};
+    if (other->positions.size() != mesh.positions.size() || other->triangles != mesh.triangles || other->loose_edges != mesh.loose_edges) {
+      node.fail("has other vertices, triangles or edges than the body's mesh", "write both from one mesh");
+      return {};
+    }
+    return std::move(other->positions);
+  }
+
+  void read_body(const JsonNode& node) {
+    JsonObject object(node);
+    Body body;
+    Mesh mesh;
+    std::vector<Vec3> rest, velocities;
+    object.required_value("name", body.name);
+    object.optional_value("fixed", body.fixed);
+    object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
+    object.required("mesh", [&](const JsonNode& value) {
+      std::optional<Mesh> read = read_mesh_file(value);
+      if (read && is_valid(value, *read)) mesh = std::move(*read);
+    });
+    const bool usable = !mesh.positions.empty();
+    object.optional("rest_mesh", [&](const JsonNode& value) {
+      if (usable) rest = read_like(value, mesh);
+    });
+    object.optional("velocity", [&](const JsonNode& value) {
+      Vec3 velocity;
+      value.read(velocity);
+      velocities.assign(mesh.positions.size(), velocity);
+    });
+    object.optional("velocities", [&](const JsonNode& value) {
+      if (object.has("velocity")) value.fail("stands beside 'velocity'", "keep one of them");
+      if (usable) velocities = read_like(value, mesh);
+    });
+    object.finish();
+    const auto first = static_cast<std::ptrdiff_t>(scene_.mesh.positions.size());
+    append_body(scene_, std::move(body), mesh);
+    std::copy(rest.begin(), rest.end(), scene_.rest_positions.begin() + first);
+    std::copy(velocities.begin(), velocities.end(), scene_.velocities.begin() + first);
+  }
+
+  void read_motion(const JsonNode& node) {
+    JsonObject object(node);
+    PrescribedMotion motion;
+    object.required_value("name", motion.name);
+    object.required("vertices", [&](const JsonNode& value) {
+      each(value, [&](const JsonNode& selection) { read_selection(selection, motion.vertices); });
+    });
+    object.optional_value("centre", motion.centre);
+    object.optional_value("axis", motion.axis);
+    object.optional_value("angular_velocity", motion.angular_velocity);
+    object.optional_value("velocity", motion.velocity);
+    object.optional_value("start", motion.start);
+    object.optional_value("end", motion.end);
+    object.finish();
+    scene_.motions.push_back(std::move(motion));
+  }
+
+  const Body* find_body(const JsonNode& node) {
+    std::string name;
+    node.read(name);
+    std::vector<std::string_view> names;
+    for (const Body& body : scene_.bodies) {
+      if (body.name == name) return &body;
+      names.push_back(body.name);
+    }
+    if (node.value().is_string()) node.fail(unknown_name("body", name, names), "");
+    return nullptr;
+  }
+
+  // All vertices of a body, those in a box, or those listed; numbered within the body. Boxes see the positions as the mesh file gives them.
+  void read_selection(const JsonNode& node, std::vector<Index>& vertices) {
+    JsonObject object(node);
+    const Body* body = nullptr;
+    object.required("body", [&](const JsonNode& value) { body = find_body(value); });
+    if (object.has("box") && object.has("indices")) node.fail("has both 'box' and 'indices'", "keep one of them");
+    object.optional("box", [&](const JsonNode& value) { select_box(value, body, vertices); });
+    object.optional("indices", [&](const JsonNode& value) { each(value, [&](const JsonNode& index) { select_index(index, body, vertices); }); });
+    object.finish();
+    if (body == nullptr || object.has("box") || object.has("indices")) return;
+    for (Index i = 0; i < body->vertex_count; ++i) vertices.push_back(body->first_vertex + i);
+  }
+
+  void select_box(const JsonNode& node, const Body* body, std::vector<Index>& vertices) {
+    JsonObject object(node);
+    Vec3 low, high;
+    object.required_value("minimum", low);
+    object.required_value("maximum", high);
+    object.finish();
+    if (body == nullptr || body->vertex_count == 0) return;
+    const std::size_t before = vertices.size();
+    for (Index v = body->first_vertex; v < body->first_vertex + body->vertex_count; ++v) {
+      const Vec3& x = scene_.mesh.positions[static_cast<std::size_t>(v)];
+      if (x.x >= low.x && x.x <= high.x && x.y >= low.y && x.y <= high.y && x.z >= low.z && x.z <= high.z) vertices.push_back(v);
+    }
+    if (vertices.size() == before) node.fail("holds no vertex of body '" + body->name + "'", "widen the box [m]");
+  }
+
+  void select_index(const JsonNode& node, const Body* body, std::vector<Index>& vertices) {
+    Index i = -1;
+    node.read(i);
+    if (i < 0 || body == nullptr || body->vertex_count == 0) return;
+    if (i < body->vertex_count) return vertices.push_back(body->first_vertex + i);
+    node.fail("is " + std::to_string(i), "body '" + body->name + "' has vertices 0 to " + std::to_string(body->vertex_count - 1));
+  }
+
+  std::filesystem::path folder_;
+  std::string name_;
+  Json json_;
+  std::vector<Problem> problems_;
+  JsonNode root_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) { return SceneReader(file).read(); }
+
+}  // namespace ogc::compare

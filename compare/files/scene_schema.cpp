@@ -1,0 +1,108 @@
+// Settings and materials come from their tables; the rest is written out. A test asks the reader for every key that stands here.
+#include "compare/files/json_reader.hpp"
+#include "compare/files/scene_files.hpp"
+#include "compare/problem/material_table.hpp"
+
+namespace ogc::compare {
+namespace {
+
+Json value(const char* type, const std::string& description) { return {{"type", type}, {"description", description}}; }
+
+Json vector(const std::string& description) {
+  return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}, {"description", description}};
+}
+
+Json array(const Json& items, const std::string& description) { return {{"type", "array"}, {"items", items}, {"description", description}}; }
+
+// Strict: no other keys.
+Json object(const Json& properties, const std::vector<std::string>& required) {
+  Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!required.empty()) json["required"] = required;
+  return json;
+}
+
+std::string with_unit(std::string_view meaning, std::string_view unit) { return std::string(meaning) + " [" + std::string(unit) + "]"; }
+
+Json settings_schema() {
+  const Settings defaults;
+  Json properties = Json::object();
+  for (const SettingInfo& info : setting_table()) {
+    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+    Json& row = properties[std::string(info.name)] = value(whole ? "integer" : "number", with_unit(info.meaning, info.unit));
+    row["minimum"] = info.minimum;
+    row["maximum"] = info.maximum;
+    std::visit([&](auto field) { row["default"] = defaults.*field; }, info.field);
+  }
+  properties["lanes"]["enum"] = {0, 1, 2, 4, 8, 16, 32};
+  return object(properties, {});
+}
+
+Json model_schema(std::span<const std::string_view> names, std::string_view standard) {
+  Json json = {{"enum", Json::array()}, {"default", standard}};
+  for (const std::string_view name : names) json["enum"].push_back(name);
+  return json;
+}
+
+Json material_schema() {
+  const Material defaults;
+  Json properties = Json::object();
+  for (const MaterialInfo& info : material_table()) {
+    Json& row = properties[std::string(info.name)] = value("number", with_unit(info.meaning, info.unit));
+    row["minimum"] = info.minimum;
+    row["maximum"] = info.maximum;
+    row["default"] = defaults.*info.field;
+  }
+  properties["membrane"] = model_schema(membrane_model_names(), name_of(defaults.membrane));
+  properties["bending"] = model_schema(bending_model_names(), name_of(defaults.bending));
+  return object(properties, {});
+}
+
+Json body_schema() {
+  const Json properties = {
+      {"name", value("string", "letters, digits, _ and -")},
+      {"fixed", value("boolean", "never moves; default false")},
+      {"mesh", value("string", ".ply or .obj file, relative to this file; start positions [m]")},
+      {"rest_mesh", value("string", "the same faces at their rest positions [m]; default: the mesh")},
+      {"velocity", vector("of all vertices at the start [m/s]; default 0")},
+      {"velocities", value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
+      {"material", material_schema()},
+  };
+  return object(properties, {"name", "mesh"});
+}
+
+Json motion_schema() {
+  const Json box = object({{"minimum", vector("[m]")}, {"maximum", vector("[m]")}}, {"minimum", "maximum"});
+  const Json selection = object({{"body", value("string", "name of a body; all of its vertices unless 'box' or 'indices' says which")},
+                                 {"box", box},
+                                 {"indices", array(value("integer", "number within the body, from 0"), "vertices")}},
+                                {"body"});
+  const Json properties = {
+      {"name", value("string", "letters, digits, _ and -")},
+      {"vertices", array(selection, "what moves, as one rigid group")},
+      {"centre", vector("a point of the axis [m]; default 0")},
+      {"axis", vector("direction, right-hand rule; default [1, 0, 0]")},
+      {"angular_velocity", value("number", "[rad/s]; default 0")},
+      {"velocity", vector("[m/s]; default 0")},
+      {"start", value("number", "at rest before [s]; default 0")},
+      {"end", value("number", "at rest after [s]; default 1e30")},
+  };
+  return object(properties, {"name", "vertices"});
+}
+
+}  // namespace
+
+std::string scene_schema() {
+  const Json properties = {
+      {"format_version", {{"const", scene_format_version}}},
+      {"name", value("string", "letters, digits, _ and -")},
+      {"gravity", vector("[m/s²]; default [0, -9.81, 0]")},
+      {"settings", settings_schema()},
+      {"bodies", array(body_schema(), "in the order of their vertices")},
+      {"motions", array(motion_schema(), "prescribed motions")},
+  };
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
+  schema.update(object(properties, {"format_version", "name", "bodies"}));
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,37 @@
+// Bounds are powers of two, so that rounding a value to single precision can't take it out of its range.
+#include "compare/problem/material_table.hpp"
+
+#include <array>
+
+namespace ogc::compare {
+namespace {
+
+constexpr double least = 0x1p-30, most = 0x1p40;
+
+constexpr std::array<MaterialInfo, 8> table{{
+    {"density", "kg/m²", "mass per rest area", least, most, &Material::density},
+    {"lame_mu", "N/m", "membrane: second Lamé constant times thickness", 0, most, &Material::lame_mu},
+    {"lame_lambda", "N/m", "membrane: first Lamé constant (plane stress) times thickness", 0, most, &Material::lame_lambda},
+    {"bending_stiffness", "J", "bending: k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)²", 0, most, &Material::bending_stiffness},
+    {"membrane_damping", "s", "stiffness-proportional damping k_d of the membrane", 0, most, &Material::membrane_damping},
+    {"bending_damping", "s", "stiffness-proportional damping k_d of bending", 0, most, &Material::bending_damping},
+    {"contact_stiffness", "N/m", "k_c; two surfaces meet with the harmonic mean", least, most, &Material::contact_stiffness},
+    {"friction", "1", "μ_c; two surfaces meet with the arithmetic mean", 0, 0x1p10, &Material::friction},
+}};
+
+constexpr std::array<std::string_view, 2> membrane_names{"none", "st_venant_kirchhoff"};
+constexpr std::array<std::string_view, 2> bending_names{"none", "discrete_hinge"};
+
+}  // namespace
+
+std::span<const MaterialInfo> material_table() { return table; }
+
+std::span<const std::string_view> membrane_model_names() { return membrane_names; }
+
+std::span<const std::string_view> bending_model_names() { return bending_names; }
+
+std::string_view name_of(MembraneModel model) { return membrane_names[static_cast<std::size_t>(model)]; }
+
+std::string_view name_of(BendingModel model) { return bending_names[static_cast<std::size_t>(model)]; }
+
+}  // namespace ogc::compare

@@ -1,0 +1,30 @@
+// Every constant of a material with unit and range in one table: validation, rounding, scene files and their schema read it.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "compare/problem/scene.hpp"
+
+namespace ogc::compare {
+
+/// One row of the table of material constants.
+struct MaterialInfo {
+  std::string_view name, unit, meaning;
+  double minimum, maximum;  ///< inclusive; single precision holds both exactly
+  double Material::*field;
+};
+
+/// All constants, in the order of the struct. Ranges keep squares and products of two of them finite and normal in single precision.
+std::span<const MaterialInfo> material_table();
+
+/// Name of a model in scene files: "none", "st_venant_kirchhoff".
+std::string_view name_of(MembraneModel model);
+/// Name of a model in scene files: "none", "discrete_hinge".
+std::string_view name_of(BendingModel model);
+/// All names, in the order of the enumeration.
+std::span<const std::string_view> membrane_model_names();
+/// All names, in the order of the enumeration.
+std::span<const std::string_view> bending_model_names();
+
+}  // namespace ogc::compare

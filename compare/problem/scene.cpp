@@ -1,0 +1,126 @@
+// Bookkeeping of scenes, and the one motion that everything prescribed follows. Targets are computed here, once, for all contestants.
+#include "compare/problem/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/problem/material_table.hpp"
+
+namespace ogc::compare {
+namespace {
+
+// Through memory: g++ 12.2 vectorises a pair of conversions double → float → double to nothing at -O2 (basic-block vectorisation).
+double rounded(double value) {
+  const volatile float single = static_cast<float>(value);
+  return single;
+}
+
+Vec3 rounded(const Vec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+
+Vec3f narrowed(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+// x(t) as x + (R − I)(x − c) + u τ with R − I = sin θ K + 2 sin²(θ/2) K²: before the motion starts the start position comes back exactly.
+struct RigidMotion {
+  Vec3 centre, axis, shift;
+  double sine, versine;
+
+  RigidMotion(const PrescribedMotion& motion, double t) : centre(motion.centre) {
+    const double elapsed = std::clamp(t, motion.start, motion.end) - motion.start;
+    const double length = std::hypot(motion.axis.x, motion.axis.y, motion.axis.z);
+    axis = {motion.axis.x / length, motion.axis.y / length, motion.axis.z / length};
+    shift = {motion.velocity.x * elapsed, motion.velocity.y * elapsed, motion.velocity.z * elapsed};
+    const double angle = motion.angular_velocity * elapsed, half = std::sin(angle / 2);
+    sine = std::sin(angle);
+    versine = 2 * half * half;
+  }
+
+  Vec3 operator()(const Vec3& x) const {
+    const Vec3 once = cross(axis, {x.x - centre.x, x.y - centre.y, x.z - centre.z}), twice = cross(axis, once);
+    return {x.x + sine * once.x + versine * twice.x + shift.x, x.y + sine * once.y + versine * twice.y + shift.y,
+            x.z + sine * once.z + versine * twice.z + shift.z};
+  }
+};
+
+}  // namespace
+
+std::size_t append_body(Scene& scene, Body body, const Mesh& mesh) {
+  const auto first = static_cast<Index>(scene.mesh.positions.size());
+  body.first_vertex = first;
+  body.vertex_count = static_cast<Index>(mesh.positions.size());
+  body.first_triangle = static_cast<Index>(scene.mesh.triangles.size());
+  body.triangle_count = static_cast<Index>(mesh.triangles.size());
+  scene.mesh.positions.insert(scene.mesh.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  scene.rest_positions.insert(scene.rest_positions.end(), mesh.positions.begin(), mesh.positions.end());
+  scene.velocities.resize(scene.mesh.positions.size());
+  for (const auto& [a, b, c] : mesh.triangles) scene.mesh.triangles.push_back({first + a, first + b, first + c});
+  for (const auto& [a, b] : mesh.loose_edges) scene.mesh.loose_edges.push_back({first + a, first + b});
+  scene.bodies.push_back(std::move(body));
+  return scene.bodies.size() - 1;
+}
+
+void round_to_single(Scene& scene) {
+  for (auto* vectors : {&scene.mesh.positions, &scene.rest_positions, &scene.velocities}) {
+    for (Vec3& v : *vectors) v = rounded(v);
+  }
+  for (Body& body : scene.bodies) {
+    for (const MaterialInfo& info : material_table()) body.material.*info.field = rounded(body.material.*info.field);
+  }
+  scene.gravity = rounded(scene.gravity);
+  for (const SettingInfo& info : setting_table()) {
+    if (const auto* field = std::get_if<double Settings::*>(&info.field)) scene.settings.**field = rounded(scene.settings.**field);
+  }
+}
+
+std::vector<Index> rigid_groups(const Scene& scene) {
+  std::vector<Index> groups(scene.mesh.positions.size(), -1);
+  for (const Body& body : scene.bodies) {
+    if (body.fixed) std::fill_n(groups.begin() + body.first_vertex, body.vertex_count, 0);
+  }
+  for (std::size_t k = 0; k < scene.motions.size(); ++k) {
+    for (const Index v : scene.motions[k].vertices) groups[static_cast<std::size_t>(v)] = static_cast<Index>(k + 1);
+  }
+  return groups;
+}
+
+std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t) {
+  const RigidMotion moved(motion, t);
+  std::vector<Vec3f> targets;
+  targets.reserve(motion.vertices.size());
+  for (const Index v : motion.vertices) targets.push_back(narrowed(moved(scene.mesh.positions[static_cast<std::size_t>(v)])));
+  return targets;
+}
+
+std::vector<Index> body_of_vertex(const Scene& scene) {
+  std::vector<Index> result(scene.mesh.positions.size(), -1);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    std::fill_n(result.begin() + body.first_vertex, body.vertex_count, static_cast<Index>(b));
+  }
+  return result;
+}
+
+std::vector<std::string> body_name_of_vertex(const Scene& scene) {
+  std::vector<std::string> names(scene.mesh.positions.size());
+  for (const Body& body : scene.bodies) std::fill_n(names.begin() + body.first_vertex, body.vertex_count, body.name);
+  return names;
+}
+
+Topology build_topology(const Scene& scene) {
+  return build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges);
+}
+
+std::vector<Vec3f> to_single(const std::vector<Vec3>& positions) {
+  std::vector<Vec3f> result(positions.size());
+  std::transform(positions.begin(), positions.end(), result.begin(), [](const Vec3& v) { return narrowed(v); });
+  return result;
+}
+
+std::vector<Vec3> to_double(const std::vector<Vec3f>& positions) {
+  std::vector<Vec3> result(positions.size());
+  std::transform(positions.begin(), positions.end(), result.begin(), [](const Vec3f& v) { return Vec3{v.x, v.y, v.z}; });
+  return result;
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,176 @@
+// The list of everything wrong with a scene: its mesh (validate_mesh.cpp), then what stands around it.
+#include "compare/problem/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/problem_sort.hpp"
+#include "compare/problem/text.hpp"
+#include "compare/problem/validate_mesh.hpp"
+
+namespace ogc::compare {
+namespace {
+
+std::string quoted(const char* kind, const std::string& name) { return std::string(kind) + " '" + name + "'"; }
+
+bool usable_name(const std::string& name) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return !name.empty() && name.find_first_not_of(letters) == std::string::npos;
+}
+
+void check_settings(std::vector<Problem>& problems, const Settings& settings) {
+  for (const SettingInfo& info : setting_table()) {
+    const double value = get_setting(settings, info);
+    if (!in_range(info, value)) {
+      problems.push_back({quoted("setting", std::string(info.name)), "is " + shortest(value), "give " + describe_range(info)});
+    }
+  }
+}
+
+void check_names(std::vector<Problem>& problems, const Scene& scene) {
+  const std::string remedy = "use letters, digits, '_' and '-' (names become file names), each name once";
+  if (!usable_name(scene.name)) problems.push_back({"scene", "name '" + scene.name + "' can't be used", remedy});
+  std::set<std::string> bodies, motions;
+  for (const Body& body : scene.bodies) {
+    if (!usable_name(body.name) || !bodies.insert(body.name).second) problems.push_back({quoted("body", body.name), "name can't be used", remedy});
+  }
+  for (const PrescribedMotion& motion : scene.motions) {
+    if (!usable_name(motion.name) || !motions.insert(motion.name).second) {
+      problems.push_back({quoted("motion", motion.name), "name can't be used", remedy});
+    }
+  }
+}
+
+void check_materials(std::vector<Problem>& problems, const Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    for (const MaterialInfo& info : material_table()) {
+      const double value = body.material.*info.field;
+      if (value >= info.minimum && value <= info.maximum) continue;
+      problems.push_back({quoted("body", body.name), std::string(info.name) + " is " + shortest(value),
+                          "give a number from " + shortest(info.minimum) + " to " + shortest(info.maximum) + " " + std::string(info.unit)});
+    }
+  }
+}
+
+// Whether the bodies are consecutive ranges that end at the last vertex and triangle; lists the first gap.
+bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
+  const std::string remedy = "bodies are consecutive ranges that cover all vertices and triangles";
+  std::int64_t vertex = 0, triangle = 0;
+  for (const Body& body : scene.bodies) {
+    if (body.first_vertex != vertex || body.first_triangle != triangle || body.vertex_count <= 0 || body.triangle_count < 0) {
+      problems.push_back({quoted("body", body.name), "does not begin where the one before it ends, or is empty", remedy});
+      return false;
+    }
+    vertex += body.vertex_count;
+    triangle += body.triangle_count;
+  }
+  if (vertex == static_cast<std::int64_t>(scene.mesh.positions.size()) && triangle == static_cast<std::int64_t>(scene.mesh.triangles.size())) return true;
+  problems.push_back({"scene", "bodies cover " + std::to_string(vertex) + " of " + std::to_string(scene.mesh.positions.size()) + " vertices and " +
+                                   std::to_string(triangle) + " of " + std::to_string(scene.mesh.triangles.size()) + " triangles",
+                      remedy});
+  return false;
+}
+
+void check_ownership(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+  ProblemSort foreign(problems, limit, "has vertices of another body", "give each body faces on its own vertices");
+  const std::vector<Index> owner = body_of_vertex(scene);
+  const auto owner_of = [&](Index v) { return owner[static_cast<std::size_t>(v)]; };
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+      const Triangle& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
+      const bool own = std::all_of(corners.begin(), corners.end(), [&](Index v) { return owner_of(v) == static_cast<Index>(b); });
+      if (!own) foreign.add(numbered("triangle", static_cast<std::size_t>(t)), quoted("of body", body.name));
+    }
+  }
+  for (std::size_t e = 0; e < scene.mesh.loose_edges.size(); ++e) {
+    const auto& [a, b] = scene.mesh.loose_edges[e];
+    if (owner_of(a) != owner_of(b)) foreign.add(numbered("loose edge", e));
+  }
+}
+
+void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion& motion) {
+  const std::string where = quoted("motion", motion.name);
+  const auto numbers = {motion.angular_velocity, motion.start, motion.end};
+  const bool finite = is_finite(motion.centre) && is_finite(motion.axis) && is_finite(motion.velocity) &&
+                      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+  if (!finite) problems.push_back({where, "has a number that is not finite", "give finite centre, axis, velocities and times"});
+  if (motion.axis == Vec3{}) problems.push_back({where, "has a zero axis", "give a direction, e.g. [1, 0, 0]"});
+  if (!(motion.start <= motion.end)) problems.push_back({where, "ends before it starts", "give start ≤ end [s]"});
+  if (motion.vertices.empty()) problems.push_back({where, "moves no vertex", "list vertices or remove the motion"});
+}
+
+void check_motions(std::vector<Problem>& problems, const Scene& scene, bool covered, std::size_t limit) {
+  ProblemSort unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + std::to_string(scene.mesh.positions.size() - 1));
+  ProblemSort fixed(problems, limit, "moves a vertex of a fixed body", "leave the vertex out or make the body free");
+  ProblemSort twice(problems, limit, "moves a vertex that is prescribed already", "list each vertex once, in one motion");
+  const std::vector<Index> body = covered ? body_of_vertex(scene) : std::vector<Index>{};
+  std::vector<bool> prescribed(scene.mesh.positions.size());
+  for (const PrescribedMotion& motion : scene.motions) {
+    check_motion_numbers(problems, motion);
+    for (const Index v : motion.vertices) {
+      const auto i = static_cast<std::size_t>(v);
+      const std::string where = quoted("motion", motion.name) + ", vertex " + std::to_string(v);
+      if (v < 0 || i >= prescribed.size()) {
+        unknown.add(where);
+        continue;
+      }
+      if (covered && scene.bodies[static_cast<std::size_t>(body[i])].fixed) fixed.add(where);
+      if (prescribed[i]) twice.add(where);
+      prescribed[i] = true;
+    }
+  }
+}
+
+bool check_lengths(std::vector<Problem>& problems, const Scene& scene) {
+  const std::size_t expected = scene.mesh.positions.size();
+  const auto check = [&](const char* name, std::size_t count) {
+    if (count == expected) return true;
+    problems.push_back({name, std::to_string(count) + " entries for " + std::to_string(expected) + " vertices", "give one for each vertex"});
+    return false;
+  };
+  const bool rest = check("rest positions", scene.rest_positions.size());
+  return check("velocities", scene.velocities.size()) && rest;
+}
+
+void check_velocities(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+  ProblemSort bad(problems, limit, "velocity is not finite or above 2²⁰ m/s", "give three finite numbers [m/s]");
+  const auto usable = [](const Vec3& v) { return is_finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most_length; };
+  for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
+    if (!usable(scene.velocities[v])) bad.add(numbered("vertex", v), printed(scene.velocities[v]));
+  }
+  if (!usable(scene.gravity)) bad.add("gravity", printed(scene.gravity));
+}
+
+}  // namespace
+
+std::vector<Problem> validate(const Scene& scene, std::size_t limit) {
+  std::vector<Problem> problems = validate(scene.mesh, limit);
+  check_names(problems, scene);
+  check_settings(problems, scene.settings);
+  check_materials(problems, scene);
+  if (scene.mesh.positions.empty()) return problems;
+  std::vector<Problem> known;
+  const bool indices_are_valid = check_indices(scene.mesh, 0, known);
+  const bool has_rest = check_lengths(problems, scene) && scene.rest_positions != scene.mesh.positions;
+  if (indices_are_valid && has_rest) check_positions(scene.mesh, scene.rest_positions, "rest ", limit, problems);
+  check_velocities(problems, scene, limit);
+  const bool covered = check_cover(problems, scene);
+  if (covered && indices_are_valid) check_ownership(problems, scene, limit);
+  check_motions(problems, scene, covered, limit);
+  return problems;
+}
+
+std::string describe(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += problem.where + ": " + problem.what;
+    if (!problem.remedy.empty()) text += "; " + problem.remedy;
+  }
+  return text;
+}
+
+}  // namespace ogc::compare

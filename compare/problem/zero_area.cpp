@@ -1,0 +1,60 @@
+// Three 2×2 determinants as exact sums of six products each; a rounded evaluation settles nearly all triangles before that.
+#include "compare/problem/zero_area.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ogc::compare {
+namespace {
+
+std::array<double, 3> coordinates(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+// Sum of products without rounding, as a non-overlapping expansion (Shewchuk 1997, Grow-Expansion): it is zero exactly where all components are.
+class ExactSum {
+ public:
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(std::fma(a, b, -product));
+    add(product);
+  }
+  bool is_zero() const {
+    return std::all_of(parts_.begin(), parts_.begin() + count_, [](double part) { return part == 0; });
+  }
+
+ private:
+  void add(double value) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double sum = value + parts_[i], part = sum - value;
+      parts_[i] = (value - (sum - part)) + (parts_[i] - part);
+      value = sum;
+    }
+    parts_[count_++] = value;
+  }
+  std::array<double, 12> parts_{};  // six products of two parts each
+  std::size_t count_ = 0;
+};
+
+// Whether the projections of a, b and c on the plane of coordinates i and j lie on a line; exact. The filter: each factor is rounded once and each
+// product once, so the difference is known to 3ε(|p| + |q|) + O(ε²), ε = 2⁻⁵³; 4ε covers the second order.
+bool on_a_line(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c, std::size_t i, std::size_t j) {
+  const double p = (b[i] - a[i]) * (c[j] - a[j]), q = (b[j] - a[j]) * (c[i] - a[i]);
+  if (std::abs(p - q) > 0x4p-53 * (std::abs(p) + std::abs(q))) return false;
+  ExactSum sum;
+  sum.add_product(a[i], b[j]);
+  sum.add_product(-a[j], b[i]);
+  sum.add_product(b[i], c[j]);
+  sum.add_product(-b[j], c[i]);
+  sum.add_product(c[i], a[j]);
+  sum.add_product(-c[j], a[i]);
+  return sum.is_zero();
+}
+
+}  // namespace
+
+bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto p = coordinates(a), q = coordinates(b), s = coordinates(c);
+  return on_a_line(p, q, s, 0, 1) && on_a_line(p, q, s, 1, 2) && on_a_line(p, q, s, 2, 0);
+}
+
+}  // namespace ogc::compare

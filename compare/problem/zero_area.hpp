@@ -1,0 +1,11 @@
+// The one geometric question that validation asks: do three points lie on a line? Decided without rounding.
+#pragma once
+
+#include "compare/problem/vector.hpp"
+
+namespace ogc::compare {
+
+/// Whether the triangle has exactly zero area. Coordinates are zero or within 2⁻²⁰ … 2²⁰ m, so that no product overflows or loses bits to underflow.
+bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace ogc::compare

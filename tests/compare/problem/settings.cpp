@@ -1,0 +1,97 @@
+// The table is the only place that knows ranges; whatever reads it inherits these checks.
+#include "compare/problem/settings.hpp"
+
+#include <set>
+
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+using Catch::Matchers::Contains;
+
+TEST_CASE("every setting has a name of its own and a default within its range", "[unit]") {
+  const Settings defaults;
+  std::set<std::string_view> names;
+  for (const SettingInfo& info : setting_table()) {
+    INFO(info.name);
+    CHECK(names.insert(info.name).second);
+    CHECK(in_range(info, get_setting(defaults, info)));
+    CHECK(info.minimum < info.maximum);
+    CHECK(!info.meaning.empty());
+    CHECK(!info.unit.empty());
+  }
+}
+
+TEST_CASE("the table reaches every byte of the settings", "[unit]") {
+  std::set<const char*> fields;
+  Settings settings;
+  for (const SettingInfo& info : setting_table()) {
+    std::visit([&](auto field) { fields.insert(reinterpret_cast<const char*>(&(settings.*field))); }, info.field);
+  }
+  CHECK(fields.size() * 8 == sizeof(Settings));
+}
+
+TEST_CASE("bounds survive rounding to single precision, so rounding a setting can't leave its range", "[unit]") {
+  for (const SettingInfo& info : setting_table()) {
+    if (!std::holds_alternative<double Settings::*>(info.field)) continue;
+    INFO(info.name);
+    CHECK(static_cast<double>(static_cast<float>(info.minimum)) == info.minimum);
+    CHECK(static_cast<double>(static_cast<float>(info.maximum)) == info.maximum);
+  }
+}
+
+TEST_CASE("a setting is read back as it was set, at both ends of its range", "[unit]") {
+  for (const SettingInfo& info : setting_table()) {
+    INFO(info.name);
+    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+    for (const double value : {info.minimum, info.maximum}) {
+      char text[64];
+      std::snprintf(text, sizeof text, whole ? "%.0f" : "%.17g", value);
+      Settings settings;
+      set_setting(settings, info.name, text);
+      CHECK(get_setting(settings, info.name) == value);
+    }
+  }
+}
+
+TEST_CASE("values out of range, of the wrong type or not numbers are refused and leave the setting alone", "[unit]") {
+  for (const SettingInfo& info : setting_table()) {
+    INFO(info.name);
+    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+    for (const double value : {info.minimum - 1, info.maximum * 2}) {
+      char text[64];
+      std::snprintf(text, sizeof text, whole ? "%.0f" : "%.17g", value);
+      Settings settings;
+      CHECK_THROWS_AS(set_setting(settings, info.name, text), InputError);
+      CHECK(settings == Settings{});
+    }
+    for (const char* text : {"", "nan", "inf", "five", "1 2", "1;", "0x10"}) {
+      Settings settings;
+      CHECK_THROWS_AS(set_setting(settings, info.name, text), InputError);
+      CHECK(settings == Settings{});
+    }
+    Settings settings;
+    if (whole) CHECK_THROWS_AS(set_setting(settings, info.name, "1.5"), InputError);
+  }
+}
+
+TEST_CASE("messages name the setting, its unit, its range and the nearest name", "[unit]") {
+  Settings settings;
+  CHECK_THROWS_WITH(set_setting(settings, "contact_radius", "-1"), Contains("contact_radius") && Contains(" m ") && Contains("1048576") && Contains("-1"));
+  CHECK_THROWS_WITH(set_setting(settings, "contactradius", "1"), Contains("'contactradius'") && Contains("'contact_radius'"));
+  CHECK_THROWS_WITH(set_setting(settings, "iteration", "1"), Contains("did you mean 'iterations'?"));
+  CHECK_THROWS_WITH(get_setting(settings, "gamma"), Contains("unknown setting 'gamma'"));
+}
+
+TEST_CASE("lanes is 0 or a power of two up to 32", "[unit]") {
+  for (int lanes = 0; lanes <= 33; ++lanes) {
+    Settings settings;
+    const bool good = lanes <= 32 && (lanes & (lanes - 1)) == 0;
+    INFO(lanes);
+    if (good) {
+      CHECK_NOTHROW(set_setting(settings, "lanes", std::to_string(lanes)));
+    } else {
+      CHECK_THROWS_WITH(set_setting(settings, "lanes", std::to_string(lanes)), Contains("power of two"));
+    }
+  }
+}

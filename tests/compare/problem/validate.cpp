@@ -1,0 +1,224 @@
+// One small change to a valid mesh or scene for each sort of problem: it is found, named, and nothing else is.
+#include "compare/problem/validate.hpp"
+
+#include <limits>
+
+#include "tests/catch.hpp"
+#include "tests/compare/problem/small_scene.hpp"
+
+using namespace ogc::compare;
+using ogc::tests::small_scene;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Mesh square() { return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, {}}; }
+
+void check_only(const std::vector<Problem>& problems, const std::string& where, const std::string& what) {
+  CHECK_THAT(describe(problems), Contains(where) && Contains(what));
+  CHECK(problems.size() == 1);
+}
+
+}  // namespace
+
+TEST_CASE("a valid mesh and a valid scene have no problems", "[unit]") {
+  CHECK(validate(square()).empty());
+  CHECK(validate(small_scene()).empty());
+  CHECK(validate(Mesh{{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}}).empty());
+  CHECK(describe({}).empty());
+}
+
+TEST_CASE("validate names each sort of problem of a mesh", "[unit]") {
+  Mesh mesh = square();
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  SECTION("no vertices") { check_only(validate(Mesh{}), "mesh", "no vertices"); }
+  SECTION("index out of range") {
+    mesh.triangles[1][2] = 4;
+    check_only(validate(mesh), "triangle 1", "does not exist: 4; vertices are numbered from 0 to 3");
+  }
+  SECTION("negative index") {
+    mesh.triangles[0][0] = -1;
+    check_only(validate(mesh), "triangle 0", "does not exist: -1");
+  }
+  SECTION("loose edge out of range") {
+    mesh.loose_edges = {{0, 9}};
+    check_only(validate(mesh), "loose edge 0", "does not exist: 9");
+  }
+  SECTION("repeated vertex") {
+    mesh.triangles.push_back({0, 1, 0});
+    check_only(validate(mesh), "triangle 2", "same vertex twice: vertex 0");
+  }
+  SECTION("duplicate face, turned over") {
+    mesh.triangles.push_back({2, 1, 0});
+    check_only(validate(mesh), "triangle 2", "same vertices as another triangle: triangle 0");
+  }
+  SECTION("duplicate loose edge") {
+    mesh.positions.push_back({2, 0, 0});
+    mesh.loose_edges = {{1, 4}, {4, 1}};
+    check_only(validate(mesh), "loose edge 1", "same vertices as another loose edge: loose edge 0");
+  }
+  SECTION("loose edge of a triangle") {
+    mesh.loose_edges = {{0, 2}};
+    check_only(validate(mesh), "loose edge 0", "edge of a triangle too");
+  }
+  SECTION("not a number") {
+    mesh.positions[2].y = nan;
+    check_only(validate(mesh), "vertex 2", "not finite");
+  }
+  SECTION("infinity") {
+    mesh.positions[3].x = infinity;
+    check_only(validate(mesh), "vertex 3", "not finite");
+  }
+  SECTION("coordinate too large") {
+    mesh.positions[3].x = 0x1.1p20;
+    check_only(validate(mesh), "vertex 3", "within 2⁻²⁰ … 2²⁰ m");
+  }
+  SECTION("coordinate too small") {
+    mesh.positions[3].x = -0x1p-21;
+    check_only(validate(mesh), "vertex 3", "within 2⁻²⁰ … 2²⁰ m");
+  }
+  SECTION("edge too short") {
+    mesh.positions[1] = {1, 1 - 0x1p-22, 0};
+    check_only(validate(mesh), "triangle 0", "edge length is not within 2⁻²⁰ … 2²⁰ m: vertices 1 and 2");
+  }
+  SECTION("edge too long") {
+    mesh.positions[0] = {-0x1p20, -0x1p20, 0};
+    CHECK_THAT(describe(validate(mesh)), Contains("edge length is not within"));
+  }
+  SECTION("isolated vertex") {
+    mesh.positions.push_back({5, 5, 5});
+    check_only(validate(mesh), "vertex 4", "belongs to no triangle");
+  }
+  SECTION("zero area") {
+    mesh.positions[3] = {0.5, 0.5, 0};
+    check_only(validate(mesh), "triangle 1", "zero area");
+  }
+}
+
+TEST_CASE("an edge of zero length is named once, though its triangles have no area either", "[unit]") {
+  Mesh mesh = square();
+  mesh.positions[2] = mesh.positions[0];
+  const std::string text = describe(validate(mesh));
+  CHECK_THAT(text, Contains("triangle 0: edge of zero length: vertices 2 and 0"));
+  CHECK_THAT(text, Contains("triangle 1: triangle of zero area"));
+  CHECK(validate(mesh).size() == 3);
+}
+
+TEST_CASE("a triangle that is thin by one ulp is no error, one of exactly zero area is", "[unit]") {
+  Mesh mesh{{{0.1, 0.1, 0}, {0.2, 0.2, 0}, {0.7, 0.7, 0}}, {{0, 1, 2}}, {}};
+  check_only(validate(mesh), "triangle 0", "zero area");
+  mesh.positions[1].y += 0x1p-55;
+  CHECK(mesh.positions[1].y != mesh.positions[1].x);
+  CHECK(validate(mesh).empty());
+}
+
+TEST_CASE("long lists are cut and counted", "[unit]") {
+  Mesh mesh = square();
+  for (int i = 0; i < 25; ++i) mesh.positions.push_back({static_cast<double>(i + 1), 5, 5});
+  const std::vector<Problem> problems = validate(mesh, 10);
+  REQUIRE(problems.size() == 11);
+  CHECK(problems[9].where == "vertex 13");
+  CHECK(problems[10].where == "15 more");
+  CHECK(validate(mesh, 25).size() == 25);
+}
+
+TEST_CASE("validate names each sort of problem of a scene", "[unit]") {
+  Scene scene = small_scene();
+  SECTION("mesh") {
+    scene.mesh.triangles[0][0] = 99;
+    CHECK_THAT(describe(validate(scene)), Contains("triangle 0: names a vertex that does not exist: 99"));
+  }
+  SECTION("setting") {
+    scene.settings.bound_relaxation = 0.5;
+    check_only(validate(scene), "setting 'bound_relaxation'", "is 0.5; give a number from");
+  }
+  SECTION("lanes") {
+    scene.settings.lanes = 3;
+    check_only(validate(scene), "setting 'lanes'", "power of two");
+  }
+  SECTION("density") {
+    scene.bodies[0].material.density = 0;
+    check_only(validate(scene), "body 'sheet'", "density is 0");
+  }
+  SECTION("stiffness") {
+    scene.bodies[1].material.lame_mu = -1;
+    check_only(validate(scene), "body 'floor'", "lame_mu is -1");
+  }
+  SECTION("friction") {
+    scene.bodies[0].material.friction = std::numeric_limits<double>::quiet_NaN();
+    check_only(validate(scene), "body 'sheet'", "friction is nan");
+  }
+  SECTION("rest positions missing") {
+    scene.rest_positions.pop_back();
+    check_only(validate(scene), "rest positions", "6 entries for 7 vertices");
+  }
+  SECTION("degenerate rest shape") {
+    scene.rest_positions[1] = {0.05, 0, 0.05};
+    check_only(validate(scene), "triangle 0", "rest triangle of zero area");
+  }
+  SECTION("velocity") {
+    scene.velocities[3].z = std::numeric_limits<double>::infinity();
+    check_only(validate(scene), "vertex 3", "velocity is not finite");
+  }
+  SECTION("gravity") {
+    scene.gravity.y = std::numeric_limits<double>::quiet_NaN();
+    check_only(validate(scene), "gravity", "not finite");
+  }
+  SECTION("scene name") {
+    scene.name = "../up";
+    check_only(validate(scene), "scene", "'../up'");
+  }
+  SECTION("body name twice") {
+    scene.bodies[1].name = "sheet";
+    check_only(validate(scene), "body 'sheet'", "name can't be used");
+  }
+  SECTION("gap between bodies") {
+    scene.bodies[1].first_vertex = 5;
+    check_only(validate(scene), "body 'floor'", "does not begin where the one before it ends");
+  }
+  SECTION("bodies do not cover the mesh") {
+    scene.bodies.pop_back();
+    check_only(validate(scene), "scene", "4 of 7 vertices and 2 of 3 triangles");
+  }
+  SECTION("triangle of two bodies") {
+    scene.mesh.triangles[2] = {3, 5, 6};
+    CHECK_THAT(describe(validate(scene)), Contains("triangle 2: has vertices of another body"));
+  }
+}
+
+TEST_CASE("validate names each sort of problem of a motion", "[unit]") {
+  Scene scene = small_scene();
+  PrescribedMotion& motion = scene.motions[0];
+  SECTION("unknown vertex") {
+    motion.vertices.push_back(7);
+    check_only(validate(scene), "motion 'left', vertex 7", "does not exist; vertices are numbered from 0 to 6");
+  }
+  SECTION("fixed vertex") {
+    motion.vertices.push_back(4);
+    check_only(validate(scene), "motion 'left', vertex 4", "fixed body");
+  }
+  SECTION("doubly prescribed vertex") {
+    motion.vertices.push_back(2);
+    check_only(validate(scene), "motion 'right', vertex 2", "prescribed already");
+  }
+  SECTION("zero axis") {
+    motion.axis = {};
+    check_only(validate(scene), "motion 'left'", "zero axis");
+  }
+  SECTION("not finite") {
+    motion.angular_velocity = std::numeric_limits<double>::quiet_NaN();
+    check_only(validate(scene), "motion 'left'", "not finite");
+  }
+  SECTION("ends before it starts") {
+    motion.end = -1;
+    check_only(validate(scene), "motion 'left'", "ends before it starts");
+  }
+  SECTION("no vertices") {
+    motion.vertices.clear();
+    check_only(validate(scene), "motion 'left'", "moves no vertex");
+  }
+  SECTION("name") {
+    motion.name = "";
+    check_only(validate(scene), "motion ''", "name can't be used");
+  }
+}
