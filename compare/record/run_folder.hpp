@@ -1,49 +1,63 @@
 // Run folders (design.md §5): run.json, steps.csv, frames/, trajectory.vtkhdf. A run that is killed at any time leaves all of its finished frames
 // readable: every file is written under a temporary name, synced and renamed; steps.csv grows by whole lines.
+//
+//   run.json            written last when a run begins, again when it ends: "status" says which
+//   scene/NAME.json     the scene, meshes beside it (compare/files/scene_files.hpp)
+//   steps.csv           compare/record/steps_csv.hpp
+//   frames/frame_000025.h5   the state after step 25: positions, velocities [vertices × 3], bounds [vertices]; attributes step, time
+//   trajectory.vtkhdf   all frames, for viewers
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/problem/contestant.hpp"
+#include "compare/record/durable_file.hpp"
+#include "compare/record/manifest.hpp"
 
 namespace ogc::compare {
 
-/// What run.json says besides the scene: who ran what, where, when.
-struct Provenance {
-  std::string solver, backend, device, command;
-  std::string version, commit, compiler, cuda;  ///< of the program
-  bool dirty = false;
-  std::string started, ended, status;           ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
-  std::map<std::string, std::string> extra;
-};
-
 /// One stored state.
 struct Frame {
-  std::int64_t step = 0;
-  double time = 0;  ///< [s]
-  std::vector<Vec3f> positions, velocities;
-  std::vector<float> bounds;
+  std::int64_t step = 0;                     ///< number of the step that it ends; 0: the start
+  double time = 0;                           ///< [s]
+  std::vector<Vec3f> positions, velocities;  ///< [m], [m/s]
+  std::vector<float> bounds;                 ///< b_v of the last detection [m]
+  friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-/// Writes a run. Throws ResourceError (disk full, with the path) and InputError (the folder exists and holds a run).
+/// "frame_000025", the name of a file that holds the state after a step, without its extension.
+std::string frame_name(std::int64_t step);
+
+/// The same memory as rows of three numbers, as files store it.
+std::span<const float> as_floats(std::span<const Vec3f> vectors);
+
+/// Writes a run. Throws ResourceError (disk full or not writable, with the path).
 class RunWriter {
  public:
+  /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it is empty. Stage names give
+  /// columns of steps.csv; none for a run without profile. Throws InputError where the folder holds a run already, or what a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names);
+  /// Appends rows to steps.csv in one write. Throws std::invalid_argument where a row has times for another number of stages.
   void add_steps(const std::vector<StepMetrics>& rows);
+  /// Stores a state; one of the same step is replaced. Throws std::invalid_argument where its arrays have not one entry for each vertex.
   void add_frame(const Frame& frame);
-  /// Writes the final run.json and assembles trajectory.vtkhdf.
+  /// Sets an entry of Provenance::extra; the next manifest (at the latest that of finish) carries it.
+  void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
+  /// Writes the final run.json, then assembles trajectory.vtkhdf where there is a frame.
   void finish(const std::string& status);
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  void write_manifest();
+  void write_manifest() const;
   std::filesystem::path folder_;
   Scene scene_;
-  Provenance provenance_;
-  std::vector<std::string> stage_names_;
+  Manifest manifest_;
+  std::optional<LineAppender> steps_;
 };
 
 /// Reads what a run has so far. Throws InputError that names the file.
@@ -51,17 +65,25 @@ class RunReader {
  public:
   explicit RunReader(std::filesystem::path folder);
   const Scene& scene() const { return scene_; }
-  const Provenance& provenance() const { return provenance_; }
+  const Provenance& provenance() const { return manifest_.provenance; }
+  const std::vector<std::string>& stage_names() const { return manifest_.stage_names; }
   std::size_t frame_count() const { return frames_.size(); }
+  /// Step of the i-th frame, ascending.
+  std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
+  /// Throws InputError also where it does not fit the scene.
   Frame frame(std::size_t i) const;
 
  private:
+  Manifest manifest_;
   Scene scene_;
-  Provenance provenance_;
-  std::vector<std::filesystem::path> frames_;
+  std::vector<std::pair<std::int64_t, std::filesystem::path>> frames_;  ///< by step
 };
 
-/// Assembles trajectory.vtkhdf (temporal PolyData, one block of points and triangles, point data velocity, bound, body) from the frames.
+/// Reads one file of frames/. Throws InputError that names the file.
+Frame read_frame(const std::filesystem::path& file);
+
+/// Assembles trajectory.vtkhdf (temporal PolyData, one block of points and triangles, point data velocity, bound, body) from the frames. Throws
+/// InputError where there is no frame yet, ResourceError where the disk does not take it.
 void assemble_trajectory(const std::filesystem::path& folder);
 
 }  // namespace ogc::compare

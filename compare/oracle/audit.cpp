@@ -1,0 +1,115 @@
+// Culling by boxes, then one exact question for each pair. Findings are gathered by thread and sorted, so that the answer never depends on threads.
+#include "compare/oracle/audit.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "compare/oracle/box_tree.hpp"
+#include "compare/oracle/exact_intersection.hpp"
+#include "compare/oracle/pairs.hpp"
+
+namespace ogc::compare {
+namespace {
+
+/// What one thread found, or all of them.
+struct Findings {
+  std::vector<Intersection> intersections;
+  std::size_t pairs_tested = 0;
+};
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+class Auditor {
+ public:
+  Auditor(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups)
+      : topology_(topology), positions_(positions), rigid_groups_(rigid_groups), tree_(triangle_boxes(topology, positions)) {}
+
+  Findings run() const {
+    tbb::enumerable_thread_specific<Findings> shares;
+    const std::size_t count = at(topology_.vertex_count) + topology_.edges.size();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const tbb::blocked_range<std::size_t>& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) visit(static_cast<Index>(i), shares.local());
+    });
+    Findings all;
+    for (const Findings& share : shares) {
+      all.intersections.insert(all.intersections.end(), share.intersections.begin(), share.intersections.end());
+      all.pairs_tested += share.pairs_tested;
+    }
+    std::sort(all.intersections.begin(), all.intersections.end());
+    return all;
+  }
+
+ private:
+  static std::vector<Box> triangle_boxes(const Topology& topology, std::span<const Vec3> positions) {
+    std::vector<Box> boxes;
+    boxes.reserve(topology.triangles.size());
+    for (const Triangle& t : topology.triangles) boxes.push_back(box_of({positions[at(t[0])], positions[at(t[1])], positions[at(t[2])]}));
+    return boxes;
+  }
+
+  void visit(Index i, Findings& found) const {
+    if (i < topology_.vertex_count) {
+      test({i, i}, IntersectionKind::vertex_triangle, i, found);
+    } else {
+      const Index edge = i - topology_.vertex_count;
+      test(topology_.edges[at(edge)], IntersectionKind::edge_triangle, edge, found);
+    }
+  }
+
+  void test(const Edge& edge, IntersectionKind kind, Index name, Findings& found) const {
+    const std::array<Vec3, 2> segment{positions_[at(edge[0])], positions_[at(edge[1])]};
+    tree_.for_each_meeting(box_of({segment[0], segment[1]}), [&](Index number) {
+      const Triangle& t = topology_.triangles[at(number)];
+      if (left_out(edge, t, rigid_groups_)) return;
+      if (kind == IntersectionKind::edge_triangle) ++found.pairs_tested;
+      const std::array<Vec3, 3> corners{positions_[at(t[0])], positions_[at(t[1])], positions_[at(t[2])]};
+      if (segment_meets_triangle(segment, corners)) found.intersections.push_back({kind, name, number});
+    });
+  }
+
+  const Topology& topology_;
+  std::span<const Vec3> positions_;
+  std::span<const Index> rigid_groups_;
+  BoxTree tree_;
+};
+
+/// "edge 12 (vertices 3, 7; body 'cloth')"
+std::string name_primitive(const char* kind, Index number, std::span<const Index> vertices, const std::vector<std::string>& body_of_vertex) {
+  std::string details;
+  if (vertices.size() > 1) {
+    for (const Index v : vertices) details += (details.empty() ? "vertices " : ", ") + std::to_string(v);
+  }
+  if (at(vertices[0]) < body_of_vertex.size()) details += (details.empty() ? "body '" : "; body '") + body_of_vertex[at(vertices[0])] + "'";
+  return kind + std::to_string(number) + (details.empty() ? "" : " (" + details + ")");
+}
+
+}  // namespace
+
+AuditResult audit(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups, const AuditOptions& options) {
+  check_state("audit", topology, positions, rigid_groups);
+  Findings found = Auditor(topology, positions, rigid_groups).run();
+  AuditResult result;
+  result.count = found.intersections.size();
+  result.pairs_tested = found.pairs_tested;
+  found.intersections.resize(std::min(options.limit, found.intersections.size()));
+  result.intersections = std::move(found.intersections);
+  return result;
+}
+
+std::string describe(const AuditResult& result, const Topology& topology, const std::vector<std::string>& body_of_vertex) {
+  std::string text;
+  for (const Intersection& i : result.intersections) {
+    if (i.kind == IntersectionKind::edge_triangle)
+      text += name_primitive("edge ", i.first, topology.edges[at(i.first)], body_of_vertex) + " meets ";
+    else
+      text += name_primitive("vertex ", i.first, std::span(&i.first, 1), body_of_vertex) + " lies on ";
+    text += name_primitive("triangle ", i.second, topology.triangles[at(i.second)], body_of_vertex) + "\n";
+  }
+  if (result.count > result.intersections.size()) text += "and " + std::to_string(result.count - result.intersections.size()) + " more\n";
+  return text;
+}
+
+}  // namespace ogc::compare

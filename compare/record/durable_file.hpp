@@ -1,0 +1,43 @@
+// Files that a killed run leaves whole: written under a temporary name, synced, renamed. The name of the temporary file ends in ".partial", which no
+// reader looks for.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace ogc::compare {
+
+/// Where a file is written before it gets its name: `path` with ".partial" behind it.
+std::filesystem::path partial_name(const std::filesystem::path& path);
+
+/// Writes all of `bytes` under the partial name and commits it. Throws ResourceError with the path where the disk does not take it; then neither name is left.
+void write_durably(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes `bytes` to a new file and reserves `size` bytes of disk for it, so that whoever fills it meets no full disk. Throws ResourceError, and leaves no
+/// file then.
+void write_and_reserve(const std::filesystem::path& path, std::string_view bytes, std::size_t size);
+
+/// Syncs the partial file of `path`, gives it its name, and syncs the folder. Throws ResourceError.
+void commit_partial(const std::filesystem::path& path);
+
+/// Syncs a file or folder that stands under its name already. Throws ResourceError.
+void sync_to_disk(const std::filesystem::path& path);
+
+/// Appends to a file by whole lines.
+class LineAppender {
+ public:
+  /// Creates the file; throws ResourceError where it can't.
+  explicit LineAppender(const std::filesystem::path& path);
+  ~LineAppender();
+  LineAppender(const LineAppender&) = delete;
+  LineAppender& operator=(const LineAppender&) = delete;
+  /// Appends lines, each with its line end, and syncs. Where the disk does not take them the file keeps its former length, and ResourceError is thrown.
+  void append(std::string_view lines);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::size_t length_ = 0;
+};
+
+}  // namespace ogc::compare

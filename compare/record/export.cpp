@@ -1,0 +1,57 @@
+#include "compare/record/export.hpp"
+
+#include <array>
+#include <string>
+
+#include "compare/files/mesh_files.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
+#include "compare/record/vtp.hpp"
+
+namespace ogc::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> names{"obj", "ply", "vtp"};
+
+void write_frame(const fs::path& path, ExportFormat format, const Scene& scene, std::span<const Index> bodies, const Frame& frame) {
+  if (format == ExportFormat::vtp)
+    write_durably(path, vtp_bytes(scene.mesh, bodies, frame));
+  else
+    write_mesh(path, {to_double(frame.positions), scene.mesh.triangles, scene.mesh.loose_edges});
+}
+
+}  // namespace
+
+ExportFormat parse_export_format(std::string_view text) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == text) return static_cast<ExportFormat>(i);
+  throw InputError(unknown_name("export format", text, names) + "; use obj, ply or vtp");
+}
+
+std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, const fs::path& out) {
+  const RunReader run(folder);
+  if (run.frame_count() == 0) throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error) throw ResourceError(out.string() + ": can't make the folder (" + error.message() + "): choose a folder that you may write to");
+  const std::vector<Index> bodies = body_of_vertex(run.scene());
+  const std::string extension = "." + std::string(names[static_cast<std::size_t>(format)]);
+  std::vector<fs::path> files;
+  std::vector<std::pair<double, std::string>> index;
+  for (std::size_t i = 0; i < run.frame_count(); ++i) {
+    const Frame frame = run.frame(i);
+    const std::string name = frame_name(frame.step) + extension;
+    write_frame(out / name, format, run.scene(), bodies, frame);
+    files.push_back(out / name);
+    index.emplace_back(frame.time, name);
+  }
+  if (format == ExportFormat::vtp) {
+    files.push_back(out / (run.scene().name + ".pvd"));
+    write_durably(files.back(), pvd_text(index));
+  }
+  return files;
+}
+
+}  // namespace ogc::compare

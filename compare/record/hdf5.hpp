@@ -1,0 +1,83 @@
+// The part of HDF5's C interface that run folders need, with ownership and errors in C++ terms. HDF5's own header stays in the .cpp, and its habit
+// of printing error stacks is off.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ogc::compare {
+
+/// An HDF5 handle that is released on every way out.
+class Hdf5Handle {
+ public:
+  using Close = int (*)(std::int64_t);
+  Hdf5Handle(std::int64_t id, Close close) : id_(id), close_(close) {}
+  ~Hdf5Handle() { release(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
+  std::int64_t id() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+  /// Releases it now; false where HDF5 reports an error.
+  bool release();
+
+ private:
+  std::int64_t id_;
+  Close close_;
+};
+
+/// One HDF5 file, to write or to read. Objects are named by path from the root ("VTKHDF/Points"). Reading throws InputError, writing ResourceError;
+/// both name the file and the object. Values: float, double, std::int32_t, std::int64_t.
+class Hdf5File {
+ public:
+  /// Empties or creates the file and reserves `size` bytes on the disk before HDF5 gets it: HDF5 1.10 crashes where a write fails while it closes a file.
+  /// What is not needed is given back by `close`.
+  static Hdf5File create(const std::filesystem::path& path, std::size_t size);
+  /// Lives in memory only; `name` stands in messages. See `image`.
+  static Hdf5File create_in_memory(const std::filesystem::path& name);
+  static Hdf5File open(const std::filesystem::path& path);
+
+  void create_group(const std::string& name);
+  /// Makes a dataset of `rows` rows with `columns` values (0: one-dimensional), to be written `part` ≥ 1 rows at a time; a long one is shuffled and
+  /// deflated in chunks that fit the parts, so that no chunk is compressed again and again.
+  template <class T>
+  void create_dataset(const std::string& name, std::size_t rows, std::size_t columns, std::size_t part);
+  /// Disk that such a dataset takes at most, with all that HDF5 stores about it.
+  static std::size_t largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part);
+  /// Fills rows from `first_row` on.
+  template <class T>
+  void write_rows(const std::string& name, std::size_t first_row, std::span<const T> values);
+  /// Both in one.
+  template <class T>
+  void write(const std::string& name, std::span<const T> values, std::size_t columns = 0);
+
+  template <class T>
+  std::vector<T> read(const std::string& name) const;
+  std::vector<std::size_t> shape(const std::string& name) const;
+
+  /// One value becomes a scalar, more a one-dimensional attribute. `object` "/" is the root.
+  void set_attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
+  void set_attribute(const std::string& object, const std::string& name, double value);
+  /// Fixed length, ASCII.
+  void set_attribute(const std::string& object, const std::string& name, std::string_view text);
+  /// Scalar attribute of the root, converted to T.
+  template <class T>
+  T attribute(const std::string& name) const;
+
+  /// The bytes that the file would have on the disk.
+  std::string image();
+  /// Flushes and closes: what the disk does not take shows at the latest here.
+  void close();
+
+ private:
+  Hdf5File(std::filesystem::path path, Hdf5Handle file) : path_(std::move(path)), file_(std::move(file)) {}
+  [[noreturn]] void refuse_read(const std::string& what) const;
+  [[noreturn]] void refuse_write(const std::string& what) const;
+  std::filesystem::path path_;
+  Hdf5Handle file_;
+};
+
+}  // namespace ogc::compare

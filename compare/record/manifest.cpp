@@ -1,0 +1,141 @@
+#include "compare/record/manifest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
+
+namespace ogc::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct TextField {
+  std::string_view name;
+  std::string Provenance::*field;
+};
+
+constexpr std::array<TextField, 11> text_fields{{{"status", &Provenance::status},
+                                                 {"started", &Provenance::started},
+                                                 {"ended", &Provenance::ended},
+                                                 {"command", &Provenance::command},
+                                                 {"solver", &Provenance::solver},
+                                                 {"backend", &Provenance::backend},
+                                                 {"device", &Provenance::device},
+                                                 {"version", &Provenance::version},
+                                                 {"commit", &Provenance::commit},
+                                                 {"compiler", &Provenance::compiler},
+                                                 {"cuda", &Provenance::cuda}}};
+
+constexpr std::array<std::string_view, 7> other_fields{"format", "format_version", "dirty", "seed", "scene", "settings", "stages"};
+
+bool is_known(std::string_view key) {
+  return std::any_of(text_fields.begin(), text_fields.end(), [&](const TextField& entry) { return entry.name == key; }) ||
+         std::find(other_fields.begin(), other_fields.end(), key) != other_fields.end();
+}
+
+Json quantity(double value, std::string_view unit) { return {{"value", value}, {"unit", unit}}; }
+
+Json settings_json(const Settings& settings) {
+  Json json = Json::object();
+  for (const SettingInfo& info : setting_table()) {
+    Json& entry = json[std::string(info.name)] = quantity(get_setting(settings, info), info.unit);
+    if (const auto* whole = std::get_if<std::int64_t Settings::*>(&info.field)) entry["value"] = settings.**whole;
+    entry["meaning"] = info.meaning;
+  }
+  return json;
+}
+
+Json material_json(const Material& material) {
+  Json json = {{"membrane", name_of(material.membrane)}, {"bending", name_of(material.bending)}};
+  for (const MaterialInfo& info : material_table()) json[std::string(info.name)] = quantity(material.*info.field, info.unit);
+  return json;
+}
+
+Json bodies_json(const Scene& scene) {
+  Json json = Json::array();
+  for (const Body& body : scene.bodies)
+    json.push_back({{"name", body.name},
+                    {"first_vertex", body.first_vertex},
+                    {"vertex_count", body.vertex_count},
+                    {"first_triangle", body.first_triangle},
+                    {"triangle_count", body.triangle_count},
+                    {"fixed", body.fixed},
+                    {"material", material_json(body.material)}});
+  return json;
+}
+
+Json scene_json(const Manifest& manifest, const Scene& scene) {
+  return {{"name", manifest.scene_name},
+          {"file", manifest.scene_file},
+          {"vertices", scene.mesh.positions.size()},
+          {"triangles", scene.mesh.triangles.size()},
+          {"loose_edges", scene.mesh.loose_edges.size()},
+          {"gravity", {{"value", {scene.gravity.x, scene.gravity.y, scene.gravity.z}}, {"unit", "m/s²"}}},
+          {"bodies", bodies_json(scene)}};
+}
+
+Json extra_json(const std::string& value) { return value == "yes" || value == "no" ? Json(value == "yes") : Json(value); }
+
+std::string extra_text(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+Provenance provenance_of(const Json& json) {
+  Provenance provenance;
+  for (const TextField& entry : text_fields) provenance.*entry.field = json.at(std::string(entry.name)).get<std::string>();
+  provenance.dirty = json.at("dirty").get<bool>();
+  for (const auto& [key, value] : json.items())
+    if (!is_known(key)) provenance.extra[key] = extra_text(value);
+  return provenance;
+}
+
+}  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text;
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
+std::string manifest_text(const Manifest& manifest, const Scene& scene) {
+  Json json = {{"format", "ogc run"}, {"format_version", run_format_version}};
+  for (const TextField& entry : text_fields) json[std::string(entry.name)] = manifest.provenance.*entry.field;
+  json["dirty"] = manifest.provenance.dirty;
+  for (const auto& [key, value] : manifest.provenance.extra) {
+    if (is_known(key)) throw std::invalid_argument("run.json: '" + key + "' has a meaning of its own and can't be an extra entry");
+    json[key] = extra_json(value);
+  }
+  json["seed"] = scene.settings.seed;
+  json["scene"] = scene_json(manifest, scene);
+  json["settings"] = settings_json(scene.settings);
+  json["stages"] = manifest.stage_names;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Manifest read_manifest(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "run.json";
+  std::ifstream file(path);
+  if (!file) throw InputError(path.string() + ": is missing or can't be read: name a folder that `ogc run` has written");
+  try {
+    const Json json = Json::parse(file);
+    if (json.at("format").get<std::string>() != "ogc run") throw InputError(path.string() + ": is not of a run: name a folder that `ogc run` has written");
+    if (const auto version = json.at("format_version").get<std::int64_t>(); version > run_format_version)
+      throw InputError(path.string() + ": is of run format " + std::to_string(version) + ", newer than format " + std::to_string(run_format_version) +
+                       ", the newest that this program reads: use a newer ogc");
+    return {provenance_of(json), json.at("scene").at("name").get<std::string>(), json.at("scene").at("file").get<std::string>(),
+            json.at("stages").get<std::vector<std::string>>()};
+  } catch (const Json::exception& error) {
+    throw InputError(path.string() + ": " + error.what() + ": the file was changed by hand or is damaged; restore it, or run the scene again");
+  }
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,143 @@
+#include "compare/record/run_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <stdexcept>
+
+#include "compare/files/scene_files.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/record/hdf5.hpp"
+#include "compare/record/steps_csv.hpp"
+
+namespace ogc::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Vec3f> as_vectors(const std::vector<float>& floats) {
+  std::vector<Vec3f> vectors(floats.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2]};
+  return vectors;
+}
+
+fs::path frame_path(const fs::path& folder, std::int64_t step) { return folder / "frames" / (frame_name(step) + ".h5"); }
+
+/// Step in the name of a frame's file; none for another file.
+std::optional<std::int64_t> frame_step_of(const std::string& name) {
+  constexpr std::string_view prefix = "frame_", suffix = ".h5";
+  if (!name.starts_with(prefix) || !name.ends_with(suffix)) return std::nullopt;
+  const char* const end = name.data() + name.size() - suffix.size();
+  std::int64_t step = 0;
+  const auto parsed = std::from_chars(name.data() + prefix.size(), end, step);
+  return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(step) : std::nullopt;
+}
+
+/// Finished frames by step.
+std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folder) {
+  if (!fs::is_directory(folder / "frames")) throw InputError((folder / "frames").string() + ": is missing: name a folder that `ogc run` has written");
+  std::vector<std::pair<std::int64_t, fs::path>> frames;
+  for (const auto& entry : fs::directory_iterator(folder / "frames"))
+    if (const auto step = frame_step_of(entry.path().filename().string())) frames.emplace_back(*step, entry.path());
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw ResourceError(folder.string() + ": can't make the folder (" + error.message() + "): choose a folder that you may write to");
+}
+
+void refuse_used_folder(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError(folder.string() + ": is a file: name a new folder for the run");
+  for (const char* name : {"run.json", "scene", "steps.csv", "frames", "trajectory.vtkhdf"})
+    if (fs::exists(folder / name))
+      throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
+}
+
+/// Writes the scene beside its place and moves it there as a whole. Returns its file relative to `folder`.
+std::string store_scene(const fs::path& folder, const Scene& scene) {
+  const fs::path target = folder / "scene", partial = partial_name(target);
+  fs::remove_all(partial);
+  make_folder(partial);
+  const fs::path file = write_scene(partial, scene);
+  for (const auto& entry : fs::directory_iterator(partial)) sync_to_disk(entry.path());
+  commit_partial(target);
+  return (fs::path("scene") / file.filename()).generic_string();
+}
+
+}  // namespace
+
+std::span<const float> as_floats(std::span<const Vec3f> vectors) {
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float), "coordinates are stored as rows of three");
+  return {reinterpret_cast<const float*>(vectors.data()), 3 * vectors.size()};
+}
+
+std::string frame_name(std::int64_t step) {
+  std::array<char, 40> name;
+  std::snprintf(name.data(), name.size(), "frame_%06lld", static_cast<long long>(step));
+  return name.data();
+}
+
+RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names)
+    : folder_(std::move(folder)), scene_(scene), manifest_{provenance, scene.name, {}, std::move(stage_names)} {
+  refuse_used_folder(folder_);
+  make_folder(folder_ / "frames");
+  manifest_.scene_file = store_scene(folder_, scene_);
+  steps_.emplace(folder_ / "steps.csv");
+  steps_->append(step_header(manifest_.stage_names));
+  if (manifest_.provenance.started.empty()) manifest_.provenance.started = utc_now();
+  manifest_.provenance.status = "running";
+  write_manifest();
+}
+
+void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", manifest_text(manifest_, scene_)); }
+
+void RunWriter::add_steps(const std::vector<StepMetrics>& rows) { steps_->append(step_lines(rows, manifest_.stage_names.size())); }
+
+void RunWriter::add_frame(const Frame& frame) {
+  const std::size_t count = scene_.mesh.positions.size();
+  if (frame.positions.size() != count || frame.velocities.size() != count || frame.bounds.size() != count)
+    throw std::invalid_argument("frame of step " + std::to_string(frame.step) + ": its arrays have not one entry for each vertex of the scene");
+  const fs::path path = frame_path(folder_, frame.step);
+  Hdf5File file = Hdf5File::create_in_memory(path);
+  file.set_attribute("/", "step", std::array{frame.step});
+  file.set_attribute("/", "time", frame.time);
+  file.write("positions", as_floats(frame.positions), 3);
+  file.write("velocities", as_floats(frame.velocities), 3);
+  file.write("bounds", std::span(frame.bounds));
+  write_durably(path, file.image());
+}
+
+void RunWriter::finish(const std::string& status) {
+  manifest_.provenance.status = status;
+  manifest_.provenance.ended = utc_now();
+  write_manifest();
+  if (!list_frames(folder_).empty()) assemble_trajectory(folder_);
+}
+
+RunReader::RunReader(fs::path folder)
+    : manifest_(read_manifest(folder)), scene_(read_scene(folder / manifest_.scene_file)), frames_(list_frames(folder)) {}
+
+Frame RunReader::frame(std::size_t i) const {
+  const fs::path& path = frames_.at(i).second;
+  Frame frame = read_frame(path);
+  if (frame.positions.size() != scene_.mesh.positions.size())
+    throw InputError(path.string() + ": has " + std::to_string(frame.positions.size()) + " vertices, the run's scene " +
+                     std::to_string(scene_.mesh.positions.size()) + ": the file is of another run; remove it");
+  return frame;
+}
+
+Frame read_frame(const fs::path& path) {
+  const Hdf5File file = Hdf5File::open(path);
+  const std::vector<std::size_t> shape = file.shape("positions");
+  if (shape.size() != 2 || shape[1] != 3 || file.shape("velocities") != shape || file.shape("bounds") != std::vector{shape[0]})
+    throw InputError(path.string() + ": positions, velocities and bounds are not vertices × 3, vertices × 3 and vertices: " +
+                     "not a frame of a run, or damaged; use another one");
+  return {file.attribute<std::int64_t>("step"), file.attribute<double>("time"), as_vectors(file.read<float>("positions")),
+          as_vectors(file.read<float>("velocities")), file.read<float>("bounds")};
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,151 @@
+#include "compare/record/steps_csv.hpp"
+
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "compare/problem/error.hpp"
+
+namespace ogc::compare {
+namespace {
+
+constexpr std::array<StepColumn, 23> columns{{
+    {"step", "1", &StepMetrics::step},
+    {"wall", "ms", &StepMetrics::wall_ms},
+    {"vertex_facet_contacts", "1", &StepMetrics::vertex_facet_contacts},
+    {"edge_edge_contacts", "1", &StepMetrics::edge_edge_contacts},
+    {"broad_phases", "1", &StepMetrics::broad_phases},
+    {"discrete_detections", "1", &StepMetrics::discrete_detections},
+    {"continuous_detections", "1", &StepMetrics::continuous_detections},
+    {"guess_rounds", "1", &StepMetrics::guess_rounds},
+    {"iterations", "1", &StepMetrics::iterations},
+    {"vertices_at_bound", "1", &StepMetrics::vertices_at_bound},
+    {"share_at_bound", "1", &StepMetrics::share_at_bound},
+    {"momentum_lost_guess", "1", &StepMetrics::momentum_lost_guess},
+    {"momentum_lost_end", "1", &StepMetrics::momentum_lost_end},
+    {"largest_lag", "m", &StepMetrics::largest_lag},
+    {"query_radius", "m", &StepMetrics::query_radius},
+    {"residual", "1", &StepMetrics::residual},
+    {"kinetic_energy", "J", &StepMetrics::kinetic_energy},
+    {"elastic_energy", "J", &StepMetrics::elastic_energy},
+    {"contact_energy", "J", &StepMetrics::contact_energy},
+    {"gravity_energy", "J", &StepMetrics::gravity_energy},
+    {"smallest_distance", "m", &StepMetrics::smallest_distance},
+    {"repeats", "1", &StepMetrics::repeats},
+    {"status", "bits", &StepMetrics::status},
+}};
+
+constexpr std::string_view stage_prefix = "stage_", stage_unit = " [ms]";
+
+template <class T>
+void print(std::string& text, T value) {
+  if (value != value) {
+    text += "nan";  // std::to_chars would print the sign of a not-a-number
+    return;
+  }
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> parts;
+  for (std::size_t comma = 0; comma != std::string_view::npos; line.remove_prefix(comma + 1)) {
+    comma = line.find(',');
+    parts.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) break;
+  }
+  return parts;
+}
+
+template <class T>
+bool parse(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::string column_title(const StepColumn& column) { return std::string(column.name) + " [" + std::string(column.unit) + "]"; }
+
+std::vector<std::string> parse_header(const std::string& file, std::string_view line) {
+  const std::vector<std::string_view> titles = split(line);
+  const auto refuse = [&](std::size_t i, const std::string& expected) {
+    throw InputError(file + ": line 1: column " + std::to_string(i + 1) + " is '" + (i < titles.size() ? std::string(titles[i]) : "") + "' where '" + expected +
+                     "' is expected: the run was written by another version of the program; read it with that one");
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (i >= titles.size() || titles[i] != column_title(columns[i])) refuse(i, column_title(columns[i]));
+  std::vector<std::string> stage_names;
+  for (std::size_t i = columns.size(); i < titles.size(); ++i) {
+    if (!titles[i].starts_with(stage_prefix) || !titles[i].ends_with(stage_unit)) refuse(i, "stage_NAME [ms]");
+    stage_names.emplace_back(titles[i].substr(stage_prefix.size(), titles[i].size() - stage_prefix.size() - stage_unit.size()));
+  }
+  return stage_names;
+}
+
+/// False where the line is not a row of so many stages.
+bool parse_row(std::string_view line, std::size_t stage_count, StepMetrics& row) {
+  const std::vector<std::string_view> parts = split(line);
+  if (parts.size() != columns.size() + stage_count) return false;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (!std::visit([&](auto field) { return parse(parts[i], row.*field); }, columns[i].field)) return false;
+  row.stage_ms.resize(stage_count);
+  for (std::size_t i = 0; i < stage_count; ++i)
+    if (!parse(parts[columns.size() + i], row.stage_ms[i])) return false;
+  return true;
+}
+
+}  // namespace
+
+std::span<const StepColumn> step_columns() { return columns; }
+
+std::string step_header(std::span<const std::string> stage_names) {
+  std::string text;
+  for (const StepColumn& column : columns) {
+    if (!text.empty()) text += ',';
+    text += column_title(column);
+  }
+  for (const std::string& name : stage_names) text.append(",").append(stage_prefix).append(name).append(stage_unit);
+  text += '\n';
+  return text;
+}
+
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count) {
+  std::string text;
+  for (const StepMetrics& row : rows) {
+    if (!row.stage_ms.empty() && row.stage_ms.size() != stage_count) throw std::invalid_argument("steps.csv: a row with times for another number of stages");
+    for (const StepColumn& column : columns) {
+      if (&column != &columns.front()) text += ',';
+      std::visit([&](auto field) { print(text, row.*field); }, column.field);
+    }
+    for (std::size_t i = 0; i < stage_count; ++i) {
+      text += ',';
+      print(text, row.stage_ms.empty() ? std::numeric_limits<double>::quiet_NaN() : row.stage_ms[i]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+StepTable read_steps(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "steps.csv";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": is missing or can't be read: name a folder that `ogc run` has written");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  StepTable table;
+  std::size_t number = 0;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string_view line(text.data() + begin, end - begin);
+    if (++number == 1)
+      table.stage_names = parse_header(path.string(), line);
+    else if (!parse_row(line, table.stage_names.size(), table.rows.emplace_back()))
+      throw InputError(path.string() + ": line " + std::to_string(number) + ": is no row of " + std::to_string(columns.size() + table.stage_names.size()) +
+                       " numbers: the file was changed by hand or is damaged; remove the line");
+  }
+  if (number == 0) throw InputError(path.string() + ": has no header: the run was killed before it began; run it again");
+  return table;
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,40 @@
+// steps.csv: one row a step, one column a quantity, the unit behind its name. One table serves writing and reading, so they can't disagree.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "compare/problem/contestant.hpp"
+
+namespace ogc::compare {
+
+/// One column: "name [unit]" in the header.
+struct StepColumn {
+  std::string_view name, unit;
+  std::variant<double StepMetrics::*, std::int64_t StepMetrics::*, std::uint32_t StepMetrics::*> field;
+};
+
+/// All columns but those of the stages, in the order of the file.
+std::span<const StepColumn> step_columns();
+
+/// The header line; stages become "stage_NAME [ms]".
+std::string step_header(std::span<const std::string> stage_names);
+
+/// One line a row; numbers read back as the same double, "nan" where a quantity was not asked for. Rows without times by stage get "nan" in each stage's
+/// column. Throws std::invalid_argument where a row has times for another number of stages.
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count);
+
+/// What steps.csv holds so far.
+struct StepTable {
+  std::vector<std::string> stage_names;
+  std::vector<StepMetrics> rows;
+};
+
+/// Reads steps.csv of a run. A last line without its end (the run was killed) is left out. Throws InputError that names the file and the line.
+StepTable read_steps(const std::filesystem::path& folder);
+
+}  // namespace ogc::compare

@@ -1,0 +1,63 @@
+#include "compare/record/vtp.hpp"
+
+#include <bit>
+
+#include "compare/problem/text.hpp"
+
+namespace ogc::compare {
+namespace {
+
+constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+
+/// Collects the arrays behind the XML: each with its length in bytes before it, named in the XML by its offset.
+class Appended {
+ public:
+  template <class T>
+  std::string array(const char* type, const char* name, std::span<const T> values, int components = 1) {
+    std::string tag = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
+                      "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) + "\"/>";
+    const std::uint64_t size = values.size_bytes();
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
+    return tag;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+template <std::size_t Corners>
+std::string cells(Appended& appended, const char* kind, const std::vector<std::array<Index, Corners>>& cells) {
+  std::vector<Index> connectivity, ends;
+  for (const auto& cell : cells) {
+    connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+    ends.push_back(static_cast<Index>(connectivity.size()));
+  }
+  return std::string("<") + kind + ">" + appended.array("Int32", "connectivity", std::span<const Index>(connectivity)) +
+         appended.array("Int32", "offsets", std::span<const Index>(ends)) + "</" + kind + ">\n";
+}
+
+}  // namespace
+
+std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame) {
+  Appended appended;
+  std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" header_type=\"UInt64\" byte_order=\"") + byte_order +
+                     "\">\n<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(frame.positions.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+                     std::to_string(mesh.loose_edges.size()) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(mesh.triangles.size()) + "\">\n";
+  text += "<PointData Vectors=\"velocity\">" + appended.array("Float32", "velocity", as_floats(frame.velocities), 3) +
+          appended.array("Float32", "bound", std::span<const float>(frame.bounds)) + appended.array("Int32", "body", bodies) + "</PointData>\n";
+  text += "<Points>" + appended.array("Float32", "Points", as_floats(frame.positions), 3) + "</Points>\n";
+  text += cells(appended, "Lines", mesh.loose_edges);
+  text += cells(appended, "Polys", mesh.triangles);
+  text += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  return text + appended.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+std::string pvd_text(const std::vector<std::pair<double, std::string>>& files) {
+  std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"") + byte_order + "\">\n<Collection>\n";
+  for (const auto& [time, file] : files) text += "<DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+}  // namespace ogc::compare

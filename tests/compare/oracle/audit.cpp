@@ -1,0 +1,220 @@
+#include "compare/oracle/audit.hpp"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+#include "tests/compare/oracle/rational_intersection.hpp"
+
+using namespace ogc::compare;
+
+namespace {
+
+using Kind = IntersectionKind;
+
+/// A horizontal triangle 0 1 2 and a triangle 3 4 5 whose first corner is `tip` and which hangs above it.
+struct TwoTriangles {
+  std::vector<Vec3> positions;
+  Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
+  explicit TwoTriangles(Vec3 tip) : positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, tip, {1, 1, 5}, {2, 1, 5}} {}
+  AuditResult audit(std::span<const Index> groups = {}) const { return ogc::compare::audit(topology, positions, groups); }
+};
+
+Intersection edge_meets(const Topology& topology, Index a, Index b, Index triangle) { return {Kind::edge_triangle, find_edge(topology, a, b), triangle}; }
+
+/// Every pair, by rational brute force.
+std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<Vec3>& positions) {
+  std::vector<Intersection> found;
+  const auto at = [&](Index v) { return positions[static_cast<std::size_t>(v)]; };
+  const auto test = [&](Kind kind, Index name, Edge e) {
+    for (std::size_t i = 0; i < topology.triangles.size(); ++i) {
+      const Triangle& t = topology.triangles[i];
+      const bool adjacent = std::any_of(t.begin(), t.end(), [&](Index v) { return v == e[0] || v == e[1]; });
+      if (!adjacent && ogc::tests::hulls_meet({at(e[0]), at(e[1])}, {at(t[0]), at(t[1]), at(t[2])})) found.push_back({kind, name, static_cast<Index>(i)});
+    }
+  };
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
+  for (Index v = 0; v < topology.vertex_count; ++v) test(Kind::vertex_triangle, v, {v, v});
+  return found;
+}
+
+/// An n × n grid on the unit square, rolled up as a spiral whose layers do not touch; `shear` turns it out of the coordinate planes.
+struct RolledSheet {
+  std::vector<Vec3> positions;
+  Topology topology;
+  explicit RolledSheet(Index n, double shear = 0) {
+    std::vector<Triangle> triangles;
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j < n; ++j) {
+        const double angle = 6 * double(i) / double(n - 1) * 3.141592653589793, radius = 0.1 + 0.02 * angle, z = double(j) / double(n - 1);
+        positions.push_back({radius * std::cos(angle) + shear * z, radius * std::sin(angle), z});
+        const Index v = i * n + j;
+        if (i + 1 < n && j + 1 < n) triangles.insert(triangles.end(), {Triangle{v, v + n, v + n + 1}, Triangle{v, v + n + 1, v + 1}});
+      }
+    }
+    topology = build_topology(n * n, triangles);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("two triangles apart are clean", "[unit]") {
+  const AuditResult result = TwoTriangles({1, 1, 0x1p-60}).audit();
+  CHECK(result.count == 0);
+  CHECK(result.intersections.empty());
+}
+
+TEST_CASE("edges that pierce a triangle are listed, and edges that they cross on the way too", "[unit]") {
+  const TwoTriangles mesh({1, 1, -1});
+  const AuditResult result = mesh.audit();
+  CHECK(result.intersections == std::vector{edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0)});
+  CHECK(result.count == 2);
+  CHECK(result.pairs_tested >= 2);
+}
+
+TEST_CASE("a vertex that lies on a triangle is listed, and so are its edges, which touch it", "[unit]") {
+  for (const Vec3 tip : {Vec3{1, 1, 0}, Vec3{0.5, 0.25, 0}}) {
+    const TwoTriangles mesh(tip);
+    const AuditResult result = mesh.audit();
+    CHECK(result.intersections ==
+          std::vector{edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0), Intersection{Kind::vertex_triangle, 3, 0}});
+  }
+}
+
+TEST_CASE("a vertex on an edge of another component touches the triangle, and that edge touches the vertex's triangle", "[unit]") {
+  const TwoTriangles mesh({2, 0, 0});
+  CHECK(mesh.audit().intersections == std::vector{edge_meets(mesh.topology, 0, 1, 1), edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0),
+                                                  Intersection{Kind::vertex_triangle, 3, 0}});
+}
+
+TEST_CASE("two components that meet in a corner each lie on the other", "[unit]") {
+  const TwoTriangles mesh({0, 0, 0});
+  CHECK(mesh.audit().intersections == std::vector{edge_meets(mesh.topology, 0, 1, 1), edge_meets(mesh.topology, 0, 2, 1), edge_meets(mesh.topology, 3, 4, 0),
+                                                  edge_meets(mesh.topology, 3, 5, 0), Intersection{Kind::vertex_triangle, 0, 1},
+                                                  Intersection{Kind::vertex_triangle, 3, 0}});
+}
+
+TEST_CASE("coplanar triangles that overlap are found even where no vertex lies on the other", "[unit]") {
+  // A star of two triangles: every edge crosses two edges of the other, no corner lies inside.
+  const std::vector<Vec3> positions{{0, 3, 1}, {3, -2, 1}, {-3, -2, 1}, {0, -3, 1}, {3, 2, 1}, {-3, 2, 1}};
+  const Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
+  const AuditResult result = audit(topology, positions);
+  CHECK(result.count == 6);
+  CHECK(std::none_of(result.intersections.begin(), result.intersections.end(), [](const Intersection& i) { return i.kind == Kind::vertex_triangle; }));
+}
+
+TEST_CASE("primitives that share a vertex are no finding, whatever their positions", "[unit]") {
+  const std::vector<Vec3> folded{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};  // two triangles on one edge, folded onto each other
+  const AuditResult result = audit(build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}}), folded);
+  // Vertex 2 lies on triangle 1, which does not contain it, and the other way round; each edge shares a vertex with either triangle.
+  CHECK(result.intersections == std::vector{Intersection{Kind::vertex_triangle, 2, 1}, Intersection{Kind::vertex_triangle, 3, 0}});
+}
+
+TEST_CASE("a pair inside one rigid group is left out, a pair of two groups is not", "[unit]") {
+  const TwoTriangles mesh({1, 1, -1});
+  CHECK(mesh.audit(std::vector<Index>(6, 2)).count == 0);
+  CHECK(mesh.audit(std::vector<Index>(6, 0)).count == 0);
+  CHECK(mesh.audit(std::vector<Index>(6, -1)).count == 2);
+  CHECK(mesh.audit(std::vector<Index>{0, 0, 0, 1, 1, 1}).count == 2);
+  CHECK(mesh.audit(std::vector<Index>{0, 0, -1, 0, 0, 0}).count == 2);
+  CHECK(mesh.audit(std::vector<Index>{0, 0, 0, 0, 1, 0}).count == 1);  // edge 3–5 is inside, edge 3–4 is not
+}
+
+TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[unit]") {
+  const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
+  const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});
+  CHECK(audit(topology, positions).intersections == std::vector{edge_meets(topology, 3, 4, 0)});
+  CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 5);  // everything in one point: two edges and three vertices on the triangle
+  CHECK(audit(build_topology(0, {}), {}).count == 0);
+}
+
+TEST_CASE("an audit lists no more than the limit and counts on", "[unit]") {
+  const TwoTriangles mesh({1, 1, 0});
+  const AuditResult result = audit(mesh.topology, mesh.positions, {}, {.limit = 2});
+  CHECK(result.count == 3);
+  CHECK(result.intersections == std::vector{edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0)});
+}
+
+TEST_CASE("a state that is not finite, or of another mesh, is refused with the vertex or the sizes", "[unit]") {
+  TwoTriangles mesh({1, 1, 1});
+  mesh.positions[4].y = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(mesh.audit(), ContainsSubstring("vertex 4"));
+  mesh.positions[4].y = -std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(mesh.audit(), InputError);
+  mesh.positions.pop_back();
+  CHECK_THROWS_WITH(mesh.audit(), ContainsSubstring("5 positions") && ContainsSubstring("6 vertices"));
+  CHECK_THROWS_AS(TwoTriangles({1, 1, 1}).audit(std::vector<Index>(3, 0)), InputError);
+}
+
+TEST_CASE("a description names kinds, numbers, vertices and bodies", "[unit]") {
+  const TwoTriangles mesh({1, 1, 0});
+  AuditResult result = mesh.audit();
+  CHECK(describe(result, mesh.topology) ==
+        "edge 3 (vertices 3, 4) meets triangle 0 (vertices 0, 1, 2)\n"
+        "edge 4 (vertices 3, 5) meets triangle 0 (vertices 0, 1, 2)\n"
+        "vertex 3 lies on triangle 0 (vertices 0, 1, 2)\n");
+  result.intersections.erase(result.intersections.begin(), result.intersections.begin() + 2);
+  CHECK(describe(result, mesh.topology, {"floor", "floor", "floor", "cloth", "cloth", "cloth"}) ==
+        "vertex 3 (body 'cloth') lies on triangle 0 (vertices 0, 1, 2; body 'floor')\nand 2 more\n");
+  CHECK(describe(AuditResult{}, mesh.topology).empty());
+}
+
+TEST_CASE("the audit finds what brute force over all pairs finds in rational numbers, and a power of two changes nothing", "[property]") {
+  std::mt19937 random(5);
+  std::size_t findings = 0;
+  for (const int size : {2, 3, 6, 1 << 20}) {
+    std::uniform_int_distribution<int> coordinate(0, size);
+    std::uniform_int_distribution<Index> vertex(0, 11);
+    for (int trial = 0; trial < 4; ++trial) {
+      std::vector<Vec3> positions(12);
+      for (Vec3& p : positions) p = {0.1 * coordinate(random), 0.1 * coordinate(random), 0.1 * coordinate(random)};
+      std::vector<Triangle> triangles;
+      while (triangles.size() < 8) {
+        const Triangle t{vertex(random), vertex(random), vertex(random)};
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+      }
+      const Topology topology = build_topology(12, triangles, std::array{Edge{0, 11}, Edge{1, 10}});
+      const std::vector<Intersection> expected = all_pairs(topology, positions);
+      REQUIRE(audit(topology, positions).intersections == expected);
+      findings += expected.size();
+      for (const double scale : {0x1p-20, 0x1p20}) {
+        std::vector<Vec3> scaled = positions;
+        for (Vec3& p : scaled) p = {scale * p.x, scale * p.y, scale * p.z};
+        REQUIRE(audit(topology, scaled).intersections == expected);
+      }
+    }
+  }
+  CHECK(findings > 100);
+}
+
+TEST_CASE("the answer does not depend on the number of threads", "[property]") {
+  RolledSheet sheet(40);
+  for (std::size_t i = 0; i < sheet.positions.size(); i += 7) sheet.positions[i].x = -sheet.positions[i].x;
+  const AuditResult parallel = audit(sheet.topology, sheet.positions);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const AuditResult serial = audit(sheet.topology, sheet.positions);
+  CHECK(parallel.count > 1000);
+  CHECK(parallel.intersections == serial.intersections);
+  CHECK(parallel.count == serial.count);
+  CHECK(parallel.pairs_tested == serial.pairs_tested);
+}
+
+TEST_CASE("a rolled sheet of ten thousand vertices is clean, and one vertex pushed through a layer is found", "[property]") {
+  for (const double shear : {0.0, 0.3}) {
+    RolledSheet sheet(100, shear);
+    const auto begin = std::chrono::steady_clock::now();
+    const AuditResult clean = audit(sheet.topology, sheet.positions);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    WARN("audit of " << sheet.positions.size() << " vertices: " << seconds << " s, " << clean.pairs_tested << " pairs");
+    CHECK(clean.count == 0);
+    Vec3& vertex = sheet.positions[50 * 100 + 50];  // the layers are 0.126 m apart
+    vertex = {vertex.x * 1.9, vertex.y * 1.9, vertex.z};
+    CHECK(audit(sheet.topology, sheet.positions).count > 0);
+  }
+}

@@ -1,0 +1,94 @@
+#include "compare/record/steps_csv.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+#include "tests/compare/record/small_run.hpp"
+
+using namespace ogc::compare;
+using namespace ogc::tests;
+
+namespace {
+
+StepTable read_text(const Scratch& folder, const std::string& text) {
+  std::ofstream(folder / "steps.csv", std::ios::binary) << text;
+  return read_steps(folder / "");
+}
+
+/// A row in which no two columns have the same value.
+StepMetrics distinct_metrics() {
+  StepMetrics row;
+  int k = 1;
+  for (const StepColumn& column : step_columns())
+    std::visit([&](auto field) { row.*field = static_cast<std::remove_reference_t<decltype(row.*field)>>(k++); }, column.field);
+  return row;
+}
+
+}  // namespace
+
+TEST_CASE("each column has a name of its own, a unit and a field of its own", "[unit]") {
+  std::set<std::string_view> names;
+  std::string values;
+  for (const StepColumn& column : step_columns()) {
+    names.insert(column.name);
+    CHECK_FALSE(column.unit.empty());
+    values += (values.empty() ? "" : ",") + std::to_string(names.size());
+  }
+  CHECK(names.size() == step_columns().size());
+  CHECK(step_lines(std::array{distinct_metrics()}, 0) == values + "\n");
+  CHECK(step_header({}).starts_with("step [1],wall [ms],"));
+}
+
+TEST_CASE("rows come back as the same numbers, whatever they are", "[unit]") {
+  const Scratch folder;
+  std::vector<StepMetrics> rows{recorded_metrics(1), distinct_metrics()};
+  rows[0].wall_ms = 0.1 + 0.2;
+  rows[0].kinetic_energy = std::numeric_limits<double>::denorm_min();
+  rows[0].elastic_energy = std::numeric_limits<double>::infinity();
+  rows[0].largest_lag = -std::nan("");
+  rows[0].repeats = std::numeric_limits<std::int64_t>::max();
+  rows[0].status = 0xFFFFFFFF;
+  rows[1].stage_ms = {0.25, 1e-300};
+  const std::vector<std::string> stages{"detect", "sweep"};
+  const StepTable table = read_text(folder, step_header(stages) + step_lines(rows, 2));
+  CHECK(table.stage_names == stages);
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[0].wall_ms == 0.1 + 0.2);
+  CHECK(table.rows[0].kinetic_energy == std::numeric_limits<double>::denorm_min());
+  CHECK(std::isinf(table.rows[0].elastic_energy));
+  CHECK(std::isnan(table.rows[0].largest_lag));
+  CHECK(table.rows[0].repeats == std::numeric_limits<std::int64_t>::max());
+  CHECK(table.rows[0].status == 0xFFFFFFFF);
+  CHECK(std::isnan(table.rows[0].stage_ms.at(1)));
+  CHECK(table.rows[1].stage_ms == rows[1].stage_ms);
+  CHECK(step_lines(table.rows, 2) == step_lines(rows, 2));
+}
+
+TEST_CASE("a row with times for another number of stages is refused", "[unit]") {
+  StepMetrics row;
+  row.stage_ms = {1, 2};
+  CHECK_THROWS_AS(step_lines(std::array{row}, 3), std::invalid_argument);
+}
+
+TEST_CASE("the half line of a killed run is left out", "[unit]") {
+  const Scratch folder;
+  const std::string lines = step_lines(std::array{recorded_metrics(1), recorded_metrics(2)}, 0);
+  CHECK(read_text(folder, step_header({}) + lines).rows.size() == 2);
+  CHECK(read_text(folder, step_header({}) + lines.substr(0, lines.size() - 1)).rows.size() == 1);
+  CHECK(read_text(folder, step_header({})).rows.empty());
+}
+
+TEST_CASE("a damaged table is refused with file and line", "[unit]") {
+  const Scratch folder;
+  const std::string header = step_header({}), line = step_lines(std::array{recorded_metrics(1)}, 0);
+  CHECK_THROWS_WITH(read_text(folder, header + line + "1,2,x\n"), ContainsSubstring("steps.csv: line 3"));
+  CHECK_THROWS_WITH(read_text(folder, header + "x" + line), ContainsSubstring("line 2"));
+  CHECK_THROWS_WITH(read_text(folder, "step,wall\n"), ContainsSubstring("'step [1]' is expected"));
+  CHECK_THROWS_WITH(read_text(folder, header.substr(0, header.size() - 1) + ",mood\n"), ContainsSubstring("'mood'"));
+  CHECK_THROWS_AS(read_text(folder, ""), InputError);
+  CHECK_THROWS_AS(read_steps(folder / "nowhere"), InputError);
+}
