@@ -1,0 +1,18 @@
+// The stages of the reference under the judge's names.
+#include "reference/contestant.hpp"
+
+#include "reference/geometry/activation.hpp"
+#include "reference/geometry/bound.hpp"
+#include "reference/geometry/closest_face.hpp"
+#include "reference/geometry/closest_points.hpp"
+#include "reference/geometry/detect_edge_edge.hpp"
+#include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/truncate.hpp"
+
+namespace ogc::reference {
+
+compare::Authority authority() {
+  return {"reference", closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate};
+}
+
+}  // namespace ogc::reference

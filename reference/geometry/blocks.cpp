@@ -1,0 +1,56 @@
+// The square of each distance and each plane test multiplied by positive lengths: all signs of polynomials, so nothing here rounds.
+#include "reference/geometry/blocks.hpp"
+
+#include <algorithm>
+
+namespace ogc::reference {
+
+Index Complex::opposite(Index t, Index e) const {
+  const compare::Triangle& corners = triangle(t);
+  const compare::Edge& ends = edge(e);
+  return *std::find_if(corners.begin(), corners.end(), [&](Index v) { return v != ends[0] && v != ends[1]; });
+}
+
+Complex::Vertices Complex::vertices(Face face) const {
+  if (face.kind == FaceKind::vertex) return {{face.index, -1, -1}, 1};
+  if (face.kind == FaceKind::edge) return {{edge(face.index)[0], edge(face.index)[1], -1}, 2};
+  return {triangle(face.index), 3};
+}
+
+Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float radius) {
+  const auto v = mesh.vertices(face).items;
+  if (face.kind == FaceKind::vertex) return gap_points(mesh.at(v[0]), x, radius);
+  if (face.kind == FaceKind::edge) return gap_line(mesh.at(v[0]), mesh.at(v[1]), x, radius);
+  return gap_plane(mesh.at(v[0]), mesh.at(v[1]), mesh.at(v[2]), x, radius);
+}
+
+bool in_block(const Complex& mesh, Face face, const Vec3f& x, float radius) {
+  bool inside = true;
+  visit_block(mesh, face, x, [&](const Boundary& boundary) { return inside = holds(boundary.condition); });
+  return inside && sign(face_gap(mesh, face, x, radius)) <= 0;
+}
+
+bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float radius) {
+  bool inside = true;
+  visit_block(mesh, face, x, [&](const Boundary& boundary) {
+    if (boundary.condition.margin.kind == MarginKind::along) inside = holds(boundary.condition);
+    return inside;
+  });
+  return inside && sign(face_gap(mesh, face, x, radius)) <= 0;
+}
+
+Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius) {
+  const auto a = mesh.vertices(pair.first).items, b = mesh.vertices(pair.second).items;
+  if (pair.first.kind == FaceKind::edge) return gap_lines(mesh.at(a[0]), mesh.at(a[1]), mesh.at(b[0]), mesh.at(b[1]), radius);
+  if (pair.second.kind == FaceKind::edge) return gap_line(mesh.at(b[0]), mesh.at(b[1]), mesh.at(a[0]), radius);
+  return gap_points(mesh.at(a[0]), mesh.at(b[0]), radius);
+}
+
+bool in_one_group(std::span<const Index> groups, std::span<const Index> first, std::span<const Index> second) {
+  if (groups.empty()) return false;
+  const Index group = groups[static_cast<std::size_t>(first.front())];
+  const auto same = [&](Index v) { return groups[static_cast<std::size_t>(v)] == group; };
+  return group >= 0 && std::all_of(first.begin(), first.end(), same) && std::all_of(second.begin(), second.end(), same);
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,143 @@
+// Block membership: the conditions of Eq. 8–10 (manifold), 14 and 15 (edge-only manifold), each with the face that lies across its boundary.
+#pragma once
+
+#include <span>
+
+#include "compare/problem/mesh.hpp"
+#include "reference/geometry/conditions.hpp"
+
+namespace ogc::reference {
+
+using compare::Face;
+using compare::FaceKind;
+using compare::Index;
+
+/// A mesh at given positions. Views; the owner must outlive it.
+struct Complex {
+  const compare::Topology& topology;
+  std::span<const Vec3f> positions;
+
+  const Vec3f& at(Index vertex) const { return positions[static_cast<std::size_t>(vertex)]; }
+  const compare::Edge& edge(Index e) const { return topology.edges[static_cast<std::size_t>(e)]; }
+  const compare::Triangle& triangle(Index t) const { return topology.triangles[static_cast<std::size_t>(t)]; }
+  std::span<const Index> edges_of(Index vertex) const { return topology.vertex_edges[static_cast<std::size_t>(vertex)]; }
+  std::span<const Index> triangles_of(Index e) const { return topology.edge_triangles[static_cast<std::size_t>(e)]; }
+  /// The vertex of edge e that is not `vertex`.
+  Index across(Index e, Index vertex) const { return edge(e)[0] == vertex ? edge(e)[1] : edge(e)[0]; }
+  /// The vertex of triangle t that is not on edge e.
+  Index opposite(Index t, Index e) const;
+  /// The vertices of a face; `count` of them are used.
+  struct Vertices {
+    std::array<Index, 3> items{-1, -1, -1};
+    int count = 0;
+    std::span<const Index> span() const { return {items.data(), static_cast<std::size_t>(count)}; }
+  };
+  Vertices vertices(Face face) const;
+};
+
+inline Face vertex_face(Index v) { return {FaceKind::vertex, v}; }
+inline Face edge_face(Index e) { return {FaceKind::edge, e}; }
+inline Face triangle_face(Index t) { return {FaceKind::triangle, t}; }
+
+/// A condition of a block and the face whose block begins where it ends.
+struct Boundary {
+  Condition condition;
+  Face across;
+};
+
+/// All boundaries of U_a but the distance, for the point x (Eq. 8, 9, 10): visit(Boundary) returns false to stop. A margin that two faces share is
+/// written with its vertices in the same order by both.
+template <class Visit>
+void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
+  if (face.kind == FaceKind::vertex) {
+    for (const Index e : mesh.edges_of(face.index)) {
+      if (!visit(Boundary{{along(mesh.at(face.index), mesh.at(mesh.across(e, face.index)), x), false}, edge_face(e)})) return;
+    }
+  } else if (face.kind == FaceKind::edge) {
+    const auto [a, b] = mesh.edge(face.index);
+    if (!visit(Boundary{{along(mesh.at(a), mesh.at(b), x), true}, vertex_face(a)})) return;
+    if (!visit(Boundary{{along(mesh.at(b), mesh.at(a), x), true}, vertex_face(b)})) return;
+    for (const Index t : mesh.triangles_of(face.index)) {
+      if (!visit(Boundary{{side(mesh.at(a), mesh.at(b), mesh.at(mesh.opposite(t, face.index)), x), false}, triangle_face(t)})) return;
+    }
+  } else {
+    for (const Index e : mesh.topology.triangle_edges[static_cast<std::size_t>(face.index)]) {
+      const auto [a, b] = mesh.edge(e);
+      if (!visit(Boundary{{side(mesh.at(a), mesh.at(b), mesh.at(mesh.opposite(face.index, e)), x), true}, edge_face(e)})) return;
+    }
+  }
+}
+
+/// The distance from x to the point, line or plane of a face, as a gap.
+Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float radius);
+
+/// x ∈ U_a, closed at distance r (Eq. 8, 9, 10).
+bool in_block(const Complex& mesh, Face face, const Vec3f& x, float radius);
+
+/// x ∈ U_a^E for a vertex or an edge (Eq. 14, 15).
+bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float radius);
+
+/// Two faces of the edge-only manifold.
+struct FacePair {
+  Face first, second;
+  friend auto operator<=>(const FacePair&, const FacePair&) = default;
+};
+inline FacePair ordered(Face a, Face b) { return a < b ? FacePair{a, b} : FacePair{b, a}; }
+
+/// A condition on a pair of faces and the pair that holds the closest points where it ends.
+struct PairBoundary {
+  Condition condition;
+  FacePair across;
+};
+
+/// That the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17), and that these are their closest points.
+template <class Visit>
+void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
+  const auto [a, b] = mesh.edge(e);
+  const Vec3f& x = mesh.at(p);
+  if (!visit(PairBoundary{{along(mesh.at(a), mesh.at(b), x), true}, ordered(vertex_face(p), vertex_face(a))})) return;
+  if (!visit(PairBoundary{{along(mesh.at(b), mesh.at(a), x), true}, ordered(vertex_face(p), vertex_face(b))})) return;
+  for (const Index f : mesh.edges_of(p)) {
+    const Margin step = turn(x, mesh.at(mesh.across(f, p)), mesh.at(a), mesh.at(b));
+    if (!visit(PairBoundary{{step, false}, ordered(edge_face(f), edge_face(e))})) return;
+  }
+}
+
+template <class Visit>
+void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
+  for (const Index e : mesh.edges_of(p)) {
+    const Margin step = along(mesh.at(p), mesh.at(mesh.across(e, p)), mesh.at(q));
+    if (!visit(PairBoundary{{step, false}, ordered(edge_face(e), vertex_face(q))})) return;
+  }
+  for (const Index e : mesh.edges_of(q)) {
+    const Margin step = along(mesh.at(q), mesh.at(mesh.across(e, q)), mesh.at(p));
+    if (!visit(PairBoundary{{step, false}, ordered(edge_face(e), vertex_face(p))})) return;
+  }
+}
+
+template <class Visit>
+void visit_edge_edge(const Complex& mesh, Index e, Index f, Visit visit) {
+  const auto [p0, p1] = mesh.edge(e);
+  const auto [q0, q1] = mesh.edge(f);
+  const Vec3f &a = mesh.at(p0), &b = mesh.at(p1), &c = mesh.at(q0), &d = mesh.at(q1);
+  if (!visit(PairBoundary{{turn(a, b, c, d), true}, ordered(vertex_face(p0), edge_face(f))})) return;
+  if (!visit(PairBoundary{{turn(b, a, c, d), true}, ordered(vertex_face(p1), edge_face(f))})) return;
+  if (!visit(PairBoundary{{turn(c, d, a, b), true}, ordered(vertex_face(q0), edge_face(e))})) return;
+  visit(PairBoundary{{turn(d, c, a, b), true}, ordered(vertex_face(q1), edge_face(e))});
+}
+
+/// All conditions of an ordered pair but the distance: visit(PairBoundary) returns false to stop.
+template <class Visit>
+void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
+  if (pair.first.kind == FaceKind::edge) return visit_edge_edge(mesh, pair.first.index, pair.second.index, visit);
+  if (pair.second.kind == FaceKind::edge) return visit_vertex_edge(mesh, pair.first.index, pair.second.index, visit);
+  visit_vertex_vertex(mesh, pair.first.index, pair.second.index, visit);
+}
+
+/// The distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
+Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius);
+
+/// True where all given vertices carry the same rigid group ≥ 0 (see compare::DetectIn); false where there are no groups.
+bool in_one_group(std::span<const Index> groups, std::span<const Index> first, std::span<const Index> second);
+
+}  // namespace ogc::reference

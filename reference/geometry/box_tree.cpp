@@ -1,0 +1,81 @@
+// Median splits halve the count at each level, so 64 stack entries are enough for any 32-bit number of primitives.
+#include "reference/geometry/box_tree.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ogc::reference {
+namespace {
+
+constexpr std::uint32_t leaf_size = 4;
+
+double middle(const Box& box, std::size_t axis) { return box.low[axis] + box.high[axis]; }
+
+std::size_t longest_axis(const Box& box) {
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
+  }
+  return axis;
+}
+
+}  // namespace
+
+void include(Box& box, const compare::Vec3f& point) {
+  const std::array<double, 3> p{point.x, point.y, point.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = std::min(box.low[k], p[k]);
+    box.high[k] = std::max(box.high[k], p[k]);
+  }
+}
+
+void include(Box& box, const Box& other) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = std::min(box.low[k], other.low[k]);
+    box.high[k] = std::max(box.high[k], other.high[k]);
+  }
+}
+
+Box widened(Box box, double distance) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= distance;
+    box.high[k] += distance;
+  }
+  return box;
+}
+
+bool meet(const Box& a, const Box& b) {
+  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] && a.low[2] <= b.high[2] &&
+         b.low[2] <= a.high[2];
+}
+
+BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  if (boxes_.empty()) return;
+  nodes_.emplace_back();
+  build(0, 0, static_cast<std::uint32_t>(boxes_.size()));
+}
+
+void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  Box box;
+  for (std::uint32_t k = first; k < first + count; ++k) include(box, boxes_[static_cast<std::size_t>(order_[k])]);
+  nodes_[node].box = box;
+  if (count <= leaf_size) {
+    nodes_[node].first = first;
+    nodes_[node].count = count;
+    return;
+  }
+  const std::size_t axis = longest_axis(box);
+  const std::uint32_t half = count / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, [&](Index a, Index b) {
+    const double x = middle(boxes_[static_cast<std::size_t>(a)], axis), y = middle(boxes_[static_cast<std::size_t>(b)], axis);
+    return x < y || (x == y && a < b);
+  });
+  const auto child = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node].first = child;
+  nodes_.resize(nodes_.size() + 2);
+  build(child, first, half);
+  build(child + 1, first + half, count - half);
+}
+
+}  // namespace ogc::reference

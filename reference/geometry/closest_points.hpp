@@ -1,0 +1,44 @@
+// Stage closest_points: the optimality conditions of the closest points of two closed edges (Alg. 2; method.md §1, row "Eq. 17, Alg. 2").
+#pragma once
+
+#include <array>
+
+#include "compare/stages/closest_points.hpp"
+#include "reference/geometry/conditions.hpp"
+
+namespace ogc::reference {
+
+using compare::EdgeFeature;
+
+/// Two edges; `first` is the lower-numbered one.
+struct EdgePair {
+  std::array<Vec3f, 2> first, second;
+};
+
+struct EdgeFeatures {
+  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;
+  friend bool operator==(const EdgeFeatures&, const EdgeFeatures&) = default;
+};
+
+/// All nine combinations in the order that breaks ties: ends first.
+inline constexpr int edge_feature_pairs = 9;
+inline EdgeFeatures edge_features(int number) { return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)}; }
+
+/// The faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are unique unless the edges are exactly
+/// parallel; then the first in the order of edge_features. A zero-length edge is its end_0.
+EdgeFeatures closest_features(const EdgePair& pair);
+
+/// Whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest ones are certain, no others can be.
+Membership are_closest(const EdgePair& pair, EdgeFeatures features);
+
+/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the projection of the second edge on the line of the first overlaps the first in more than a point.
+Membership are_nearly_parallel(const EdgePair& pair);
+bool nearly_parallel(const EdgePair& pair);
+
+/// The distance of the points, point and line, or lines of the features, as a gap: the distance of the edges where these are the closest features.
+Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
+
+/// All cases, in parallel over them.
+compare::ClosestPointsTruth closest_points(const compare::ClosestPointsIn& in);
+
+}  // namespace ogc::reference

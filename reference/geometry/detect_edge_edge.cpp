@@ -1,0 +1,184 @@
+// Algorithm 2 over unordered pairs, each visited once, from its lower-numbered edge. As in detect_vertex_facet the grey zone is asked separately, about
+// all nine pairs of faces of two edges within r.
+#include "reference/geometry/detect_edge_edge.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "reference/geometry/box_tree.hpp"
+#include "reference/geometry/closest_points.hpp"
+#include "reference/geometry/generated_pairs.hpp"
+#include "reference/geometry/smallest.hpp"
+
+namespace ogc::reference {
+namespace {
+
+/// Neither adjacent nor inside one rigid group.
+bool is_candidate_pair(const compare::DetectIn& in, Index e, Index f) {
+  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(f)];
+  const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+  return !adjacent && !in_one_group(in.rigid_groups, a, b);
+}
+
+/// What the pairs of one lower-numbered edge add to the answer.
+struct EdgeAnswer {
+  std::vector<Generated> generated;
+  std::vector<Doubt> doubts;
+  std::size_t pairs = 0;
+};
+
+class EdgeQuery {
+ public:
+  EdgeQuery(const compare::DetectIn& in, Index edge) : in_(in), mesh_{*in.topology, in.positions}, edge_(edge) {}
+
+  /// One non-adjacent, higher-numbered edge whose box is near. Returns the distance, rounded down.
+  float visit(Index other) {
+    const EdgePair pair{ends(edge_), ends(other)};
+    const EdgeFeatures closest = closest_features(pair);
+    const Margin gap = with_radius(feature_gap(pair, closest), in_.contact_radius);
+    const float d = distance_below(gap);
+    if (d < in_.query_radius) ++answer_.pairs;
+    const bool within = d < in_.contact_radius, doubtful = grey(gap);
+    if (within || doubtful) enter(other, pair, closest, within, doubtful);
+    return d;
+  }
+
+  EdgeAnswer finish() { return std::move(answer_); }
+
+ private:
+  std::array<Vec3f, 2> ends(Index e) const { return {mesh_.at(mesh_.edge(e)[0]), mesh_.at(mesh_.edge(e)[1])}; }
+
+  Face face_of(Index e, EdgeFeature feature) const {
+    return feature == EdgeFeature::interior ? edge_face(e) : vertex_face(mesh_.edge(e)[static_cast<std::size_t>(feature)]);
+  }
+
+  FacePair faces_of(Index other, EdgeFeatures features) const {
+    return ordered(face_of(edge_, features.first), face_of(other, features.second));
+  }
+
+  std::vector<Index> edges_around(Face face) const {
+    if (face.kind == FaceKind::edge) return {face.index};
+    const auto around = mesh_.edges_of(face.index);
+    return {around.begin(), around.end()};
+  }
+
+  /// Whether some pair of edges that is neither adjacent nor inside one rigid group contains the faces.
+  bool is_candidate(const FacePair& faces) const {
+    const std::vector<Index> first = edges_around(faces.first), second = edges_around(faces.second);
+    return std::any_of(first.begin(), first.end(), [&](Index e) {
+      return std::any_of(second.begin(), second.end(), [&](Index f) { return is_candidate_pair(in_, e, f); });
+    });
+  }
+
+  void add(const FacePair& faces, Index other, bool exact, bool certain) {
+    answer_.generated.push_back({faces, edge_, other, exact, certain});
+  }
+
+  void enter(Index other, const EdgePair& pair, EdgeFeatures closest, bool within, bool doubtful) {
+    const FacePair interiors = ordered(edge_face(edge_), edge_face(other));
+    const Membership rule = are_nearly_parallel(pair);
+    if (rule.possible) {
+      add(interiors, other, rule.exact && within, rule.certain && within && !doubtful);
+      if (doubtful) answer_.doubts.push_back({interiors, interiors, false});
+      if (rule.certain) return;
+    }
+    enter_features(other, pair, closest, closest, rule);
+    if (are_closest(pair, closest).certain) return;
+    for (int k = 0; k < edge_feature_pairs; ++k) {
+      if (edge_features(k) != closest) enter_features(other, pair, edge_features(k), closest, rule);
+    }
+  }
+
+  /// One of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the order of closest_features.
+  void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest, const Membership& rule) {
+    const FacePair faces = faces_of(other, features);
+    const bool is_closest = features == closest;
+    if (!is_closest) {
+      const Membership local = are_closest(pair, features);
+      if (!local.possible || local.certain) return;
+    }
+    const Membership inside = membership(faces);
+    if (!inside.possible) return;
+    // The rule for nearly parallel edges gives the interiors too, so only other features are in doubt about it.
+    const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
+    const bool unaffected = is_interiors || !rule.possible;
+    add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact), is_closest && inside.certain && unaffected);
+    if (!unaffected) answer_.doubts.push_back({faces, ordered(edge_face(edge_), edge_face(other)), true});
+    if (!inside.certain) note_boundaries(faces);
+  }
+
+  void note_boundaries(const FacePair& faces) {
+    if (grey(pair_gap(mesh_, faces, in_.contact_radius))) answer_.doubts.push_back({faces, faces, false});
+    visit_pair(mesh_, faces, [&](const PairBoundary& boundary) {
+      if (!grey(boundary.condition.margin)) return true;
+      const bool replaced = is_candidate(boundary.across) && membership(boundary.across).possible;
+      answer_.doubts.push_back({faces, replaced ? boundary.across : faces, replaced});
+      return true;
+    });
+  }
+
+  Membership membership(const FacePair& faces) const {
+    Membership inside;
+    visit_pair(mesh_, faces, [&](const PairBoundary& boundary) {
+      require(inside, boundary.condition);
+      return inside.possible;
+    });
+    if (!inside.possible) return inside;
+    const Margin gap = pair_gap(mesh_, faces, in_.contact_radius);
+    const bool below = sign(gap) < 0, doubtful = grey(gap);
+    return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
+  }
+
+  const compare::DetectIn& in_;
+  Complex mesh_;
+  Index edge_;
+  EdgeAnswer answer_;
+};
+
+std::vector<Box> edge_boxes(const compare::DetectIn& in) {
+  std::vector<Box> boxes(in.topology->edges.size());
+  for (std::size_t e = 0; e < boxes.size(); ++e) {
+    for (const Index v : in.topology->edges[e]) include(boxes[e], in.positions[static_cast<std::size_t>(v)]);
+  }
+  return boxes;
+}
+
+EdgeAnswer query_edge(const compare::DetectIn& in, const BoxTree& tree, const Box& box, Index e, Smallest& of_edge) {
+  EdgeQuery query(in, e);
+  tree.query(widened(box, in.query_radius * search_margin), [&](Index other) {
+    if (other <= e || !is_candidate_pair(in, e, other)) return;
+    const float d = query.visit(other);
+    of_edge.lower(static_cast<std::size_t>(e), d);
+    of_edge.lower(static_cast<std::size_t>(other), d);
+  });
+  return query.finish();
+}
+
+}  // namespace
+
+compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) {
+  const std::vector<Box> boxes = edge_boxes(in);
+  const BoxTree tree(boxes);
+  Smallest of_edge(boxes.size(), in.query_radius);
+  std::vector<EdgeAnswer> answers(boxes.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t e = range.begin(); e < range.end(); ++e) answers[e] = query_edge(in, tree, boxes[e], static_cast<Index>(e), of_edge);
+  });
+  compare::DetectEdgeEdgeTruth truth;
+  std::vector<Generated> generated;
+  std::vector<Doubt> doubts;
+  for (const EdgeAnswer& answer : answers) {
+    truth.pairs += answer.pairs;
+    generated.insert(generated.end(), answer.generated.begin(), answer.generated.end());
+    doubts.insert(doubts.end(), answer.doubts.begin(), answer.doubts.end());
+  }
+  Assembled assembled = assemble({*in.topology, in.positions}, std::move(generated), doubts);
+  truth.exact.contacts = std::move(assembled.contacts);
+  truth.exact.d_min_edge = of_edge.take();
+  truth.grey = std::move(assembled.grey);
+  return truth;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,214 @@
+// Algorithm 1 in its own order: distance, smallest distances, closest face, feasible region. The grey zone is asked separately, about every face of
+// every triangle within r: a doubtful face of a neighbour matters even where Algorithm 1 never looks at it.
+#include "reference/geometry/detect_vertex_facet.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "reference/geometry/blocks.hpp"
+#include "reference/geometry/box_tree.hpp"
+#include "reference/geometry/closest_face.hpp"
+#include "reference/geometry/grey_groups.hpp"
+#include "reference/geometry/smallest.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::VertexFacetContact;
+using Grey = compare::GreyDecision<VertexFacetContact>;
+
+/// What one vertex adds to the answer.
+struct VertexAnswer {
+  std::vector<VertexFacetContact> contacts;
+  std::vector<Grey> grey;
+  std::size_t pairs = 0;
+};
+
+class VertexQuery {
+ public:
+  VertexQuery(const compare::DetectIn& in, Index vertex) : in_(in), mesh_{*in.topology, in.positions}, vertex_(vertex), x_(mesh_.at(vertex)) {}
+
+  /// One non-adjacent triangle whose box is near. Returns the distance, rounded down.
+  float visit(Index t) {
+    const auto [a, b, c] = mesh_.triangle(t);
+    const Corners corners{mesh_.at(a), mesh_.at(b), mesh_.at(c)};
+    const TriangleFeature feature = closest_feature(corners, x_);
+    const Margin gap = feature_gap(corners, feature, x_);
+    const float d = distance_below(gap);
+    if (d < in_.query_radius) ++answer_.pairs;
+    const bool within = d < in_.contact_radius;
+    if (within) enter(face_of(t, feature));
+    if (within || grey(with_radius(gap, in_.contact_radius))) ask_about(t, corners, feature);
+    return d;
+  }
+
+  VertexAnswer finish() {
+    for (const auto& group : doubtful_.groups()) {
+      Grey decision;
+      bool some_exact = false;
+      for (const Face& face : group.keys) {
+        decision.contacts.push_back(contact(face));
+        some_exact = some_exact || entered(face);
+      }
+      decision.absence_accepted = group.absence || !some_exact;
+      answer_.grey.push_back(std::move(decision));
+    }
+    std::sort(answer_.contacts.begin(), answer_.contacts.end());
+    return std::move(answer_);
+  }
+
+ private:
+  Face face_of(Index t, TriangleFeature feature) const {
+    const auto f = static_cast<std::size_t>(feature);
+    if (f < 3) return vertex_face(mesh_.triangle(t)[f]);
+    if (f < 6) return edge_face(mesh_.topology.triangle_edges[static_cast<std::size_t>(t)][f - 3]);
+    return triangle_face(t);
+  }
+
+  /// The triangles that contain a face, ascending.
+  std::vector<Index> triangles_around(Face face) const {
+    if (face.kind == FaceKind::triangle) return {face.index};
+    const auto i = static_cast<std::size_t>(face.index);
+    const auto around = face.kind == FaceKind::vertex ? mesh_.topology.vertex_triangles[i] : mesh_.topology.edge_triangles[i];
+    return {around.begin(), around.end()};
+  }
+
+  VertexFacetContact contact(Face face) const { return {vertex_, face, triangles_around(face).front()}; }
+
+  bool entered(Face face) const {
+    return std::any_of(answer_.contacts.begin(), answer_.contacts.end(), [&](const VertexFacetContact& c) { return c.face == face; });
+  }
+
+  /// Alg. 1 lines 9–20.
+  void enter(Face face) {
+    if (entered(face)) return;
+    if (face.kind != FaceKind::triangle) {
+      bool inside = true;
+      visit_block(mesh_, face, x_, [&](const Boundary& boundary) { return inside = holds(boundary.condition); });
+      if (!inside) return;
+    }
+    answer_.contacts.push_back(contact(face));
+  }
+
+  /// The faces of a triangle within r that are or could be closest: which of them are doubtful, and what they are doubtful against.
+  void ask_about(Index t, const Corners& corners, TriangleFeature closest) {
+    const std::uint8_t features = possible_features(corners, x_);
+    for (int f = 0; f < 7; ++f) {
+      if ((features >> f & 1) != 0) note(face_of(t, static_cast<TriangleFeature>(f)));
+    }
+    if (has_area(corners)) return;
+    // A collapsed triangle has several closest faces at once; Algorithm 1 takes one, another order of its edges would take another.
+    for (int f = 0; f < 6; ++f) {
+      const Face face = face_of(t, static_cast<TriangleFeature>(f));
+      if (static_cast<TriangleFeature>(f) == closest || !membership(face).possible) continue;
+      doubtful_.add(face, false);
+      if (membership(face_of(t, closest)).possible) doubtful_.add(face_of(t, closest), false);
+      doubtful_.join(face, face_of(t, closest));
+    }
+  }
+
+  void note(Face face) {
+    if (!noted_.insert(face).second) return;
+    const Membership& inside = membership(face);
+    if (!inside.possible || inside.certain) return;
+    doubtful_.add(face, grey(face_gap(mesh_, face, x_, in_.contact_radius)));
+    visit_block(mesh_, face, x_, [&](const Boundary& boundary) {
+      if (!grey(boundary.condition.margin)) return true;
+      if (membership(boundary.across).possible) {
+        note(boundary.across);
+        doubtful_.join(face, boundary.across);
+      } else {
+        doubtful_.add(face, true);
+      }
+      return true;
+    });
+  }
+
+  const Membership& membership(Face face) {
+    const auto known = known_.find(face);
+    if (known != known_.end()) return known->second;
+    return known_.emplace(face, decide(face)).first->second;
+  }
+
+  Membership decide(Face face) const {
+    constexpr Membership outside{false, false, false};
+    if (!is_candidate(face)) return outside;
+    Membership inside;
+    visit_block(mesh_, face, x_, [&](const Boundary& boundary) {
+      require(inside, boundary.condition);
+      return inside.possible;
+    });
+    if (!inside.possible) return inside;
+    if (face.kind == FaceKind::triangle) {
+      const auto [a, b, c] = mesh_.triangle(face.index);
+      if (!has_area({mesh_.at(a), mesh_.at(b), mesh_.at(c)})) return outside;
+    }
+    const Margin gap = face_gap(mesh_, face, x_, in_.contact_radius);
+    const bool below = sign(gap) < 0, doubtful = grey(gap);
+    return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
+  }
+
+  /// Eq. 12 ranges over faces of triangles, and at least one of them must make a pair with the vertex that no rigid group leaves out.
+  bool is_candidate(Face face) const {
+    const std::vector<Index> around = triangles_around(face);
+    return std::any_of(around.begin(), around.end(), [&](Index t) { return !in_one_group(in_.rigid_groups, {&vertex_, 1}, mesh_.triangle(t)); });
+  }
+
+  const compare::DetectIn& in_;
+  Complex mesh_;
+  Index vertex_;
+  Vec3f x_;
+  VertexAnswer answer_;
+  std::map<Face, Membership> known_;
+  std::set<Face> noted_;
+  GreyGroups<Face> doubtful_;
+};
+
+BoxTree triangle_tree(const compare::DetectIn& in) {
+  std::vector<Box> boxes(in.topology->triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const Index v : in.topology->triangles[t]) include(boxes[t], in.positions[static_cast<std::size_t>(v)]);
+  }
+  return BoxTree(std::move(boxes));
+}
+
+VertexAnswer query_vertex(const compare::DetectIn& in, const BoxTree& tree, Index v, Smallest& of_vertex, Smallest& of_triangle) {
+  VertexQuery query(in, v);
+  Box box;
+  include(box, in.positions[static_cast<std::size_t>(v)]);
+  tree.query(widened(box, in.query_radius * search_margin), [&](Index t) {
+    const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
+    if (std::find(corners.begin(), corners.end(), v) != corners.end() || in_one_group(in.rigid_groups, {&v, 1}, corners)) return;
+    const float d = query.visit(t);
+    of_vertex.lower(static_cast<std::size_t>(v), d);
+    of_triangle.lower(static_cast<std::size_t>(t), d);
+  });
+  return query.finish();
+}
+
+}  // namespace
+
+compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in) {
+  const BoxTree tree = triangle_tree(in);
+  const std::size_t count = in.positions.size();
+  Smallest of_vertex(count, in.query_radius), of_triangle(in.topology->triangles.size(), in.query_radius);
+  std::vector<VertexAnswer> answers(count);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t v = range.begin(); v < range.end(); ++v) answers[v] = query_vertex(in, tree, static_cast<Index>(v), of_vertex, of_triangle);
+  });
+  compare::DetectVertexFacetTruth truth;
+  for (VertexAnswer& answer : answers) {
+    truth.pairs += answer.pairs;
+    truth.exact.contacts.insert(truth.exact.contacts.end(), answer.contacts.begin(), answer.contacts.end());
+    std::move(answer.grey.begin(), answer.grey.end(), std::back_inserter(truth.grey));
+  }
+  truth.exact.d_min_vertex = of_vertex.take();
+  truth.exact.d_min_triangle = of_triangle.take();
+  return truth;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,11 @@
+// Stage detect_vertex_facet: Algorithm 1, Eq. 12, 22, 26.
+#pragma once
+
+#include "compare/stages/detect_vertex_facet.hpp"
+
+namespace ogc::reference {
+
+/// Vertices in parallel; the answer does not depend on the number of threads.
+compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in);
+
+}  // namespace ogc::reference

@@ -1,0 +1,198 @@
+// Sign by intervals first: one in some ten thousand random cases needs the exact number, and structured meshes with few digits need none,
+// because an interval without rounding is a point.
+#include "reference/geometry/margin.hpp"
+
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Mpzf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "compare/stages/numbers.hpp"
+#include "reference/geometry/formulas.hpp"
+#include "reference/geometry/sensitivity.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using Interval = CGAL::Interval_nt<false>;
+using Exact = CGAL::Mpzf;
+
+/// Sets the rounding that intervals need, for as long as it lives.
+using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
+
+template <class T>
+using Points = std::array<Point<T>, 4>;
+
+template <class T>
+Points<T> widen(const Margin& margin) {
+  Points<T> points;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3f& p = margin.at[i];
+    points[i] = {T(static_cast<double>(p.x)), T(static_cast<double>(p.y)), T(static_cast<double>(p.z))};
+  }
+  return points;
+}
+
+/// Degree in the coordinates.
+int degree(MarginKind kind) {
+  switch (kind) {
+    case MarginKind::along:
+    case MarginKind::gap_points: return 2;
+    case MarginKind::side:
+    case MarginKind::turn:
+    case MarginKind::parallel:
+    case MarginKind::gap_line: return 4;
+    default: return 6;
+  }
+}
+
+template <class T>
+Quotient<T> squared_distance(MarginKind kind, const Points<T>& at) {
+  switch (kind) {
+    case MarginKind::gap_points: return squared_distance_points(at[0], at[1]);
+    case MarginKind::gap_line: return squared_distance_line(at[0], at[1], at[2]);
+    case MarginKind::gap_plane: return squared_distance_plane(at[0], at[1], at[2], at[3]);
+    default: return squared_distance_lines(at[0], at[1], at[2], at[3]);
+  }
+}
+
+template <class T>
+T evaluate(MarginKind kind, const Points<T>& at, const T& radius) {
+  switch (kind) {
+    case MarginKind::along: return along(at[0], at[1], at[2]);
+    case MarginKind::side: return side(at[0], at[1], at[2], at[3]);
+    case MarginKind::turn: return turn(at[0], at[1], at[2], at[3]);
+    case MarginKind::parallel: return parallel(at[0], at[1], at[2], at[3]);
+    default: {
+      const Quotient<T> d = squared_distance(kind, at);
+      return d.numerator - radius * radius * d.denominator;
+    }
+  }
+}
+
+template <class T>
+T evaluate(const Margin& margin) {
+  return evaluate(margin.kind, widen<T>(margin), T(static_cast<double>(margin.radius)));
+}
+
+int exact_sign(const Margin& margin) { return static_cast<int>(evaluate<Exact>(margin).sign()); }
+
+/// The points relative to the first one, as differences in double: what the grey zone calls δ.
+std::array<std::array<double, 3>, 4> relative(const Margin& margin) {
+  std::array<std::array<double, 3>, 4> delta{};
+  const Vec3f& o = margin.at[0];
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Vec3f& p = margin.at[i];
+    delta[i] = {static_cast<double>(p.x) - o.x, static_cast<double>(p.y) - o.y, static_cast<double>(p.z) - o.z};
+  }
+  return delta;
+}
+
+template <class T>
+Points<T> constants(const std::array<std::array<double, 3>, 4>& delta) {
+  Points<T> points;
+  for (std::size_t i = 0; i < 4; ++i) points[i] = {T(delta[i][0]), T(delta[i][1]), T(delta[i][2])};
+  return points;
+}
+
+/// Σ|∂m/∂δᵢ||δᵢ|.
+double sensitivity(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
+  using Number = Dual<9>;
+  Points<Number> points{};
+  for (std::size_t i = 1; i < 4; ++i) {
+    const std::size_t first = 3 * (i - 1);
+    points[i] = {Number(delta[i][0], first), Number(delta[i][1], first + 1), Number(delta[i][2], first + 2)};
+  }
+  const Number m = evaluate(margin.kind, points, Number(margin.radius));
+  double sum = 0;
+  for (std::size_t i = 0; i < 9; ++i) sum += std::abs(m.slope[i] * delta[1 + i / 3][i % 3]);
+  return sum;
+}
+
+/// Leading 106 bits or more, of which long double keeps 64.
+long double to_long_double(const Exact& x) {
+  const double high = x.to_double();
+  const Exact rest = x - Exact(high);
+  return static_cast<long double>(high) + static_cast<long double>(rest.to_double());
+}
+
+/// The largest single-precision number that is not above x ≥ 0.
+float round_down(double x) {
+  if (x > static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::max();
+  const float f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
+}
+
+/// The distance as an interval; everything from 0 to infinity where the denominator's interval holds 0.
+std::pair<double, double> distance_interval(const Margin& gap) {
+  const UpwardRounding rounding;
+  const Quotient<Interval> squared = squared_distance(gap.kind, widen<Interval>(gap));
+  if (!(squared.denominator.inf() > 0)) return {0, std::numeric_limits<double>::infinity()};
+  const Interval ratio = squared.numerator / squared.denominator;
+  const Interval root = CGAL::sqrt(Interval(std::max(0.0, ratio.inf()), ratio.sup()));
+  return {root.inf(), root.sup()};
+}
+
+/// From a close guess to the exact answer: the gap about f is not negative where f is not above the distance.
+float settle_below(const Margin& gap, float f) {
+  while (f > 0 && exact_sign(with_radius(gap, f)) < 0) f = std::nextafter(f, 0.0f);
+  for (;;) {
+    const float next = std::nextafter(f, std::numeric_limits<float>::infinity());
+    if (!std::isfinite(next) || exact_sign(with_radius(gap, next)) < 0) return f;
+    f = next;
+  }
+}
+
+}  // namespace
+
+int sign(const Margin& margin) {
+  {
+    const UpwardRounding rounding;
+    const Interval value = evaluate<Interval>(margin);
+    if (value.inf() > 0) return 1;
+    if (value.sup() < 0) return -1;
+    if (value.inf() == 0 && value.sup() == 0) return 0;
+  }
+  return exact_sign(margin);
+}
+
+bool grey(const Margin& margin) {
+  const auto delta = relative(margin);
+  const double radius = margin.radius;
+  const double m = std::abs(evaluate(margin.kind, constants<double>(delta), radius));
+  const double modulus = evaluate(margin.kind, constants<Modulus>(delta), Modulus(radius)).value;
+  // Twice the bound, so that the roundings of m (some 2⁻⁵⁰ modulus) cannot hide a grey case.
+  if (m > 2 * compare::grey_factor * degree(margin.kind) * modulus) return false;
+  const double reach = compare::grey_factor * sensitivity(margin, delta);
+  return reach > 0 && m <= reach;
+}
+
+double distance(const Margin& gap) {
+  const Quotient<Exact> squared = squared_distance(gap.kind, widen<Exact>(gap));
+  return static_cast<double>(std::sqrt(to_long_double(squared.numerator) / to_long_double(squared.denominator)));
+}
+
+float distance_below(const Margin& gap) {
+  const auto [low, high] = distance_interval(gap);
+  const float f = round_down(low);
+  if (f == round_down(high)) return f;
+  return settle_below(gap, round_down(distance(gap)));
+}
+
+std::vector<double> shares(std::span<const Margin> margins) {
+  std::vector<Exact> values;
+  Exact sum(0);
+  for (const Margin& margin : margins) {
+    values.push_back(evaluate<Exact>(margin));
+    sum = sum + values.back();
+  }
+  const long double whole = to_long_double(sum);
+  std::vector<double> result;
+  for (const Exact& value : values) result.push_back(static_cast<double>(to_long_double(value) / whole));
+  return result;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,61 @@
+// A margin is a polynomial in given coordinates whose sign decides something. Its sign is exact; whether it lies in the grey zone and what its
+// neighbours weigh comes from the same formula. CGAL stays behind this header.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+
+namespace ogc::reference {
+
+using compare::Vec3f;
+
+/// Which formula of formulas.hpp; a gap is numerator − r² · denominator of a squared distance, < 0 where it is smaller than r.
+enum class MarginKind : std::uint8_t { along, side, turn, parallel, gap_points, gap_line, gap_plane, gap_lines };
+
+/// A formula with its points; the first is the one to which the coordinates δ of the grey zone are relative.
+struct Margin {
+  MarginKind kind = MarginKind::along;
+  std::array<Vec3f, 4> at{};
+  float radius = 0;  ///< r of a gap [m]
+};
+
+inline Margin along(const Vec3f& a, const Vec3f& b, const Vec3f& p) { return {MarginKind::along, {a, b, p}}; }
+inline Margin side(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p) { return {MarginKind::side, {a, b, c, p}}; }
+inline Margin turn(const Vec3f& p, const Vec3f& x, const Vec3f& q0, const Vec3f& q1) { return {MarginKind::turn, {p, x, q0, q1}}; }
+inline Margin parallel(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const Vec3f& q1) { return {MarginKind::parallel, {p0, p1, q0, q1}}; }
+inline Margin gap_points(const Vec3f& a, const Vec3f& p, float radius = 0) { return {MarginKind::gap_points, {a, p}, radius}; }
+inline Margin gap_line(const Vec3f& a, const Vec3f& b, const Vec3f& p, float radius = 0) { return {MarginKind::gap_line, {a, b, p}, radius}; }
+inline Margin gap_plane(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p, float radius = 0) {
+  return {MarginKind::gap_plane, {a, b, c, p}, radius};
+}
+inline Margin gap_lines(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const Vec3f& q1, float radius = 0) {
+  return {MarginKind::gap_lines, {p0, p1, q0, q1}, radius};
+}
+
+/// The same gap about another radius [m].
+inline Margin with_radius(Margin gap, float radius) {
+  gap.radius = radius;
+  return gap;
+}
+
+/// Exact sign: −1, 0 or 1. Coordinates must be finite.
+int sign(const Margin& margin);
+
+/// 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (design.md §2); the radius is given and carries no derivative. Where the sum is 0 no relative change of the δᵢ moves
+/// the margin off its sign, so there is no other side: a vertex straight above a vertex of an axis-parallel grid is not grey.
+bool grey(const Margin& margin);
+
+/// Distance of a gap [m], within 1 ulp of double. The denominator must be positive.
+double distance(const Margin& gap);
+
+/// The largest single-precision number that is not above the distance of the gap [m]. Denominator as above.
+float distance_below(const Margin& gap);
+
+/// m_k / Σ m_j for margins that are no gaps and whose exact sum is positive; within 1 ulp of double each.
+std::vector<double> shares(std::span<const Margin> margins);
+
+}  // namespace ogc::reference

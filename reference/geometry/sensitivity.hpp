@@ -1,0 +1,55 @@
+// Two number types that say how a formula reacts to its inputs: forward-mode derivatives, and the sum of the moduli of all terms. Both are for
+// sizes, never for signs, so double is enough.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace ogc::reference {
+
+/// A value with its derivatives by N inputs.
+template <std::size_t N>
+struct Dual {
+  double value = 0;
+  std::array<double, N> slope{};
+
+  Dual() = default;
+  explicit Dual(double constant) : value(constant) {}
+  Dual(double at, std::size_t input) : value(at) { slope[input] = 1; }
+
+  friend Dual operator+(Dual a, const Dual& b) {
+    a.value += b.value;
+    for (std::size_t i = 0; i < N; ++i) a.slope[i] += b.slope[i];
+    return a;
+  }
+  friend Dual operator-(Dual a, const Dual& b) {
+    a.value -= b.value;
+    for (std::size_t i = 0; i < N; ++i) a.slope[i] -= b.slope[i];
+    return a;
+  }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    Dual c(a.value * b.value);
+    for (std::size_t i = 0; i < N; ++i) c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
+    return c;
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    Dual c(a.value / b.value);
+    for (std::size_t i = 0; i < N; ++i) c.slope[i] = (a.slope[i] - c.value * b.slope[i]) / b.value;
+    return c;
+  }
+};
+
+/// The value that a formula takes when every term counts with its modulus. For a homogeneous polynomial m of degree k it bounds
+/// Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial contributes its modulus once for each of its at most k factors.
+struct Modulus {
+  double value = 0;
+
+  Modulus() = default;
+  explicit Modulus(double x) : value(std::abs(x)) {}
+  friend Modulus operator+(Modulus a, Modulus b) { return Modulus(a.value + b.value); }
+  friend Modulus operator-(Modulus a, Modulus b) { return Modulus(a.value + b.value); }
+  friend Modulus operator*(Modulus a, Modulus b) { return Modulus(a.value * b.value); }
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,33 @@
+// The flag is the sign of a gap of two points; the scaled position cancels nothing, so long double rounds to the right double.
+#include "reference/geometry/truncate.hpp"
+
+#include <cmath>
+
+#include "reference/geometry/margin.hpp"
+
+namespace ogc::reference {
+namespace {
+
+compare::Vec3 scaled_back(const Vec3f& from, const Vec3f& to, float length) {
+  const long double dx = static_cast<long double>(to.x) - from.x, dy = static_cast<long double>(to.y) - from.y,
+                    dz = static_cast<long double>(to.z) - from.z;
+  const long double scale = length / std::sqrt(dx * dx + dy * dy + dz * dz);
+  return {static_cast<double>(from.x + scale * dx), static_cast<double>(from.y + scale * dy), static_cast<double>(from.z + scale * dz)};
+}
+
+}  // namespace
+
+compare::TruncateTruth truncate(const compare::TruncateIn& in) {
+  compare::TruncateTruth truth;
+  for (std::size_t i = 0; i < in.position.size(); ++i) {
+    const Vec3f &from = in.previous[i], &to = in.position[i];
+    const Margin gap = gap_points(from, to, in.bound[i]);
+    const bool exceeded = sign(gap) > 0;
+    truth.exceeded.push_back(exceeded);
+    truth.grey.push_back(grey(gap));
+    truth.position.push_back(exceeded ? scaled_back(from, to, in.bound[i]) : compare::Vec3{to.x, to.y, to.z});
+  }
+  return truth;
+}
+
+}  // namespace ogc::reference

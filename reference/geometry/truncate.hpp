@@ -1,0 +1,11 @@
+// Stage truncate: Eq. 27.
+#pragma once
+
+#include "compare/stages/truncate.hpp"
+
+namespace ogc::reference {
+
+/// Exceeded exactly where ‖x − x_prev‖ > b_v; then x_prev + (x − x_prev) b_v / ‖x − x_prev‖, otherwise x.
+compare::TruncateTruth truncate(const compare::TruncateIn& in);
+
+}  // namespace ogc::reference
