@@ -1,0 +1,124 @@
+#include "compare/judge/ask.hpp"
+
+#include <chrono>
+
+namespace ogc::compare {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+
+/// Asks both sides the same question.
+class Asker {
+ public:
+  Asker(std::mutex& turn, Tally& tally) : turn_(turn), tally_(tally) {}
+
+  template <class Question, class Truth, class In>
+  Truth truth(const Question& question, const std::function<Truth(const In&)>& authority) {
+    const auto start = std::chrono::steady_clock::now();
+    Truth truth = authority(question);
+    tally_.authority_seconds += seconds_since(start);
+    return truth;
+  }
+
+  template <class Question, class Out, class In>
+  Out answer(const Question& question, const std::function<Out(const In&)>& contestant) {
+    const std::lock_guard lock(turn_);
+    const auto start = std::chrono::steady_clock::now();
+    Out out = contestant(question);
+    tally_.contestant_seconds += seconds_since(start);
+    return out;
+  }
+
+ private:
+  std::mutex& turn_;
+  Tally& tally_;
+};
+
+ClosestFaceIn face_question(Cases cases) {
+  ClosestFaceIn in;
+  for (const TestCase& test : cases) {
+    const auto& c = std::get<ClosestFaceCase>(test.data);
+    in.point.push_back(c.point);
+    in.triangle.push_back(c.triangle);
+  }
+  return in;
+}
+
+ClosestPointsIn points_question(Cases cases) {
+  ClosestPointsIn in;
+  for (const TestCase& test : cases) {
+    const auto& c = std::get<ClosestPointsCase>(test.data);
+    in.first.push_back(c.first);
+    in.second.push_back(c.second);
+  }
+  return in;
+}
+
+ActivationIn activation_question(Cases cases) {
+  ActivationIn in;
+  for (const TestCase& test : cases) {
+    const auto& c = std::get<ActivationCase>(test.data);
+    in.distance.push_back(c.distance);
+    in.contact_radius.push_back(c.contact_radius);
+    in.stiffness.push_back(c.stiffness);
+  }
+  return in;
+}
+
+TruncateIn truncate_question(Cases cases) {
+  TruncateIn in;
+  for (const TestCase& test : cases) {
+    const auto& c = std::get<TruncateCase>(test.data);
+    in.previous.push_back(c.previous);
+    in.position.push_back(c.position);
+    in.bound.push_back(c.bound);
+  }
+  return in;
+}
+
+DetectIn detect_question(const TestCase& test) {
+  const auto& c = std::get<MeshCase>(test.data);
+  return {c.topology.get(), c.rigid_groups, c.positions, c.contact_radius, c.query_radius};
+}
+
+BoundIn bound_question(const TestCase& test) {
+  const auto& c = std::get<BoundCase>(test.data);
+  return {c.topology.get(), c.d_min_vertex, c.d_min_edge, c.d_min_triangle, c.bound_relaxation};
+}
+
+void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+  if (stage == Stage::bound) {
+    const BoundIn in = bound_question(test);
+    judge_bound(test, asker.truth(in, authority.bound), asker.answer(in, contestant.bound), tally);
+    return;
+  }
+  const DetectIn in = detect_question(test);
+  if (stage == Stage::detect_vertex_facet)
+    judge_detect_vertex_facet(test, asker.truth(in, authority.detect_vertex_facet), asker.answer(in, contestant.detect_vertex_facet), tally);
+  else judge_detect_edge_edge(test, asker.truth(in, authority.detect_edge_edge), asker.answer(in, contestant.detect_edge_edge), tally);
+}
+
+}  // namespace
+
+void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, std::mutex& contestant_turn, Tally& tally) {
+  if (cases.empty()) return;
+  Asker asker(contestant_turn, tally);
+  if (is_mesh_stage(stage)) {
+    for (const TestCase& test : cases) ask_mesh(stage, test, contestant, authority, asker, tally);
+  } else if (stage == Stage::closest_face) {
+    const ClosestFaceIn in = face_question(cases);
+    judge_closest_face(cases, in, asker.truth(in, authority.closest_face), asker.answer(in, contestant.closest_face), tally);
+  } else if (stage == Stage::closest_points) {
+    const ClosestPointsIn in = points_question(cases);
+    judge_closest_points(cases, in, asker.truth(in, authority.closest_points), asker.answer(in, contestant.closest_points), tally);
+  } else if (stage == Stage::activation) {
+    const ActivationIn in = activation_question(cases);
+    judge_activation(cases, asker.truth(in, authority.activation), asker.answer(in, contestant.activation), tally);
+  } else {
+    const TruncateIn in = truncate_question(cases);
+    judge_truncate(cases, in, asker.truth(in, authority.truncate), asker.answer(in, contestant.truncate), tally);
+  }
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,68 @@
+// One case of each stage, as data: what a generator makes, a contestant answers, a file keeps.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "compare/judge/stage.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+/// Names a generated case. Printed: `stage=closest_face gen=ladder.needle seed=7 index=1234`, for real states followed by ` states=RUN`.
+struct CaseName {
+  Stage stage = Stage::closest_face;
+  std::string generator;
+  std::uint64_t seed = 0, index = 0;
+  std::string states;  ///< run folder; empty unless the generator is `states`
+  friend bool operator==(const CaseName&, const CaseName&) = default;
+};
+
+/// The canonical line.
+std::string print_problem(const CaseName& name);
+/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong.
+CaseName parse_problem(const std::string& line);
+
+struct ClosestFaceCase {
+  Vec3f point;
+  std::array<Vec3f, 3> triangle;
+};
+
+struct ClosestPointsCase {
+  std::array<Vec3f, 2> first, second;
+};
+
+/// A whole state for detection.
+struct MeshCase {
+  std::shared_ptr<const Topology> topology;
+  std::vector<Index> rigid_groups;
+  std::vector<Vec3f> positions;
+  float contact_radius = 0, query_radius = 0;
+};
+
+struct BoundCase {
+  std::shared_ptr<const Topology> topology;
+  std::vector<float> d_min_vertex, d_min_edge, d_min_triangle;
+  float bound_relaxation = 0.45f;
+};
+
+struct ActivationCase {
+  float distance = 0, contact_radius = 0, stiffness = 0;
+};
+
+struct TruncateCase {
+  Vec3f previous, position;
+  float bound = 0;
+};
+
+using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase>;
+
+struct TestCase {
+  CaseName name;
+  CaseData data;
+};
+
+}  // namespace ogc::compare

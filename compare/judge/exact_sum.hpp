@@ -1,0 +1,37 @@
+// The sign of a sum of doubles, with no rounding: Shewchuk's growing expansion (1997). The judge asks the one exact question of its own with it,
+// whether a stored position obeys its bound, so that no contestant's arithmetic is trusted for it.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+namespace ogc::compare {
+
+/// Terms and products must neither overflow nor fall below 2⁻¹⁰⁷⁴; single-precision inputs squared do neither.
+class ExactSum {
+ public:
+  void add(double term) {
+    std::size_t kept = 0;
+    for (const double part : parts_) {
+      const double sum = term + part, back = sum - term;
+      const double error = (term - (sum - back)) + (part - back);
+      if (error != 0) parts_[kept++] = error;
+      term = sum;
+    }
+    parts_.resize(kept);
+    if (term != 0) parts_.push_back(term);
+  }
+  /// Adds a · b.
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(product);
+    add(std::fma(a, b, -product));
+  }
+  /// −1, 0 or 1. The parts do not overlap and grow, so the last one decides.
+  int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
+
+ private:
+  std::vector<double> parts_;
+};
+
+}  // namespace ogc::compare

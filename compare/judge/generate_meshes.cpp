@@ -1,0 +1,228 @@
+// Meshes for detection and bounds, in units of one edge length. The families that seek a degeneracy are regular arrangements (every tie is exact)
+// with a jitter that climbs a ladder from 0 to a tenth of an edge.
+#include <array>
+
+#include "compare/judge/generators.hpp"
+#include "compare/judge/mesh_builder.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
+
+/// 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge (single precision holds no less at coordinates of one edge).
+double jitter_rung(Random& random) { return random.one_in(2) ? 0 : std::pow(10.0, -1 - random.below(7)); }
+
+/// h (1 + rung): the radius that just reaches, or just misses, what lies at height h.
+double radius_at(Random& random, double h) { return random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung()); }
+
+/// Strips of triangles and a few loose edges, thrown into a box of about one vertex in a unit cube.
+MeshBuilder soup_of(Random& random, int size) {
+  MeshBuilder builder;
+  const double side = std::cbrt(size + 1.0);
+  while (static_cast<int>(builder.points.size()) < size) {
+    const Index n = static_cast<Index>(builder.points.size());
+    const Vec3 near = n > 0 && !random.one_in(3) ? builder.points.back() : in_box(random, 0, side);
+    builder.add(sum(near, in_box(random, -0.7, 0.7)));
+    if (n < 2 || random.one_in(5)) continue;
+    if (random.one_in(8)) builder.loose_edges.push_back({n - 1, n});
+    else builder.triangles.push_back({n - 2, n - 1, n});
+  }
+  return builder;
+}
+
+CaseData soup(Random& random) {
+  constexpr std::array<int, 8> sizes{10, 10, 50, 50, 50, 100, 100, 200};
+  return finish(random, soup_of(random, random.pick(std::span<const int>(sizes))), {});
+}
+
+CaseData few(Random& random) { return finish(random, soup_of(random, random.pick(std::span<const int>(small_sizes))), {}); }
+
+/// Two wavy sheets, one above the other, every vertex displaced: like cloth on cloth.
+CaseData cloth(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-1.5, 0.3), wave = random.between(0, 0.5);
+  for (int layer = 0; layer < 2; ++layer) {
+    const Index first = static_cast<Index>(builder.points.size());
+    builder.grid(2 + random.below(8), 2 + random.below(8), {random.unit(), random.unit(), layer * gap}, {1, 0, 0}, {0, 1, 0});
+    for (std::size_t i = first; i < builder.points.size(); ++i) {
+      Vec3& p = builder.points[i];
+      p.z += wave * std::sin(1.3 * p.x) * std::cos(0.7 * p.y);
+    }
+  }
+  return finish(random, builder, {random.between(0.05, 0.3), 0});
+}
+
+/// A soup on small integers: ties, touching, intersecting, coplanar and collapsed triangles.
+CaseData lattice(Random& random) {
+  MeshBuilder builder = soup_of(random, 3 + random.below(18));
+  for (Vec3& p : builder.points) p = on_lattice(random, 1);
+  return finish(random, builder, {0, random.one_in(2) ? 0 : 0.5 * (1 + random.below(4))});
+}
+
+/// Two flat parallel sheets, in register, shifted by half a cell, or turned.
+CaseData sheets(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-2, 0);
+  const double shift = random.one_in(2) ? 0 : 0.5;
+  builder.grid(1 + random.below(5), 1 + random.below(5), {}, {1, 0, 0}, {0, 1, 0});
+  builder.grid(1 + random.below(5), 1 + random.below(5), {shift, shift, gap}, random.one_in(3) ? Vec3{0.8, 0.6, 0} : Vec3{1, 0, 0},
+               random.one_in(3) ? Vec3{-0.6, 0.8, 0} : Vec3{0, 1, 0});
+  return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
+}
+
+/// One sheet folded back upon itself: near the fold non-adjacent neighbours are close and blocks end.
+CaseData fold(Random& random) {
+  MeshBuilder builder;
+  const int half = 1 + random.below(4);
+  const double open = random.one_in(3) ? 0 : random.magnitude(-3, -0.3);
+  builder.grid(2 * half, 1 + random.below(4), {}, {1, 0, 0}, {0, 1, 0});
+  for (Vec3& p : builder.points) {
+    if (p.x <= half) continue;
+    p.z = (p.x - half) * open;
+    p.x = 2 * half - p.x;
+  }
+  return finish(random, builder, {jitter_rung(random), 0});
+}
+
+/// Identical meshes, vertex exactly above vertex.
+CaseData stack(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-1.5, 0);
+  if (random.one_in(2)) builder.fan(3 + random.below(6), {}, true, random.one_in(2) ? 0 : random.between(-1, 1));
+  else builder.grid(1 + random.below(3), 1 + random.below(3), {}, {1, 0, 0}, {0, 1, 0});
+  builder.repeat({0, 0, gap});
+  if (random.one_in(2)) builder.repeat({0, 0, 2 * gap});
+  return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
+}
+
+/// Vertices and a small triangle above the hub, the spokes and the faces of a fan, up to 50 triangles about one vertex.
+CaseData fan(Random& random) {
+  MeshBuilder builder;
+  const int count = random.one_in(3) ? 50 : 3 + random.below(10);
+  const double height = random.magnitude(-2, 0), tilt = random.one_in(2) ? 0 : random.between(-1, 1);
+  builder.fan(count, {}, random.one_in(2), tilt);
+  const Index a = builder.add({random.rung(), random.rung(), height}), b = builder.add({0.5, 0, height - 0.5 * tilt});
+  const Index c = builder.add({0.5, 0.5, height + 0.5});
+  builder.triangles.push_back({a, b, c});
+  return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
+}
+
+/// A triangle whose corners stand above a vertex, an edge and an interior of a patch, on the block boundary or a rung beside it.
+CaseData above(Random& random) {
+  MeshBuilder builder;
+  const double height = random.magnitude(-2, 0);
+  builder.grid(2, 2, {-1, -1, 0}, {1, 0, 0}, {0, 1, 0});
+  if (random.one_in(2)) builder.points[4].z = random.one_in(2) ? random.rung() : random.between(-1, 1);
+  const double ridge = builder.points[4].z;
+  const Index a = builder.add({random.rung(), random.rung(), ridge + height}), b = builder.add({0.5, random.rung(), 0.5 * ridge + height});
+  const Index c = builder.add({random.between(-1, 1), random.between(-1, 1), ridge + height + random.unit()});
+  builder.triangles.push_back({a, b, c});
+  return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
+}
+
+/// Several triangles on one edge (non-manifold), vertices and edges around it.
+CaseData book(Random& random) {
+  MeshBuilder builder;
+  const int pages = 1 + random.below(6);
+  const Index a = builder.add({0, 0, 0}), b = builder.add({0, 0, 1});
+  for (int k = 0; k < pages; ++k) {
+    const double angle = random.one_in(3) ? 1.5707963267948966 * random.below(4) : random.between(0, 6.283185307179586);
+    builder.triangles.push_back({a, b, builder.add({std::round(1e9 * std::cos(angle)) * 1e-9, std::round(1e9 * std::sin(angle)) * 1e-9, random.unit()})});
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Index n = builder.add({random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1), random.between(-0.5, 1.5)});
+    builder.add(sum(builder.points[n], in_box(random, -0.5, 0.5)));
+    builder.add(sum(builder.points[n], in_box(random, -0.5, 0.5)));
+    builder.triangles.push_back({n, n + 1, n + 2});
+  }
+  return finish(random, builder, {jitter_rung(random), 0});
+}
+
+/// Yarn: polylines that lie side by side, cross at a small angle, end on one another.
+CaseData strands(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-2, 0);
+  const int count = 2 + random.below(3);
+  for (int k = 0; k < count; ++k) {
+    const double sine = random.one_in(3) ? 0 : random.one_in(2) ? random.rung() : random.between(-1, 1);
+    const double shift = random.one_in(2) ? 0.5 * random.below(3) : random.between(-1, 1);
+    builder.strand(1 + random.below(6), {shift, -sine * random.below(3), k * gap}, {random.one_in(4) ? 0.0 : 1.0, sine, random.one_in(4) ? 0.5 : 0.0});
+  }
+  if (random.one_in(3)) builder.grid(2, 1, {0, 0, -gap}, {1, 0, 0}, {0, 1, 0});
+  // A strand that stands still has edges without length.
+  return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
+}
+
+/// Sheets that belong to rigid groups, to the same one, to none.
+CaseData groups(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-1.5, 0);
+  for (int k = 0; k < 3; ++k) {
+    const Index first = static_cast<Index>(builder.points.size());
+    builder.grid(1 + random.below(3), 1 + random.below(3), {0.25 * k, 0, k * gap}, {1, 0, 0}, {0, 1, 0});
+    builder.group(first, random.below(4) - 1);
+  }
+  if (random.one_in(2)) builder.groups[static_cast<std::size_t>(random.below(static_cast<int>(builder.points.size())))] = random.below(3) - 1;
+  return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
+}
+
+constexpr std::array<Generator, 12> table{{{"soup", 20, true, soup},
+                                           {"cloth", 20, true, cloth},
+                                           {"few", 3, true, few},
+                                           {"lattice", 10, false, lattice},
+                                           {"ladder.sheets", 8, false, sheets},
+                                           {"ladder.fold", 7, false, fold},
+                                           {"ladder.stack", 7, false, stack},
+                                           {"ladder.fan", 6, false, fan},
+                                           {"ladder.above", 7, false, above},
+                                           {"ladder.book", 4, false, book},
+                                           {"ladder.strands", 4, false, strands},
+                                           {"ladder.groups", 4, false, groups}}};
+
+/// One smallest distance: anything, a tie, 0.
+float smallest(Random& random, int kind) {
+  switch (kind) {
+    case 0: return random.pattern();
+    case 1: return static_cast<float>(random.unit());
+    case 2: return std::ldexp(1.0f, random.below(3) - 10);
+    default: return random.one_in(8) ? 0.0f : 0.005f;
+  }
+}
+
+CaseData bound_case(Random& random, MeshCase mesh) {
+  constexpr std::array<float, 5> relaxations{0.45f, 0.45f, 0.25f, 0.5f, 1.0f / 3};
+  BoundCase c{mesh.topology, {}, {}, {}, random.one_in(2) ? random.pick(std::span<const float>(relaxations)) : static_cast<float>(random.between(0.01, 0.5))};
+  const int kind = random.below(4);
+  const auto fill = [&](std::vector<float>& values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) values.push_back(smallest(random, kind));
+  };
+  fill(c.d_min_vertex, static_cast<std::size_t>(mesh.topology->vertex_count));
+  fill(c.d_min_edge, mesh.topology->edges.size());
+  fill(c.d_min_triangle, mesh.topology->triangles.size());
+  return c;
+}
+
+CaseData bound_soup(Random& random) { return bound_case(random, std::get<MeshCase>(soup(random))); }
+CaseData bound_few(Random& random) { return bound_case(random, std::get<MeshCase>(few(random))); }
+CaseData bound_cloth(Random& random) { return bound_case(random, std::get<MeshCase>(cloth(random))); }
+CaseData bound_fan(Random& random) { return bound_case(random, std::get<MeshCase>(fan(random))); }
+CaseData bound_book(Random& random) { return bound_case(random, std::get<MeshCase>(book(random))); }
+CaseData bound_strands(Random& random) { return bound_case(random, std::get<MeshCase>(strands(random))); }
+
+constexpr std::array<Generator, 6> bound_table{{{"soup", 25, true, bound_soup},
+                                                {"cloth", 25, true, bound_cloth},
+                                                {"few", 5, false, bound_few},
+                                                {"ladder.fan", 20, false, bound_fan},
+                                                {"ladder.book", 15, false, bound_book},
+                                                {"ladder.strands", 10, false, bound_strands}}};
+
+}  // namespace
+
+std::span<const Generator> detect_generators() { return table; }
+std::span<const Generator> bound_generators() { return bound_table; }
+
+}  // namespace ogc::compare

@@ -1,0 +1,43 @@
+// Where cases come from. Each stage has a table of generators; a case is a pure function of (stage, generator, seed, index). At least half of all
+// cases lie close to a decision boundary (lattice, ladder.*).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "compare/judge/cases.hpp"
+#include "compare/judge/random.hpp"
+
+namespace ogc::compare {
+
+class States;
+
+/// One row of a stage's table.
+struct Generator {
+  std::string_view name;
+  double share;   ///< of a stage's cases, relative to the other rows
+  bool generic;   ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
+  CaseData (*make)(Random&);
+};
+
+/// The generators of a stage, without `states`.
+std::span<const Generator> generators(Stage stage);
+
+/// The row of a generator, `states` included. Throws InputError that lists the known names.
+const Generator& find_generator(Stage stage, std::string_view name);
+
+/// Makes a case. `states` is needed (and throws InputError where it is null) for the generator `states` alone.
+TestCase generate(const CaseName& name, const States* states = nullptr);
+
+/// Largest share of grey decisions in the generic generators (design.md §2).
+inline constexpr double grey_share_limit = 1e-5;
+
+/// Tables by stage, one source file each.
+std::span<const Generator> closest_face_generators();
+std::span<const Generator> closest_points_generators();
+std::span<const Generator> detect_generators();
+std::span<const Generator> bound_generators();
+std::span<const Generator> activation_generators();
+std::span<const Generator> truncate_generators();
+
+}  // namespace ogc::compare

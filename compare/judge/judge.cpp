@@ -1,0 +1,158 @@
+// Batches are handed out by number and merged by number, so threads can change neither a case nor a sum. A mesh stage does not know beforehand how
+// many batches it needs: it stops merging where the wanted number of cases is reached and throws away what was begun beyond.
+#include "compare/judge/judge.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "compare/judge/ask.hpp"
+#include "compare/judge/states.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+constexpr std::uint64_t mesh_batch = 16;
+
+/// The run of one generator: batches of consecutive indices until `cases` are counted.
+class GeneratorRun {
+ public:
+  GeneratorRun(Stage stage, std::string_view generator, std::uint64_t cases, const Contestant& contestant, const Authority& authority,
+               const JudgeOptions& options)
+      : stage_(stage), generator_(generator), wanted_(cases), contestant_(contestant), authority_(authority), options_(options), merged_(stage) {}
+
+  Tally run(std::uint64_t cases_before, std::uint64_t mismatches_before) {
+    cases_before_ = cases_before;
+    mismatches_before_ = mismatches_before;
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
+    work();
+    for (std::thread& thread : threads) thread.join();
+    if (failure_) std::rethrow_exception(failure_);
+    return std::move(merged_);
+  }
+
+ private:
+  std::vector<TestCase> batch(std::uint64_t number) const {
+    const std::uint64_t size = is_mesh_stage(stage_) ? mesh_batch : options_.batch;
+    const std::uint64_t first = number * size, last = is_mesh_stage(stage_) ? first + size : std::min(first + size, wanted_);
+    std::vector<TestCase> cases;
+    for (std::uint64_t i = first; i < last; ++i)
+      cases.push_back(generate({stage_, generator_, options_.seed, i, generator_ == "states" ? options_.states->folder() : ""}, options_.states));
+    return cases;
+  }
+
+  void work() {
+    for (;;) {
+      std::uint64_t number = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        if (stopped_) return;
+        number = next_++;
+      }
+      try {
+        Tally tally(stage_);
+        ask(stage_, batch(number), contestant_, authority_, contestant_turn_, tally);
+        merge(number, std::move(tally));
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_) failure_ = std::current_exception();
+        stopped_ = true;
+      }
+    }
+  }
+
+  void merge(std::uint64_t number, Tally tally) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(number, std::move(tally));
+    for (auto it = waiting_.find(merged_count_); it != waiting_.end() && !stopped_; it = waiting_.find(merged_count_)) {
+      merged_.add(it->second);
+      waiting_.erase(it);
+      ++merged_count_;
+      // Batches of a family of empty meshes would never count a case.
+      stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_;
+    }
+    if (options_.progress) options_.progress(cases_before_ + merged_.total().cases, mismatches_before_ + merged_.mismatched);
+  }
+
+  Stage stage_;
+  std::string generator_;
+  std::uint64_t wanted_;
+  const Contestant& contestant_;
+  const Authority& authority_;
+  const JudgeOptions& options_;
+  std::uint64_t cases_before_ = 0, mismatches_before_ = 0;
+  std::mutex mutex_, contestant_turn_;
+  std::uint64_t next_ = 0, merged_count_ = 0;
+  std::map<std::uint64_t, Tally> waiting_;
+  Tally merged_;
+  bool stopped_ = false;
+  std::exception_ptr failure_;
+};
+
+/// The generators to run, with their shares.
+std::vector<Generator> chosen(Stage stage, const JudgeOptions& options) {
+  if (!options.generator.empty()) return {find_generator(stage, options.generator)};
+  std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
+  if (options.states && options.states->has(stage)) rows.push_back(find_generator(stage, "states"));
+  return rows;
+}
+
+}  // namespace
+
+bool StageReport::passed() const { return !skipped && tally.mismatched == 0 && tally.total().cases > 0 && tally.grey_within_limit(); }
+
+bool can_judge(Stage stage, const Contestant& contestant, const Authority& authority) {
+  switch (stage) {
+    case Stage::closest_face: return contestant.closest_face && authority.closest_face;
+    case Stage::closest_points: return contestant.closest_points && authority.closest_points;
+    case Stage::detect_vertex_facet: return contestant.detect_vertex_facet && authority.detect_vertex_facet;
+    case Stage::detect_edge_edge: return contestant.detect_edge_edge && authority.detect_edge_edge;
+    case Stage::bound: return contestant.bound && authority.bound;
+    case Stage::activation: return contestant.activation && authority.activation;
+    default: return contestant.truncate && authority.truncate;
+  }
+}
+
+StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority, const JudgeOptions& options) {
+  StageReport report{Tally(stage)};
+  if (!can_judge(stage, contestant, authority)) {
+    report.skipped = true;
+    return report;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Generator> rows = chosen(stage, options);
+  double shares = 0;
+  for (const Generator& row : rows) shares += row.share;
+  for (const Generator& row : rows) {
+    const auto cases = static_cast<std::uint64_t>(std::ceil(static_cast<double>(options.cases) * row.share / shares));
+    GeneratorRun run(stage, row.name, cases, contestant, authority, options);
+    report.tally.add(run.run(report.tally.total().cases, report.tally.mismatched));
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Contestant& contestant, const Authority& authority) {
+  std::vector<StageReport> reports;
+  std::mutex turn;
+  for (const Stage stage : all_stages) {
+    std::vector<TestCase> mine;
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(mine), [&](const TestCase& test) { return test.name.stage == stage; });
+    if (mine.empty()) continue;
+    StageReport report{Tally(stage)};
+    const auto start = std::chrono::steady_clock::now();
+    report.skipped = !can_judge(stage, contestant, authority);
+    if (!report.skipped) ask(stage, mine, contestant, authority, turn, report.tally);
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,44 @@
+// The judge: drives a contestant and an authority through the same cases, stage by stage, and never learns who they are.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/judge/generators.hpp"
+#include "compare/judge/tally.hpp"
+#include "compare/problem/contestant.hpp"
+
+namespace ogc::compare {
+
+struct JudgeOptions {
+  std::uint64_t cases = 100000;            ///< a stage; a mesh stage ends with the mesh that reaches the number
+  std::uint64_t seed = 1;
+  unsigned threads = 2;                    ///< generate, ask the authority and judge; the contestant is asked by one thread at a time
+  std::uint64_t batch = 1u << 14;          ///< cases put to a pair stage at once
+  std::string generator;                   ///< only this one; empty: all
+  const States* states = nullptr;          ///< real states as well
+  /// Called by one thread at a time, after each batch: cases judged so far, mismatches so far.
+  std::function<void(std::uint64_t, std::uint64_t)> progress;
+};
+
+struct StageReport {
+  Tally tally;
+  double seconds = 0;
+  bool skipped = false;                    ///< the contestant or the authority does not have the stage
+  /// No mismatch, at least one case, and the generic generators' grey share within its limit.
+  bool passed() const;
+};
+
+/// Whether both have the stage.
+bool can_judge(Stage stage, const Contestant& contestant, const Authority& authority);
+
+/// Judges generated cases of one stage. The report depends on cases, seed, batch and generators, not on threads. What a contestant throws is passed on.
+StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority, const JudgeOptions& options);
+
+/// Judges given cases (a batch file, a replay), grouped by stage in the order of `all_stages`.
+std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Contestant& contestant, const Authority& authority);
+
+}  // namespace ogc::compare

@@ -1,0 +1,28 @@
+// From a canonical frame, where a degeneracy can be approached by 10⁻¹² because the coordinate that carries it is near 0, to a case: exact
+// symmetries first (signed permutations and powers of two keep every bit), in half of the cases a rotation, whose rounding is one more rung.
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "compare/judge/random.hpp"
+#include "compare/problem/vector.hpp"
+
+namespace ogc::compare::placement {
+
+inline Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 scaled(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
+
+/// A point of the box [low, high)³.
+Vec3 in_box(Random& random, double low, double high);
+/// Small integers, halves or quarters, so that exact ties are common.
+Vec3 on_lattice(Random& random, int extent);
+/// The same one of the 48 symmetries of the cube for all points.
+void permute(Random& random, std::span<Vec3> points);
+/// The same rotation by a random axis and angle, then a shift within the unit box.
+void rotate(Random& random, std::span<Vec3> points);
+/// permute; rotate in half of the cases; then a scale of 1, 2^±10 or 1000.
+void place(Random& random, std::span<Vec3> points);
+
+}  // namespace ogc::compare::placement

@@ -1,0 +1,57 @@
+// Random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case is the same whatever was
+// generated before it, on however many threads, and a problem string alone brings it back.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace ogc::compare {
+
+/// The stream of one case. Names, not numbers, key the stage and the generator: adding one leaves the others' cases as they were.
+class Random {
+ public:
+  Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)
+      : key_(mix(mix(mix(mix(seed) + hash(stage)) + hash(generator)) + index)) {}
+
+  /// 64 uniform bits.
+  std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }
+  /// A multiple of 2⁻⁵³ in [0, 1).
+  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  /// An integer in [0, n), n ≥ 1; the bias of n/2⁶⁴ does not matter here.
+  int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
+  /// True in one of n.
+  bool one_in(int n) { return below(n) == 0; }
+  double sign() { return one_in(2) ? 1 : -1; }
+  template <class T>
+  T pick(std::span<const T> items) {
+    return items[bits() % items.size()];
+  }
+  /// 10^x for x uniform in [low, high).
+  double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
+  /// A positive single-precision number whose bit pattern is uniform over 2⁻²⁰ … 2²⁰.
+  float pattern() {
+    constexpr std::uint32_t low = 107u << 23, high = 147u << 23;
+    return std::bit_cast<float>(low + static_cast<std::uint32_t>(bits() % (high - low + 1)));
+  }
+  /// A rung of a ladder towards a degeneracy: 0 in one of four, otherwise ±10⁻ᵏ with k = 1 … 12.
+  double rung() { return one_in(4) ? 0.0 : sign() * std::pow(10.0, -1 - below(12)); }
+
+ private:
+  static std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+  }
+  static std::uint64_t hash(std::string_view name) {
+    std::uint64_t h = 0xcbf29ce484222325u;
+    for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return h;
+  }
+  std::uint64_t key_, counter_ = 0;
+};
+
+}  // namespace ogc::compare

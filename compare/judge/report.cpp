@@ -1,0 +1,125 @@
+#include "compare/judge/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace ogc::compare {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Row = std::array<std::string, 10>;
+
+std::string print(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+double speed(const StageReport& report) { return report.seconds > 0 ? static_cast<double>(report.tally.total().cases) / report.seconds : 0; }
+
+std::string verdict(const StageReport& report) {
+  if (report.skipped) return "skipped";
+  if (report.passed()) return "passed";
+  return report.tally.mismatched > 0 ? "mismatch" : "too many grey decisions";
+}
+
+/// Width in characters of UTF-8 text: all bytes but continuations.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::vector<Row> stage_rows(const StageReport& report) {
+  const Tally& tally = report.tally;
+  std::vector<Row> rows;
+  const auto infos = metrics(tally.stage);
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    Row row;
+    if (i == 0) {
+      row[0] = stage_name(tally.stage);
+      row[1] = std::to_string(tally.total().cases);
+      row[2] = report.skipped ? "skipped" : std::to_string(tally.mismatched);
+      row[3] = print("%.2g", tally.grey_share());
+      row[9] = print("%.3g", speed(report));
+    }
+    const Histogram& errors = tally.metrics[i].errors;
+    row[4] = std::string(infos[i].name) + " [" + std::string(infos[i].unit) + "]";
+    row[5] = print("%.3g", errors.quantile(0.5));
+    row[6] = print("%.3g", errors.quantile(0.999));
+    row[7] = print("%.3g", errors.maximum());
+    row[8] = print("%g", infos[i].tolerance);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string print_rows(const std::vector<Row>& rows) {
+  std::array<std::size_t, 10> widths{};
+  for (const Row& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string gap(widths[c] - width(row[c]), ' ');
+      const bool left = c == 0 || c == 4;
+      line += (c == 0 ? "" : "  ") + (left ? row[c] + gap : gap + row[c]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Json report_json(const StageReport& report) {
+  const Tally& tally = report.tally;
+  const GeneratorTally total = tally.total();
+  Json json{{"stage", stage_name(tally.stage)}, {"verdict", verdict(report)},           {"cases", total.cases},
+            {"mismatches", tally.mismatched},   {"grey", total.grey},                   {"decisions", total.decisions},
+            {"grey_share_generic", tally.grey_share()}, {"seconds", report.seconds},   {"cases_per_second", speed(report)},
+            {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
+  const auto infos = metrics(tally.stage);
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    const MetricTally& metric = tally.metrics[i];
+    json["metrics"].push_back({{"name", infos[i].name}, {"unit", infos[i].unit}, {"tolerance", infos[i].tolerance}, {"median", metric.errors.quantile(0.5)},
+                               {"p999", metric.errors.quantile(0.999)}, {"maximum", metric.errors.maximum()},
+                               {"worst", metric.errors.count() ? print_problem(metric.worst) : ""}});
+  }
+  for (const auto& [name, row] : tally.generators)
+    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"mismatches", row.mismatches}});
+  json["listed"] = Json::array();
+  for (const Mismatch& item : tally.mismatches) json["listed"].push_back({{"problem", print_problem(item.name)}, {"message", item.message}});
+  return json;
+}
+
+std::string report_table(std::span<const StageReport> reports) {
+  std::vector<Row> rows{{"stage", "cases", "mismatches", "grey share", "error [unit]", "median", "99.9 %", "maximum", "accepted", "cases/s"}};
+  for (const StageReport& report : reports)
+    for (const Row& row : stage_rows(report)) rows.push_back(row);
+  std::string text = print_rows(rows);
+  for (const StageReport& report : reports) {
+    if (report.skipped) continue;
+    text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
+    const auto infos = metrics(report.tally.stage);
+    for (std::size_t i = 0; i < infos.size(); ++i)
+      if (report.tally.metrics[i].errors.count()) text += "  " + std::string(infos[i].name) + ": " + print_problem(report.tally.metrics[i].worst) + "\n";
+  }
+  return text;
+}
+
+std::string report_mismatches(const StageReport& report, std::size_t limit) {
+  std::string text;
+  const auto& listed = report.tally.mismatches;
+  const std::size_t shown = std::min(limit, listed.size());
+  for (std::size_t i = 0; i < shown; ++i) text += print_problem(listed[i].name) + "\n  " + listed[i].message + "\n";
+  if (report.tally.mismatched > shown) text += "… and " + std::to_string(report.tally.mismatched - shown) + " more\n";
+  return text;
+}
+
+}  // namespace ogc::compare

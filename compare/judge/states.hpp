@@ -1,0 +1,47 @@
+// Cases from real states: the frames of a run folder, whole for detection, or pairs of neighbours drawn from them for the pair stages.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "compare/judge/cases.hpp"
+#include "compare/judge/random.hpp"
+
+namespace ogc::compare {
+
+/// Up to 16 frames, evenly spread over the run (first and last included), with the scene's topology, groups, r and cap of r_q.
+class States {
+ public:
+  /// Throws InputError where the folder is no run or holds no frame.
+  explicit States(const std::filesystem::path& folder);
+  /// Whether the run has cases for the stage: activation has no state, closest_face needs triangles.
+  bool has(Stage stage) const { return stage != Stage::activation && (stage != Stage::closest_face || !topology_->triangles.empty()); }
+  /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError where `has` says no.
+  CaseData make(Stage stage, std::uint64_t index, Random& random) const;
+  const std::string& folder() const { return folder_; }
+
+ private:
+  /// Vertices sorted by cell of a grid of about one edge length, to find neighbours.
+  struct State {
+    std::vector<Vec3f> positions;
+    std::vector<float> bounds;
+    std::vector<std::pair<std::uint64_t, Index>> cells;
+  };
+  std::uint64_t cell(const Vec3f& position) const;
+  /// A vertex in the same cell or one of its neighbours; v itself where there is no other.
+  Index neighbour(const State& state, Index v, Random& random) const;
+  CaseData vertex_triangle(const State& state, Random& random) const;
+  CaseData edge_edge(const State& state, Random& random) const;
+  CaseData moved_vertex(std::size_t frame, Random& random) const;
+  CaseData bound(Random& random) const;
+
+  std::string folder_;
+  std::shared_ptr<const Topology> topology_;
+  std::vector<Index> groups_;
+  float contact_radius_ = 0, query_radius_cap_ = 1, bound_relaxation_ = 0.45f;
+  double cell_size_ = 1;
+  std::vector<State> states_;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,90 @@
+// What is counted while cases are judged. Tallies of batches are added in the order of the batches, so a report is the same on any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/judge/cases.hpp"
+
+namespace ogc::compare {
+
+/// Errors ≥ 0 in bins of 1 % (the top 15 bits of a float), so that quantiles cost neither memory nor order.
+class Histogram {
+ public:
+  void add(double value);
+  void add(const Histogram& other);
+  std::uint64_t count() const { return count_; }
+  double maximum() const { return maximum_; }
+  /// Smallest bin edge below which the share `q` of the values lies (within 1 %); 0 where there are none.
+  double quantile(double q) const;
+
+ private:
+  std::vector<std::uint64_t> bins_;
+  std::uint64_t count_ = 0;
+  double maximum_ = 0;
+};
+
+/// A continuous answer of a stage: what it is, its unit and the largest error accepted (compare/stages).
+struct MetricInfo {
+  std::string_view name, unit;
+  double tolerance;
+};
+
+/// The metrics of a stage; their positions are the numbers that Tally::error takes.
+std::span<const MetricInfo> metrics(Stage stage);
+
+struct MetricTally {
+  Histogram errors;
+  CaseName worst;  ///< of the largest error
+};
+
+/// A wrong answer: which case, which element of it, how.
+struct Mismatch {
+  CaseName name;
+  std::string message;
+};
+
+struct GeneratorTally {
+  std::uint64_t cases = 0, decisions = 0, grey = 0, mismatches = 0;
+};
+
+/// Counts of one stage. A case of a mesh stage is one vertex (bound, detect_vertex_facet) or edge (detect_edge_edge).
+class Tally {
+ public:
+  explicit Tally(Stage stage);
+  /// All that follows belongs to this case, until the next call.
+  void begin(const CaseName& name);
+  void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey);
+  /// One error in units of the metric; beyond the tolerance it is a mismatch, described by `where` (called only then) and the numbers.
+  void error(std::size_t metric, double value, const std::function<std::string()>& where);
+  void mismatch(std::string message);
+  void add(const Tally& other);
+
+  Stage stage;
+  std::vector<MetricTally> metrics;
+  std::map<std::string, GeneratorTally> generators;
+  std::vector<Mismatch> mismatches;       ///< the first of them, at most `listed`
+  std::uint64_t mismatched = 0;           ///< all of them
+  double contestant_seconds = 0, authority_seconds = 0;
+  static constexpr std::size_t listed = 100;
+
+  GeneratorTally total() const;
+  /// Sums over the generic generators.
+  GeneratorTally generic_total() const;
+  /// Grey decisions over all decisions of the generic generators.
+  double grey_share() const;
+  /// Whether the share is compatible with grey_share_limit: of n decisions m = n · limit may be grey, and chance may add 3 √m + 3 (a Poisson count of
+  /// mean m lies higher in less than one run of a hundred).
+  bool grey_within_limit() const;
+
+ private:
+  CaseName current_;
+  GeneratorTally* row_ = nullptr;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,79 @@
+#include "compare/judge/corpus.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "compare/judge/generators.hpp"
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+
+namespace {
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / "ogc_test_corpus";
+  Folder() { std::filesystem::remove_all(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path) << text;
+}
+
+}  // namespace
+
+TEST_CASE("a saved case comes back bit for bit, for every stage", "[property]") {
+  const Folder folder;
+  for (const Stage stage : all_stages)
+    for (const Generator& generator : generators(stage)) {
+      const TestCase test = generate({stage, std::string(generator.name), 5, 17, ""});
+      const auto first = save_case(folder.path / "first", test, "why");
+      const auto second = save_case(folder.path / "second", load_case(first), "why");
+      INFO(first.string());
+      REQUIRE(read(first) == read(second));
+      REQUIRE(load_case(second).name == test.name);
+    }
+}
+
+TEST_CASE("a mesh case is saved with a mesh to look at", "[unit]") {
+  const Folder folder;
+  auto path = save_case(folder.path, generate({Stage::detect_edge_edge, "ladder.fan", 5, 1, ""}), "");
+  const std::string obj = read(path.replace_extension(".obj"));
+  REQUIRE(obj.starts_with("v "));
+  REQUIRE(obj.find("\nf ") != std::string::npos);
+}
+
+TEST_CASE("a broken case file is refused with its name and what is wrong", "[unit]") {
+  using Catch::Matchers::Contains;
+  const Folder folder;
+  const auto path = folder.path / "case.json";
+  REQUIRE_THROWS_WITH(load_case(path), Contains("case.json"));
+  write(path, "{");
+  REQUIRE_THROWS_AS(load_case(path), InputError);
+  write(path, R"({"format": 2, "problem": "stage=bound gen=few seed=1 index=1", "data": {}})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("format 2"));
+  write(path, R"({"format": 1, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"distance": "1x", "contact_radius": "1", "stiffness": "1"}})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("1x"));
+  write(path, R"({"format": 1, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"distance": "1", "stiffness": "1"}})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("contact_radius"));
+}
+
+TEST_CASE("a batch file holds one problem a line, comments and empty lines apart", "[unit]") {
+  using Catch::Matchers::Contains;
+  const Folder folder;
+  const auto path = folder.path / "corpus.txt";
+  write(path, "# worst cases\n\nstage=bound gen=few seed=1 index=1\nstage=truncate gen=bits seed=2 index=9\n");
+  const auto names = load_batch(path);
+  REQUIRE(names.size() == 2);
+  REQUIRE(names[1] == CaseName{Stage::truncate, "bits", 2, 9, ""});
+  write(path, "stage=bound gen=few seed=1 index=1\nstage=bund\n");
+  REQUIRE_THROWS_WITH(load_batch(path), Contains("line 2") && Contains("bund"));
+  REQUIRE_THROWS_AS(load_batch(folder.path / "none.txt"), InputError);
+}

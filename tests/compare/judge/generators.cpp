@@ -1,0 +1,104 @@
+#include "compare/judge/generators.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "compare/judge/corpus.hpp"
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+
+namespace {
+
+bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+struct IsLegal {
+  bool operator()(const ClosestFaceCase& c) const { return finite(c.point) && finite(c.triangle[0]) && finite(c.triangle[1]) && finite(c.triangle[2]); }
+  bool operator()(const ClosestPointsCase& c) const { return finite(c.first[0]) && finite(c.first[1]) && finite(c.second[0]) && finite(c.second[1]); }
+  bool operator()(const MeshCase& c) const {
+    const auto n = static_cast<std::size_t>(c.topology->vertex_count);
+    return c.positions.size() == n && c.rigid_groups.size() == n && c.contact_radius > 0 && c.query_radius >= c.contact_radius &&
+           std::all_of(c.positions.begin(), c.positions.end(), finite);
+  }
+  bool operator()(const BoundCase& c) const {
+    return c.d_min_edge.size() == c.topology->edges.size() && c.d_min_triangle.size() == c.topology->triangles.size() &&
+           c.d_min_vertex.size() == static_cast<std::size_t>(c.topology->vertex_count) && c.bound_relaxation > 0 && c.bound_relaxation <= 0.5f;
+  }
+  bool operator()(const ActivationCase& c) const { return c.distance > 0 && c.contact_radius > 0 && c.stiffness > 0 && std::isfinite(c.distance); }
+  bool operator()(const TruncateCase& c) const { return finite(c.previous) && finite(c.position) && c.bound >= 0; }
+};
+
+double area_squared(const std::array<Vec3f, 3>& t) {
+  const double ux = double{t[1].x} - t[0].x, uy = double{t[1].y} - t[0].y, uz = double{t[1].z} - t[0].z;
+  const double vx = double{t[2].x} - t[0].x, vy = double{t[2].y} - t[0].y, vz = double{t[2].z} - t[0].z;
+  return std::pow(uy * vz - uz * vy, 2) + std::pow(uz * vx - ux * vz, 2) + std::pow(ux * vy - uy * vx, 2);
+}
+
+}  // namespace
+
+TEST_CASE("every case of every generator is a legal question", "[property]") {
+  for (const Stage stage : all_stages)
+    for (const Generator& generator : generators(stage))
+      for (std::uint64_t i = 0; i < (is_mesh_stage(stage) ? 60u : 400u); ++i) {
+        const CaseName name{stage, std::string(generator.name), 3, i, ""};
+        INFO(print_problem(name));
+        REQUIRE(std::visit(IsLegal{}, generate(name).data));
+      }
+}
+
+TEST_CASE("a case depends on its name alone", "[property]") {
+  for (const Stage stage : all_stages)
+    for (const Generator& generator : generators(stage)) {
+      const CaseName name{stage, std::string(generator.name), 11, 5, ""};
+      const TestCase before = generate(name);
+      generate({stage, std::string(generator.name), 12, 6, ""});
+      const auto folder = std::filesystem::temp_directory_path() / "ogc_test_generators";
+      const auto first = save_case(folder / "a", before, ""), second = save_case(folder / "b", generate(name), "");
+      std::ifstream a(first), b(second);
+      REQUIRE(std::string(std::istreambuf_iterator<char>(a), {}) == std::string(std::istreambuf_iterator<char>(b), {}));
+      std::filesystem::remove_all(folder);
+    }
+}
+
+TEST_CASE("seed, index, stage and generator each give other numbers", "[property]") {
+  std::set<std::uint64_t> seen;
+  int count = 0;
+  for (const char* stage : {"closest_face", "bound"})
+    for (const char* generator : {"uniform", "bits"})
+      for (std::uint64_t seed = 0; seed < 10; ++seed)
+        for (std::uint64_t index = 0; index < 100; ++index, ++count) seen.insert(Random(stage, generator, seed, index).bits());
+  REQUIRE(seen.size() == static_cast<std::size_t>(count));
+}
+
+TEST_CASE("at least half of a stage's cases lie close to a decision boundary", "[unit]") {
+  for (const Stage stage : all_stages) {
+    if (stage == Stage::bound) continue;  // a minimum has no boundary
+    double near = 0, all = 0;
+    for (const Generator& generator : generators(stage)) {
+      all += generator.share;
+      if (generator.name == "lattice" || generator.name.starts_with("ladder.")) near += generator.share;
+    }
+    INFO(stage_name(stage));
+    REQUIRE(near >= all / 2);
+  }
+}
+
+TEST_CASE("the zero-area ladder gives triangles without area, exactly", "[property]") {
+  for (std::uint64_t i = 0; i < 500; ++i)
+    REQUIRE(area_squared(std::get<ClosestFaceCase>(generate({Stage::closest_face, "ladder.zero_area", 1, i, ""}).data).triangle) == 0);
+}
+
+TEST_CASE("meshes of no, one and two vertices are among the cases", "[property]") {
+  std::set<Index> sizes;
+  for (std::uint64_t i = 0; i < 100; ++i) sizes.insert(std::get<MeshCase>(generate({Stage::detect_vertex_facet, "few", 1, i, ""}).data).topology->vertex_count);
+  REQUIRE(sizes == std::set<Index>{0, 1, 2, 3, 5, 10});
+}
+
+TEST_CASE("an unknown generator is refused with the known names", "[unit]") {
+  using Catch::Matchers::Contains;
+  REQUIRE_THROWS_WITH(generate({Stage::truncate, "unifrom", 1, 1, ""}), Contains("unifrom") && Contains("uniform"));
+  REQUIRE_THROWS_WITH(generate({Stage::truncate, "states", 1, 1, ""}), Contains("states=RUN"));
+}

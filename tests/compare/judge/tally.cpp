@@ -1,0 +1,59 @@
+#include "compare/judge/tally.hpp"
+
+#include <limits>
+
+#include "compare/problem/contestant.hpp"
+
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+
+TEST_CASE("quantiles of a histogram are right within one per cent", "[unit]") {
+  Histogram errors;
+  for (int i = 1; i <= 1000; ++i) errors.add(i * 0.01);
+  REQUIRE(errors.quantile(0.5) == Approx(5).epsilon(0.01));
+  REQUIRE(errors.quantile(0.999) == Approx(9.99).epsilon(0.01));
+  REQUIRE(errors.maximum() == 10);
+  REQUIRE(Histogram{}.quantile(0.5) == 0);
+}
+
+TEST_CASE("an error beyond the tolerance is a mismatch, and so is one that is no number", "[unit]") {
+  Tally tally(Stage::bound);
+  tally.begin({Stage::bound, "few", 1, 2, ""});
+  tally.error(0, bound_below_tolerance, [] { return ""; });
+  REQUIRE(tally.mismatched == 0);
+  tally.error(0, bound_below_tolerance * 1.01, [] { return "here"; });
+  REQUIRE(tally.mismatched == 1);
+  REQUIRE(tally.mismatches[0].name.index == 2);
+  tally.error(0, std::numeric_limits<double>::quiet_NaN(), [] { return ""; });
+  REQUIRE(tally.mismatched == 2);
+}
+
+TEST_CASE("tallies add up, and the worst case is the first of the largest", "[unit]") {
+  Tally a(Stage::bound), b(Stage::bound);
+  a.begin({Stage::bound, "few", 1, 1, ""});
+  a.count(10, 10, 0);
+  a.error(0, 1, [] { return ""; });
+  b.begin({Stage::bound, "soup", 1, 2, ""});
+  b.count(5, 5, 1);
+  b.error(0, 2, [] { return ""; });
+  b.begin({Stage::bound, "soup", 1, 3, ""});
+  b.error(0, 2, [] { return ""; });
+  a.add(b);
+  REQUIRE(a.total().cases == 15);
+  REQUIRE(a.total().grey == 1);
+  REQUIRE(a.metrics[0].worst.index == 2);
+}
+
+TEST_CASE("grey decisions of the generic generators are limited, those of the ladders are not", "[unit]") {
+  Tally tally(Stage::truncate);
+  tally.begin({Stage::truncate, "ladder.bound", 1, 1, ""});
+  tally.count(1000000, 1000000, 900000);
+  REQUIRE(tally.grey_within_limit());
+  tally.begin({Stage::truncate, "uniform", 1, 1, ""});
+  tally.count(1000000, 1000000, 10);
+  REQUIRE(tally.grey_within_limit());
+  tally.count(0, 0, 40);
+  REQUIRE_FALSE(tally.grey_within_limit());
+  REQUIRE(tally.grey_share() == Approx(5e-5));
+}
