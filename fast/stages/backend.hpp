@@ -13,6 +13,11 @@
 //   exclusive_scan(const int* in, int* out, int n)      // n + 1 outputs; out[n] is the total
 //   sort_pairs(std::uint64_t* keys, int* values, int n) // stable, ascending
 //   when(const int* flag, Body body)     // body() enqueues work that takes place only if *flag != 0 when its turn comes; not nested
+//   Recording recording;                 // empty at first; recording.clear() after a change of what the body enqueues
+//   replay(recording, int times, Body body)   // enqueues body()'s work `times` times. A device backend runs body() on the host once, records it as a
+//                                        // graph and launches that, again in later calls, until a Buffer has moved or the recording is cleared: the
+//                                        // body enqueues the same calls with the same arguments every time; step numbers are counted on the device
+//   replay_milliseconds()                // time of each repetition of the last replay [ms]; after synchronize
 //   synchronize()                        // host only, once a frame
 //   static constexpr bool is_device
 //

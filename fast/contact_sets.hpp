@@ -1,0 +1,69 @@
+// Contact sets, smallest distances and conservative bounds for somebody else's solver: give positions, get everything that Offset Geometric Contact needs
+// for one step. Lists grow by themselves; no contact is ever dropped; the same positions give the same bits.
+//
+//   ogc::fast::ContactFinder finder(vertex_count, triangles, loose_edges);
+//   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
+//   // then: contact energy on `sets`, and no vertex farther than sets.bound[v] from its position until the next call
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "fast/contestant.hpp"
+#include "fast/stages/contact_view.hpp"
+
+namespace ogc::fast {
+
+/// Lengths [m].
+struct ContactQuery {
+  float contact_radius = 0;         ///< r > 0
+  float query_radius = 0;           ///< r_q ≥ r: nothing is looked for beyond it, so no bound exceeds γ_p r_q
+  float bound_relaxation = 0.45F;   ///< γ_p of Eq. 21, in (0, 0.5)
+};
+
+/// Results on the host, in canonical order (compare/stages); distances and bounds are never above the exact ones.
+struct ContactSets {
+  std::vector<compare::VertexFacetContact> vertex_facet;  ///< F_OGC(v) for all v
+  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< E_OGC; edge numbers: ContactFinder::topology()
+  std::vector<float> d_min_vertex, d_min_edge, d_min_triangle;  ///< Eq. 22, 24, 26 [m], at most r_q
+  std::vector<float> bound;                                     ///< b_v, Eq. 21 [m]
+  friend bool operator==(const ContactSets&, const ContactSets&) = default;
+};
+
+/// What ContactFinder runs on; one for each backend.
+class ContactEngine {
+ public:
+  virtual ~ContactEngine() = default;
+  virtual ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) = 0;
+  virtual ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) = 0;
+};
+
+/// One mesh, any number of positions. Not for use by several threads at a time.
+class ContactFinder {
+ public:
+  /// `rigid_groups`: one number for each vertex; pairs whose vertices all carry one number ≥ 0 are left out; empty: none. Throws compare::InputError
+  /// where an index is out of range or repeated, compare::ResourceError as `contestant(backend)`.
+  ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles, std::span<const compare::Edge> loose_edges = {},
+                Backend backend = Backend::cpu, std::span<const compare::Index> rigid_groups = {});
+
+  /// Names of edges and adjacency.
+  const compare::Topology& topology() const { return *topology_; }
+
+  /// Positions [m] on the host, results on the host. Throws compare::InputError where the number of positions is not the mesh's, a coordinate is not
+  /// finite, or the query is out of range.
+  ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query);
+
+  /// Positions where the backend computes (device memory for Backend::cuda), one for each vertex; results stay there, complete on return, until the
+  /// next call. Coordinates are not checked.
+  ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query);
+
+ private:
+  std::unique_ptr<const compare::Topology> topology_;  // the engine refers to it, so it must not move with the finder
+  std::unique_ptr<ContactEngine> engine_;
+};
+
+}  // namespace ogc::fast

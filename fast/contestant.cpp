@@ -1,0 +1,35 @@
+// Where the two backends become contestants. Only this file and contact_sets.cpp know whether the program was built with CUDA.
+#include "fast/contestant.hpp"
+
+#include "compare/problem/error.hpp"
+#include "fast/cpu/cpu.hpp"
+#if defined(OGC_HAS_CUDA)
+#include "fast/cuda/cuda.hpp"
+#endif
+
+namespace ogc::fast {
+
+namespace {
+
+BackendInfo device_info() {
+#if defined(OGC_HAS_CUDA)
+  return cuda_info();
+#else
+  return {false, false, "this program was built without CUDA: install nvcc and build with the default preset"};
+#endif
+}
+
+}  // namespace
+
+BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu_info() : device_info(); }
+
+compare::Contestant contestant(Backend backend) {
+  if (backend == Backend::cpu) return cpu_contestant();
+#if defined(OGC_HAS_CUDA)
+  return cuda_contestant();
+#else
+  throw compare::ResourceError("backend cuda: " + device_info().description + ", or use --backend cpu");
+#endif
+}
+
+}  // namespace ogc::fast

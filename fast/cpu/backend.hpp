@@ -1,0 +1,140 @@
+// The backend of fast/stages/backend.hpp on the host's threads. Work is done when a call returns, so `synchronize` has nothing to wait for; loops of
+// fewer items than a grain stay in the calling thread. All but `replay` may be called by several threads.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include "fast/kernels/team.hpp"
+
+namespace ogc::fast {
+
+/// A resident array on the host.
+template <class T>
+class CpuBuffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  CpuBuffer() = default;
+  CpuBuffer(CpuBuffer&&) noexcept = default;
+  CpuBuffer& operator=(CpuBuffer&&) noexcept = default;
+
+  T* data() { return items_.get(); }
+  const T* data() const { return items_.get(); }
+  std::size_t size() const { return size_; }
+
+  void resize(std::size_t n) {
+    if (n > capacity_) {
+      items_ = std::make_unique<T[]>(n);
+      capacity_ = n;
+    }
+    size_ = n;
+  }
+  /// Resizes to n and copies.
+  void upload(const T* from, std::size_t n) {
+    resize(n);
+    if (n > 0) std::memcpy(static_cast<void*>(items_.get()), from, n * sizeof(T));
+  }
+  void download(T* to, std::size_t n) const {
+    if (n > 0) std::memcpy(static_cast<void*>(to), items_.get(), n * sizeof(T));
+  }
+  void fill_zero() {
+    if (size_ > 0) std::memset(static_cast<void*>(items_.get()), 0, size_ * sizeof(T));
+  }
+
+ private:
+  std::unique_ptr<T[]> items_;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+class CpuBackend {
+ public:
+  static constexpr bool is_device = false;
+  template <class T>
+  using Buffer = CpuBuffer<T>;
+
+  template <class F>
+  void for_each(int n, F f) {
+    constexpr int grain = 64;
+    if (n <= grain) {
+      for (int i = 0; i < n; ++i) f(i);
+      return;
+    }
+    tbb::parallel_for(tbb::blocked_range<int>(0, n, grain), [&f](const tbb::blocked_range<int>& range) {
+      for (int i = range.begin(); i < range.end(); ++i) f(i);
+    });
+  }
+
+  template <class F>
+  void for_each_counted(const int* n, int capacity, F f) {
+    for_each(std::min(*n, capacity), f);
+  }
+
+  template <int W, class F>
+  void for_each_team(int n, F f) {
+    for_each(n, [&f](int i) { f(i, SerialTeam<W>{}); });
+  }
+
+  void exclusive_scan(const int* in, int* out, int n) {
+    int total = 0;
+    for (int i = 0; i < n; ++i) {
+      const int item = in[i];
+      out[i] = total;
+      total += item;
+    }
+    out[n] = total;
+  }
+
+  /// The original place breaks ties: that makes an unstable parallel sort stable.
+  void sort_pairs(std::uint64_t* keys, int* values, int n) {
+    std::vector<Item> items(static_cast<std::size_t>(n));
+    for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
+    tbb::parallel_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.place < b.place; });
+    for_each(n, [&](int i) {
+      keys[i] = items[static_cast<std::size_t>(i)].key;
+      values[i] = items[static_cast<std::size_t>(i)].value;
+    });
+  }
+
+  template <class Body>
+  void when(const int* flag, Body body) {
+    if (*flag != 0) body();
+  }
+
+  /// The host has nothing to record.
+  struct Recording {
+    void clear() {}
+  };
+
+  template <class Body>
+  void replay(Recording&, int times, Body body) {
+    replay_milliseconds_.clear();
+    for (int k = 0; k < times; ++k) {
+      const auto start = std::chrono::steady_clock::now();
+      body();
+      replay_milliseconds_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+  }
+  const std::vector<double>& replay_milliseconds() const { return replay_milliseconds_; }
+
+  void synchronize() {}
+
+ private:
+  struct Item {
+    std::uint64_t key;
+    int place, value;
+  };
+  std::vector<double> replay_milliseconds_;
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,143 @@
+#include "fast/cuda/backend.cuh"
+
+#include <utility>
+
+#include "compare/problem/error.hpp"
+#include "fast/cuda/cuda.hpp"
+
+namespace ogc::fast {
+namespace {
+
+// Blocks a multiprocessor can hold at once (2048 threads), twice: enough to keep it busy, few enough that a long count-limited loop costs little.
+constexpr int blocks_per_multiprocessor = 2 * 2048 / cuda_block_size;
+
+__global__ void set_condition(cudaGraphConditionalHandle handle, const int* flag) { cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u); }
+
+}  // namespace
+
+void CudaRecording::clear() noexcept {
+  if (graph_ != nullptr) cudaGraphExecDestroy(graph_);
+  graph_ = nullptr;
+}
+
+CudaBackend::CudaBackend() {
+  const BackendInfo info = cuda_info();
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  int device = 0, multiprocessors = 0;
+  OGC_CUDA_CHECK(cudaGetDevice(&device));
+  OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device));
+  most_blocks_ = static_cast<std::int64_t>(multiprocessors) * blocks_per_multiprocessor;
+  OGC_CUDA_CHECK(cudaStreamCreate(&stream_));
+  current_ = stream_;
+}
+
+CudaBackend::CudaBackend(CudaBackend&& other) noexcept
+    : stream_(std::exchange(other.stream_, nullptr)),
+      current_(std::exchange(other.current_, nullptr)),
+      most_blocks_(other.most_blocks_),
+      scratch_(std::move(other.scratch_)),
+      events_(std::exchange(other.events_, {})),
+      repetitions_(std::exchange(other.repetitions_, 0)) {}
+
+CudaBackend::~CudaBackend() {
+  if (stream_ == nullptr) return;
+  cudaStreamSynchronize(stream_);
+  for (cudaEvent_t event : events_) cudaEventDestroy(event);
+  cudaStreamDestroy(stream_);
+}
+
+bool CudaBackend::read_flag(const int* flag) {
+  int value = 0;
+  OGC_CUDA_CHECK(cudaMemcpyAsync(&value, flag, sizeof(value), cudaMemcpyDeviceToHost, current_));
+  OGC_CUDA_CHECK(cudaStreamSynchronize(current_));
+  return value != 0;
+}
+
+// Relaxed capture: scratch memory may grow and kernels may be loaded while the body is recorded.
+void CudaBackend::begin_recording() {
+  OGC_CUDA_CHECK(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeRelaxed));
+  recording_ = true;
+}
+
+void CudaBackend::end_recording(Recording& recording) {
+  recording_ = false;
+  cudaGraph_t graph = nullptr;
+  OGC_CUDA_CHECK(cudaStreamEndCapture(stream_, &graph));
+  const cudaError_t error = cudaGraphInstantiate(&recording.graph_, graph, 0);
+  cudaGraphDestroy(graph);
+  OGC_CUDA_CHECK(error);
+  recording.generation_ = buffer_generation;
+  OGC_CUDA_CHECK(cudaGraphUpload(recording.graph_, stream_));
+}
+
+void CudaBackend::abandon_recording() noexcept {
+  recording_ = false;
+  if (current_ != stream_) cudaStreamDestroy(current_);
+  current_ = stream_;
+  cudaGraph_t graph = nullptr;
+  cudaStreamEndCapture(stream_, &graph);
+  if (graph != nullptr) cudaGraphDestroy(graph);
+  cudaGetLastError();
+}
+
+// Adds an IF node after what `current_` has captured so far, and makes a stream that captures into the node's body the current one.
+cudaStream_t CudaBackend::begin_condition(const int* flag) {
+  cudaStreamCaptureStatus status = cudaStreamCaptureStatusNone;
+  cudaGraph_t graph = nullptr;
+  OGC_CUDA_CHECK(cudaStreamGetCaptureInfo(current_, &status, nullptr, &graph, nullptr, nullptr, nullptr));
+  cudaGraphConditionalHandle handle{};
+  OGC_CUDA_CHECK(cudaGraphConditionalHandleCreate(&handle, graph, 0, cudaGraphCondAssignDefault));
+  set_condition<<<1, 1, 0, current_>>>(handle, flag);
+  OGC_CUDA_CHECK(cudaGetLastError());
+
+  const cudaGraphNode_t* before = nullptr;
+  std::size_t before_count = 0;
+  OGC_CUDA_CHECK(cudaStreamGetCaptureInfo(current_, &status, nullptr, &graph, &before, nullptr, &before_count));
+  cudaGraphNodeParams parameters{};
+  parameters.type = cudaGraphNodeTypeConditional;
+  parameters.conditional.handle = handle;
+  parameters.conditional.type = cudaGraphCondTypeIf;
+  parameters.conditional.size = 1;
+  cudaGraphNode_t node = nullptr;
+  OGC_CUDA_CHECK(cudaGraphAddNode(&node, graph, before, nullptr, before_count, &parameters));
+  OGC_CUDA_CHECK(cudaStreamUpdateCaptureDependencies(current_, &node, nullptr, 1, cudaStreamSetCaptureDependencies));
+
+  const cudaStream_t outer = current_;
+  OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&current_, cudaStreamNonBlocking));
+  OGC_CUDA_CHECK(cudaStreamBeginCaptureToGraph(current_, parameters.conditional.phGraph_out[0], nullptr, nullptr, 0, cudaStreamCaptureModeRelaxed));
+  return outer;
+}
+
+void CudaBackend::end_condition(cudaStream_t outer) {
+  cudaGraph_t body = nullptr;
+  const cudaError_t error = cudaStreamEndCapture(current_, &body);
+  cudaStreamDestroy(current_);
+  current_ = outer;
+  OGC_CUDA_CHECK(error);
+}
+
+void CudaBackend::launch(const Recording& recording, int times) {
+  while (events_.size() < static_cast<std::size_t>(times) + 1) {
+    cudaEvent_t event = nullptr;
+    OGC_CUDA_CHECK(cudaEventCreate(&event));
+    events_.push_back(event);
+  }
+  repetitions_ = times;
+  OGC_CUDA_CHECK(cudaEventRecord(events_[0], stream_));
+  for (int k = 0; k < times; ++k) {
+    OGC_CUDA_CHECK(cudaGraphLaunch(recording.graph_, stream_));
+    OGC_CUDA_CHECK(cudaEventRecord(events_[static_cast<std::size_t>(k) + 1], stream_));
+  }
+}
+
+std::vector<double> CudaBackend::replay_milliseconds() const {
+  std::vector<double> result;
+  for (int k = 0; k < repetitions_; ++k) {
+    float milliseconds = 0;
+    OGC_CUDA_CHECK(cudaEventElapsedTime(&milliseconds, events_[static_cast<std::size_t>(k)], events_[static_cast<std::size_t>(k) + 1]));
+    result.push_back(static_cast<double>(milliseconds));
+  }
+  return result;
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,76 @@
+// Resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default stream, which waits for a backend's
+// (blocking) stream and is waited for by it, so a copy sees all work enqueued before it; inside a capture such a copy is refused by the runtime, which
+// is what "outside a step" means.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <cuda_runtime.h>
+
+#include "fast/cuda/check.cuh"
+
+namespace ogc::fast {
+
+/// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the size asked for, the size free and what to do.
+void* device_allocate(std::size_t bytes);
+void device_free(void* memory) noexcept;
+
+/// Counts allocations that moved: a recorded graph holds raw pointers and is stale once this number has changed.
+inline std::atomic<std::uint64_t> buffer_generation{0};
+
+template <class T>
+class CudaBuffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  CudaBuffer() = default;
+  CudaBuffer(CudaBuffer&& other) noexcept { swap(other); }
+  CudaBuffer& operator=(CudaBuffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~CudaBuffer() { device_free(items_); }
+
+  T* data() { return items_; }
+  const T* data() const { return items_; }
+  std::size_t size() const { return size_; }
+
+  /// Keeps no content and never shrinks; a new allocation starts at zero, as on the host.
+  void resize(std::size_t n) {
+    if (n > capacity_) {
+      device_free(std::exchange(items_, nullptr));
+      capacity_ = 0;
+      ++buffer_generation;
+      items_ = static_cast<T*>(device_allocate(n * sizeof(T)));
+      capacity_ = n;
+      OGC_CUDA_CHECK(cudaMemset(items_, 0, n * sizeof(T)));
+    }
+    size_ = n;
+  }
+  /// Resizes to n and copies.
+  void upload(const T* from, std::size_t n) {
+    resize(n);
+    if (n > 0) OGC_CUDA_CHECK(cudaMemcpy(items_, from, n * sizeof(T), cudaMemcpyHostToDevice));
+  }
+  void download(T* to, std::size_t n) const {
+    if (n > 0) OGC_CUDA_CHECK(cudaMemcpy(to, items_, n * sizeof(T), cudaMemcpyDeviceToHost));
+  }
+  void fill_zero() {
+    if (size_ > 0) OGC_CUDA_CHECK(cudaMemset(items_, 0, size_ * sizeof(T)));
+  }
+
+ private:
+  void swap(CudaBuffer& other) noexcept {
+    std::swap(items_, other.items_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+  T* items_ = nullptr;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+}  // namespace ogc::fast

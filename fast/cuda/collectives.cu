@@ -1,0 +1,69 @@
+#include "fast/cuda/collectives.cuh"
+
+#include <algorithm>
+
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+#include <thrust/iterator/counting_iterator.h>
+#include <thrust/iterator/transform_iterator.h>
+
+#include "fast/cuda/buffer.cuh"
+#include "fast/cuda/check.cuh"
+
+namespace ogc::fast {
+namespace {
+
+constexpr std::size_t alignment = 256;  // of cudaMalloc, and what CUB asks for
+std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
+
+// The caller's items and one zero after them: its exclusive prefix is the total.
+struct PaddedItems {
+  const int* items;
+  int count;
+  __device__ int operator()(int i) const { return i < count ? items[i] : 0; }
+};
+
+}  // namespace
+
+Scratch::~Scratch() {
+  for (void* block : blocks_) device_free(block);
+}
+
+void* Scratch::request(std::size_t bytes) {
+  if (bytes > largest_) {
+    const std::size_t size = aligned(std::max(bytes, largest_ + largest_ / 2));
+    blocks_.push_back(device_allocate(size));
+    largest_ = size;
+  }
+  return blocks_.empty() ? nullptr : blocks_.back();
+}
+
+void exclusive_scan(cudaStream_t stream, Scratch& scratch, const int* in, int* out, int n) {
+  const auto padded = thrust::make_transform_iterator(thrust::counting_iterator<int>(0), PaddedItems{in, n});
+  std::size_t bytes = 0;
+  OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(nullptr, bytes, padded, out, n + 1, stream));
+  void* temporary = scratch.request(std::max<std::size_t>(bytes, 1));
+  OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(temporary, bytes, padded, out, n + 1, stream));
+}
+
+void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n) {
+  if (n < 2) return;
+  const auto count = static_cast<std::size_t>(n);
+  const std::size_t key_bytes = aligned(count * sizeof(std::uint64_t)), value_bytes = aligned(count * sizeof(int));
+  cub::DoubleBuffer<std::uint64_t> both_keys(keys, nullptr);
+  cub::DoubleBuffer<int> both_values(values, nullptr);
+  std::size_t bytes = 0;
+  OGC_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(nullptr, bytes, both_keys, both_values, n, 0, 64, stream));
+  char* temporary = static_cast<char*>(scratch.request(key_bytes + value_bytes + std::max<std::size_t>(bytes, 1)));
+  both_keys.d_buffers[1] = reinterpret_cast<std::uint64_t*>(temporary);
+  both_values.d_buffers[1] = reinterpret_cast<int*>(temporary + key_bytes);
+  OGC_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(temporary + key_bytes + value_bytes, bytes, both_keys, both_values, n, 0, 64, stream));
+  if (both_keys.Current() != keys) {
+    OGC_CUDA_CHECK(cudaMemcpyAsync(keys, both_keys.Current(), count * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream));
+  }
+  if (both_values.Current() != values) {
+    OGC_CUDA_CHECK(cudaMemcpyAsync(values, both_values.Current(), count * sizeof(int), cudaMemcpyDeviceToDevice, stream));
+  }
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,35 @@
+// Scan and sort from CUB behind two plain functions, so that CUB is compiled once. Both are deterministic: integers only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <cuda_runtime.h>
+
+namespace ogc::fast {
+
+/// Temporary memory of a backend's collectives. A request that is larger than any before adds a block and keeps the old ones until the backend ends:
+/// work already enqueued or recorded goes on using them. Blocks grow by half at least, so all of them together are at most three times the last.
+class Scratch {
+ public:
+  Scratch() = default;
+  Scratch(Scratch&& other) noexcept : blocks_(std::exchange(other.blocks_, {})), largest_(std::exchange(other.largest_, 0)) {}
+  Scratch& operator=(Scratch&&) = delete;
+  ~Scratch();
+  /// At least `bytes` bytes, aligned to 256, valid until the next call: the calls of one stream take turns. Legal while a graph is being recorded.
+  void* request(std::size_t bytes);
+
+ private:
+  std::vector<void*> blocks_;
+  std::size_t largest_ = 0;
+};
+
+/// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ n; `out` may be `in`.
+void exclusive_scan(cudaStream_t stream, Scratch& scratch, const int* in, int* out, int n);
+
+/// Stable, ascending, in place.
+void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n);
+
+}  // namespace ogc::fast

@@ -1,0 +1,29 @@
+// ContactFinder's engine on the device.
+#include "fast/cuda/backend.cuh"
+#include "fast/cuda/cuda.hpp"
+#include "fast/stages/contact_engine.hpp"
+
+namespace ogc::fast {
+
+namespace {
+
+/// Brings its own backend, as other people's solvers have none of ours.
+class CudaContactEngine : public ContactEngine {
+ public:
+  CudaContactEngine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups) : engine_(backend_, topology, rigid_groups) {}
+
+  ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override { return engine_.find(positions, query); }
+  ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override { return engine_.find_resident(positions, query); }
+
+ private:
+  CudaBackend backend_;
+  BackendContactEngine<CudaBackend> engine_;
+};
+
+}  // namespace
+
+std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups) {
+  return std::make_unique<CudaContactEngine>(topology, rigid_groups);
+}
+
+}  // namespace ogc::fast

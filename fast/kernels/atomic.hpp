@@ -1,0 +1,53 @@
+// Atomics whose result no order of execution can change: integer sums, and minima of non-negative floats, whose order is that of their bits.
+#pragma once
+
+#include "fast/kernels/qualifiers.hpp"
+
+#if !defined(__CUDA_ARCH__)
+#include <atomic>
+#endif
+
+namespace ogc::fast {
+
+/// Adds and returns the value before.
+OGC_HD inline int atomic_add(int* target, int value) {
+#if defined(__CUDA_ARCH__)
+  return atomicAdd(target, value);
+#else
+  return std::atomic_ref<int>(*target).fetch_add(value, std::memory_order_relaxed);
+#endif
+}
+
+OGC_HD inline void atomic_max(int* target, int value) {
+#if defined(__CUDA_ARCH__)
+  atomicMax(target, value);
+#else
+  std::atomic_ref<int> shared(*target);
+  int seen = shared.load(std::memory_order_relaxed);
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+#endif
+}
+
+/// A value that other threads may be lowering.
+OGC_HD inline float atomic_load(const float* source) {
+#if defined(__CUDA_ARCH__)
+  return *const_cast<const volatile float*>(source);
+#else
+  return std::atomic_ref<float>(*const_cast<float*>(source)).load(std::memory_order_relaxed);
+#endif
+}
+
+/// Minimum of non-negative floats: as integers their bits have the same order. Negative values and NaN must not come here.
+OGC_HD inline void atomic_min(float* target, float value) {
+#if defined(__CUDA_ARCH__)
+  atomicMin(reinterpret_cast<int*>(target), __float_as_int(value));
+#else
+  std::atomic_ref<float> shared(*target);
+  float seen = shared.load(std::memory_order_relaxed);
+  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+#endif
+}
+
+}  // namespace ogc::fast

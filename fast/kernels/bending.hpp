@@ -1,0 +1,85 @@
+// Discrete hinge: c/2 (θ − θ₀)², c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (scenes.md), damping c k_d/(2h) (θ − θᵗ)², seen from one vertex. The block is Gauss–Newton's.
+// With e = x1 − x0, a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
+//
+//          o0             θ = atan2(−‖e‖ n_a·b, n_a·n_b): the sine as a volume, because the cross product of two nearly equal normals cancels
+//         /  \            ∂θ/∂o0 = −‖e‖ n_a/‖n_a‖²,  ∂θ/∂o1 = −‖e‖ n_b/‖n_b‖²
+//       x0 ── x1          ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1,  s_a = a·e/‖e‖² (where o0's foot lies on the edge); ∂θ/∂x1 with s instead of 1 − s
+//         \  /
+//          o1             Exchanging x0 with x1 and o0 with o1 at once keeps θ, so the two roles below serve all four vertices.
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/accumulator.hpp"
+#include "fast/kernels/arctangent.hpp"
+#include "fast/kernels/membrane.hpp"
+#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/vector.hpp"
+
+namespace ogc::fast {
+
+struct HingeRest {
+  int vertex[4] = {-1, -1, -1, -1};  ///< x0, x1, o0, o1
+  int body = -1;
+  float angle = 0;                   ///< θ₀ [rad]
+  float stiffness = 0;               ///< c [J]
+};
+
+/// What angle and gradient need of a hinge's present shape.
+struct HingeShape {
+  Vec edge, normal_a, normal_b;  ///< e, n_a, n_b
+  float length_squared = 0;        ///< ‖e‖²
+  float foot_a = 0, foot_b = 0;    ///< s_a, s_b
+  float angle = 0;                 ///< θ
+  Vec gradient_a, gradient_b;    ///< ∂θ/∂o0, ∂θ/∂o1 [1/m]
+  bool defined = false;            ///< false where a triangle or the edge collapsed
+};
+
+/// A triangle has collapsed where its doubled area is below the rounding error of its own cross product, 4 u ‖e‖‖a‖ (two products and a difference in
+/// each of three components): its normal is noise, so the hinge exerts no force and the membrane alone opens it again.
+OGC_HD inline bool hinge_side_collapsed(float normal_squared, float length_squared, float side_squared) {
+  constexpr float relative = 16 * 0x1p-48f;  // (4 u)²
+  return !(normal_squared > relative * length_squared * side_squared);
+}
+
+OGC_HD inline HingeShape hinge_shape(const Vec& edge, const Vec& a, const Vec& b) {
+  HingeShape shape;
+  shape.edge = edge;
+  shape.normal_a = cross(edge, a);
+  shape.normal_b = cross(b, edge);
+  shape.length_squared = dot(edge, edge);
+  const float squared_a = dot(shape.normal_a, shape.normal_a), squared_b = dot(shape.normal_b, shape.normal_b);
+  if (hinge_side_collapsed(squared_a, shape.length_squared, dot(a, a)) || hinge_side_collapsed(squared_b, shape.length_squared, dot(b, b))) return shape;
+  shape.defined = true;
+  const float length = sqrtf(shape.length_squared);
+  shape.angle = arctangent2(-length * dot(shape.normal_a, b), dot(shape.normal_a, shape.normal_b));
+  shape.gradient_a = (-length / squared_a) * shape.normal_a;
+  shape.gradient_b = (-length / squared_b) * shape.normal_b;
+  shape.foot_a = dot(a, edge) / shape.length_squared;
+  shape.foot_b = dot(b, edge) / shape.length_squared;
+  return shape;
+}
+
+/// ∂θ/∂x0 [1/m].
+OGC_HD inline Vec hinge_gradient_edge(const HingeShape& shape) {
+  return (shape.foot_a - 1.0f) * shape.gradient_a + (shape.foot_b - 1.0f) * shape.gradient_b;
+}
+
+struct HingeStencil {
+  float stiffness, rest_angle;  ///< c [J], θ₀ [rad]
+};
+
+/// Adds −∂/∂x of energy and damping and c (1 + k_d/h) ∇θ ∇θᵀ, for a vertex whose ∂θ/∂x is `gradient`. `angle_start` is θᵗ; `damping` k_d/h.
+OGC_HD inline void add_hinge(const HingeStencil& stencil, float damping, float angle, float angle_start, const Vec& gradient, ForceAndBlock& sum) {
+  const float moment = stencil.stiffness * ((angle - stencil.rest_angle) + damping * (angle - angle_start));
+  sum.add_force(-moment, gradient);
+  sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
+}
+
+/// [J], in double: energies are only reported.
+OGC_HD inline double hinge_energy(const HingeRest& rest, float angle) {
+  const double change = static_cast<double>(angle) - rest.angle;
+  return 0.5 * rest.stiffness * change * change;
+}
+
+}  // namespace ogc::fast

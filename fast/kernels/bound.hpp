@@ -1,0 +1,40 @@
+// The conservative bound of a vertex (Eq. 21, 23, 25).
+#pragma once
+
+#include "fast/kernels/rounding.hpp"
+#include "fast/kernels/surface.hpp"
+
+namespace ogc::fast {
+
+/// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the larger of both counts.
+struct ResetDistances {
+  const float* query_radius;
+  const int* overflow;
+  int edge_count, triangle_count;
+  float *d_min_edge, *d_min_triangle;
+
+  OGC_HD void operator()(int i) const {
+    if (*overflow != 0) return;
+    if (i < edge_count) d_min_edge[i] = *query_radius;
+    if (i < triangle_count) d_min_triangle[i] = *query_radius;
+  }
+};
+
+struct ConservativeBound {
+  Rows vertex_edges, vertex_triangles;
+  const float *d_min_vertex, *d_min_edge, *d_min_triangle;
+  float bound_relaxation;
+  const int* overflow;
+  float* bound;
+
+  /// The product of two single-precision numbers is exact in double, so the bound is the largest float that is not above it.
+  OGC_HD void operator()(int v) const {
+    if (*overflow != 0) return;
+    float d = d_min_vertex[v];
+    for (int k = vertex_edges.offsets[v]; k < vertex_edges.offsets[v + 1]; ++k) d = smaller(d, d_min_edge[vertex_edges.items[k]]);
+    for (int k = vertex_triangles.offsets[v]; k < vertex_triangles.offsets[v + 1]; ++k) d = smaller(d, d_min_triangle[vertex_triangles.items[k]]);
+    bound[v] = round_down(mul(static_cast<double>(bound_relaxation), static_cast<double>(d)));
+  }
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,316 @@
+// A tree of boxes over primitives in Morton order, four to a node. Level 0 holds the primitives' own boxes, each level above one lane for every node
+// below, so that node j of level l has the children 4j … 4j + 3 of level l − 1 and nothing but the start of each level is stored. A refit needs no
+// atomics; a traversal keeps the lanes that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
+// positions, not inflated: the query brings its radius.
+//
+// Beside its box each lane carries a `reach`: how far its primitives still have to look. A pair matters only if it is nearer than r or could lower the
+// smallest distance of one of its partners, and for most primitives a neighbour in the mesh bounds that distance far below r_q before any search.
+#pragma once
+
+#include <cstdint>
+
+#include "fast/kernels/segment.hpp"
+#include "fast/kernels/surface.hpp"
+
+namespace ogc::fast {
+
+inline constexpr float infinity = __builtin_huge_valf();
+
+/// A closed box; empty at first.
+struct Box {
+  Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+
+  OGC_HD void include(const Vec& p) { include(Box{p, p}); }
+  OGC_HD void include(const Box& b) {
+    lower = {smaller(lower.x, b.lower.x), smaller(lower.y, b.lower.y), smaller(lower.z, b.lower.z)};
+    upper = {larger(upper.x, b.upper.x), larger(upper.y, b.upper.y), larger(upper.z, b.upper.z)};
+  }
+};
+
+OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
+  return larger(larger(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
+}
+
+/// Squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one product, two sums. Never smaller for a box inside.
+OGC_HD inline float squared_gap(const Box& a, const Box& b) {
+  const float x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
+  const float z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
+  return add(add(mul(x, x), mul(y, y)), mul(z, z));
+}
+
+/// A length that is not above the exact distance of boxes with this squared_gap: the root errs by u, the gap by 2.5 u, the product by u.
+OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
+
+/// A squared gap beyond this limit has gap_below ≥ reach: reach² (1 + 64 u) makes up for its 20 u and for the two roundings here.
+OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
+
+/// Four boxes, coordinate by coordinate, with the gap limit of each one's reach; lanes without a box are empty.
+struct alignas(16) Quad {
+  float lower[3][4], upper[3][4], reach[4];
+
+  OGC_HD void set(int lane, const Box& box, float limit) {
+    lower[0][lane] = box.lower.x, lower[1][lane] = box.lower.y, lower[2][lane] = box.lower.z;
+    upper[0][lane] = box.upper.x, upper[1][lane] = box.upper.y, upper[2][lane] = box.upper.z;
+    reach[lane] = limit;
+  }
+  OGC_HD Box box(int lane) const { return {{lower[0][lane], lower[1][lane], lower[2][lane]}, {upper[0][lane], upper[1][lane], upper[2][lane]}}; }
+  OGC_HD Box whole() const {
+    Box all = box(0);
+    for (int lane = 1; lane < 4; ++lane) all.include(box(lane));
+    return all;
+  }
+  OGC_HD float whole_reach() const { return larger(larger(reach[0], reach[1]), larger(reach[2], reach[3])); }
+};
+
+inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal; 4¹⁶ primitives
+
+struct TreeView {
+  Quad* nodes = nullptr;
+  const int* order = nullptr;  ///< primitive at each place
+  int count = 0;               ///< primitives
+  int levels = 0;              ///< at least 2; the last has one node
+  int start[max_levels] = {};  ///< number of each level's first node
+
+  OGC_HD Quad& node(int level, int j) const { return nodes[start[level] + j]; }
+};
+
+OGC_HD inline int lowest_bit(std::uint64_t n) {
+#if defined(__CUDA_ARCH__)
+  return __ffsll(static_cast<long long>(n)) - 1;
+#else
+  return __builtin_ctzll(n);
+#endif
+}
+
+/// Squared gaps of a box and the four lanes, and a bit for each lane whose gap is within the limit or the lane's own reach.
+struct QuadGaps {
+  float lane[4];
+  unsigned near;
+
+  OGC_HD float operator[](int i) const { return i < 2 ? (i == 0 ? lane[0] : lane[1]) : (i == 2 ? lane[2] : lane[3]); }
+};
+
+#if defined(__CUDACC__)
+
+OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
+  QuadGaps gaps{{}, 0};
+  for (unsigned i = 0; i < 4; ++i) {
+    const float x = gap(quad.lower[0][i], quad.upper[0][i], box.lower.x, box.upper.x), y = gap(quad.lower[1][i], quad.upper[1][i], box.lower.y, box.upper.y);
+    const float z = gap(quad.lower[2][i], quad.upper[2][i], box.lower.z, box.upper.z);
+    gaps.lane[i] = add(add(mul(x, x), mul(y, y)), mul(z, z));
+    gaps.near |= static_cast<unsigned>(gaps.lane[i] <= larger(limit, quad.reach[i])) << i;
+  }
+  return gaps;
+}
+
+#else
+
+/// Four lanes of one register: g++ leaves the loop above scalar, which doubles the time of a whole detection. Same operations, same bits.
+using Four __attribute__((vector_size(16))) = float;
+
+inline Four four(const float (&from)[4]) {
+  Four to;
+  __builtin_memcpy(&to, from, sizeof to);
+  return to;
+}
+
+inline Four larger(Four a, Four b) { return a < b ? b : a; }
+
+inline Four gap(Four lower, Four upper, float other_lower, float other_upper) { return larger(larger(lower - other_upper, other_lower - upper), Four{}); }
+
+inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
+  const Four x = gap(four(quad.lower[0]), four(quad.upper[0]), box.lower.x, box.upper.x);
+  const Four y = gap(four(quad.lower[1]), four(quad.upper[1]), box.lower.y, box.upper.y);
+  const Four z = gap(four(quad.lower[2]), four(quad.upper[2]), box.lower.z, box.upper.z);
+  const Four all = x * x + y * y + z * z;
+  const auto bits = (all <= larger(Four{} + limit, four(quad.reach))) & decltype(all <= all){1, 2, 4, 8};
+  QuadGaps gaps{{}, static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3])};
+  __builtin_memcpy(gaps.lane, &all, sizeof all);
+  return gaps;
+}
+
+#endif
+
+/// Calls visit(place, squared gap) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own reach. The visitor
+/// may lower `limit` on the way.
+template <class Visit>
+OGC_HD void for_each_near(const TreeView& tree, const Box& box, int from, const float& limit, Visit visit) {
+  QuadGaps gaps;
+  const auto near_lanes = [&](int level, int j) {
+    gaps = squared_gaps(tree.node(level, j), box, limit);
+    const int passed = (from >> (2 * level)) - 4 * j;  // lanes that lie before `from` altogether
+    return passed > 0 ? gaps.near & 15U << (passed < 4 ? passed : 4) : gaps.near;
+  };
+  int level = tree.levels - 1, j = 0;
+  std::uint64_t pending = near_lanes(level, j);
+  while (true) {
+    if ((pending & 15U) == 0) {
+      if (++level == tree.levels) return;
+      pending >>= 4, j >>= 2;
+      continue;
+    }
+    const int child = 4 * j + lowest_bit(pending);
+    pending &= pending - 1;
+    unsigned lanes = near_lanes(level - 1, child);
+    if (level > 1) {
+      pending = pending << 4 | lanes;
+      --level, j = child;
+      continue;
+    }
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = lowest_bit(lanes);
+      visit(4 * child + lane, gaps[lane]);
+    }
+  }
+}
+
+/// How far the primitives have to look at most: r_q, or an upper bound of the distance to a neighbour in the mesh (SurfaceView's seeds). The bound is
+/// that of a vertex and an edge whose faces form a pair which the query must find, so the smallest distance is not above it.
+struct Reach {
+  SurfaceView surface;
+  const Vec* positions;
+  const float* query_radius;
+
+  OGC_HD float of_edge(int e) const {
+    Nearest nearest;
+    for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
+    return above(nearest);
+  }
+  OGC_HD float of_facet(int t) const {
+    const Facet& facet = surface.facets[t];
+    Nearest nearest;
+    for (int k = 0; k < 3; ++k) consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
+    return above(nearest);
+  }
+  OGC_HD float of_vertex(int v) const {
+    Nearest nearest;
+    for (const int e : surface.vertex_seeds[v].edge) {
+      if (e >= 0) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
+    }
+    return above(nearest);
+  }
+
+ private:
+  struct Nearest {
+    double squared = infinity, size = 0;
+  };
+  OGC_HD void consider(Nearest& nearest, int v, int a, int b) const {
+    if (v < 0) return;
+    const Real u = difference<Rounded>(positions[v], positions[a]), e = difference<Rounded>(positions[b], positions[a]);
+    nearest.squared = smaller(nearest.squared, squared_to_segment(u, e));
+    nearest.size = larger(nearest.size, add(norm_1(u), norm_1(e)));
+  }
+  /// The root of squared_to_segment errs by 2⁻⁴⁸ of the sum of both lengths.
+  OGC_HD float above(const Nearest& nearest) const {
+    return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
+  }
+};
+
+/// Boxes and reaches of all primitives and their lanes one level up; index: leaves of the facets' tree, then those of the edges' tree.
+struct RefitLeaves {
+  Reach reach;
+  TreeView facets, edges;
+  int facet_leaves;
+
+  OGC_HD void operator()(int i) const {
+    const bool is_facet = i < facet_leaves;
+    const TreeView& tree = is_facet ? facets : edges;
+    const int leaf = is_facet ? i : i - facet_leaves;
+    Quad& quad = tree.node(0, leaf);
+    for (int lane = 0; lane < 4 && 4 * leaf + lane < tree.count; ++lane) {
+      const int primitive = tree.order[4 * leaf + lane];
+      if (is_facet) {
+        quad.set(lane, facet_box(primitive), gap_limit(reach.of_facet(primitive)));
+      } else {
+        quad.set(lane, edge_box(primitive), gap_limit(reach.of_edge(primitive)));
+      }
+    }
+    tree.node(1, leaf / 4).set(leaf % 4, quad.whole(), quad.whole_reach());
+  }
+
+ private:
+  OGC_HD Box facet_box(int t) const {
+    Box box;
+    for (const int corner : reach.surface.facets[t].corner) box.include(reach.positions[corner]);
+    return box;
+  }
+  OGC_HD Box edge_box(int e) const {
+    Box box;
+    box.include(reach.positions[reach.surface.edges[e].a]);
+    box.include(reach.positions[reach.surface.edges[e].b]);
+    return box;
+  }
+};
+
+/// Nodes of one level; one, with empty lanes, where there are no primitives.
+OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
+
+/// Given the lanes of level `level` − 1, those of `level` and of the one above: two levels a launch. Index as in RefitLeaves, by nodes of `level`.
+struct RefitInner {
+  TreeView facets, edges;
+  int level, facet_nodes;
+
+  OGC_HD void operator()(int i) const {
+    const bool is_facet = i < facet_nodes;
+    const TreeView& tree = is_facet ? facets : edges;
+    const int j = is_facet ? i : i - facet_nodes;
+    Quad& quad = tree.node(level, j);
+    const int below = level_size(tree.count, level - 1);
+    for (int lane = 0; lane < 4 && 4 * j + lane < below; ++lane) {
+      const Quad& child = tree.node(level - 1, 4 * j + lane);
+      quad.set(lane, child.whole(), child.whole_reach());
+    }
+    if (level + 1 < tree.levels) tree.node(level + 1, j / 4).set(j % 4, quad.whole(), quad.whole_reach());
+  }
+};
+
+/// The 20 low bits of n, two zeros between each and the next.
+OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
+  n = (n | n << 32) & 0x001f00000000ffffULL;
+  n = (n | n << 16) & 0x001f0000ff0000ffULL;
+  n = (n | n << 8) & 0x100f00f00f00f00fULL;
+  n = (n | n << 4) & 0x10c30c30c30c30c3ULL;
+  return (n | n << 2) & 0x1249249249249249ULL;
+}
+
+/// Morton keys of all vertices, edges and facets for one sort; the two highest bits keep the three kinds apart.
+struct MortonKeys {
+  SurfaceView surface;
+  const Vec* positions;
+  TreeView facets, edges;  ///< refitted: their roots give the extent
+  std::uint64_t* keys;
+  int* values;
+
+  OGC_HD void operator()(int i) const {
+    const int e = i - surface.vertex_count, t = e - surface.edge_count;
+    Box box;
+    if (e < 0) {
+      box.include(positions[i]);
+    } else if (t < 0) {
+      box.include(positions[surface.edges[e].a]);
+      box.include(positions[surface.edges[e].b]);
+    } else {
+      for (const int corner : surface.facets[t].corner) box.include(positions[corner]);
+    }
+    values[i] = e < 0 ? i : (t < 0 ? e : t);
+    keys[i] = static_cast<std::uint64_t>(e < 0 ? 0 : (t < 0 ? 1 : 2)) << 62 | key(box);
+  }
+
+ private:
+  OGC_HD std::uint64_t key(const Box& box) const {
+    Box root = edges.node(edges.levels - 1, 0).whole();
+    root.include(facets.node(facets.levels - 1, 0).whole());
+    const auto length = [](float low, float high) { return sub(static_cast<double>(high), static_cast<double>(low)); };
+    const double extent = larger(larger(length(root.lower.x, root.upper.x), length(root.lower.y, root.upper.y)), length(root.lower.z, root.upper.z));
+    const double scale = extent > 0 ? divide(0x1p20 - 1, extent) : 0;
+    const auto cell = [scale](float low, float high, float origin) {
+      const double middle = mul(0.5, add(static_cast<double>(low), static_cast<double>(high)));
+      const double place = mul(sub(middle, static_cast<double>(origin)), scale);
+      return spread_bits(place > 0 ? static_cast<std::uint64_t>(smaller(place, 0x1p20 - 1)) : 0);
+    };
+    return cell(box.lower.x, box.upper.x, root.lower.x) << 2 | cell(box.lower.y, box.upper.y, root.lower.y) << 1 |
+           cell(box.lower.z, box.upper.z, root.lower.z);
+  }
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,100 @@
+// Point and triangle: distance (in rounded double, with a derived slack), and the face that holds the closest point (by exact signs). The distance does
+// not jump between faces, so it may be taken before, and without, the exact decision; only pairs closer than r pay for that.
+#pragma once
+
+#include "compare/stages/closest_face.hpp"
+#include "fast/kernels/predicates.hpp"
+#include "fast/kernels/segment.hpp"
+
+namespace ogc::fast {
+
+using compare::TriangleFeature;
+
+/// Corners in ascending order of their vertex numbers, so that a shared edge gives the same operands in all of its triangles.
+struct Corners {
+  Vec a, b, c;
+
+  OGC_HD const Vec& operator[](int k) const { return k == 0 ? a : (k == 1 ? b : c); }
+};
+
+/// Distance of x and the closed triangle.
+///
+/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: the normal errs by 4 roundings of L² and the barycentric sums by 16 of S L², which
+/// moves a point by S L²/‖n‖ at most; in all under 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁶ L counts as its edges, no point of it being farther from them.
+OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
+  const Real u = difference<Rounded>(x, t.a), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a), f = difference<Rounded>(t.c, t.b);
+  const Real n = cross(e, w);
+  const double ee = squared(e), ww = squared(w), nn = squared(n);
+  const double longest = larger(larger(ee, ww), squared(f)), longest_4 = mul(longest, longest);
+  const double size = add(add(norm_1(u), norm_1(e)), norm_1(w));
+  const bool has_inside = nn > mul(0x1p-52, longest_4);
+
+  double slack = mul(0x1p-38, size);  // L²/‖n‖ ≤ 2⁸: nearly all triangles
+  if (!has_inside) {
+    slack = add(mul(0x1p-46, size), mul(0x1p-25, square_root(longest)));
+  } else if (nn < mul(0x1p-16, longest_4)) {
+    slack = mul(mul(0x1p-46, size), square_root(divide(longest_4, nn)));
+  }
+  if (has_inside) {
+    const double ew = dot(e, w).value, ue = dot(u, e).value, uw = dot(u, w).value;
+    const double at_b = sub(mul(ww, ue), mul(ew, uw)), at_c = sub(mul(ee, uw), mul(ew, ue));
+    if (at_b > 0 && at_c > 0 && add(at_b, at_c) < nn) return {divide(modulus(dot(u, n).value), square_root(nn)), slack};
+  }
+  const Real v = difference<Rounded>(x, t.b);
+  const double nearest = smaller(smaller(squared_to_segment(u, e), squared_to_segment(u, w)), squared_to_segment(v, f));
+  return {square_root(nearest), slack};
+}
+
+/// The face of the triangle whose interior holds the point closest to x; where two faces meet the lower-dimensional one wins. The signs partition space;
+/// a triangle without area can offer several edges, of which the first is taken.
+OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t) {
+  bool before[3][2];  // edge k from corner k to k + 1: before its first, its second end
+  for (int k = 0; k < 3; ++k) {
+    const Vec &a = t[k], &b = t[(k + 1) % 3];
+    before[k][0] = exact_sign(End{x, a, b}) > 0;
+    before[k][1] = exact_sign(End{x, b, a}) > 0;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (!before[k][0] && !before[(k + 2) % 3][1]) return static_cast<TriangleFeature>(k);
+  }
+  const auto outside = [&](const Vec& a, const Vec& b, const Vec& c) { return exact_sign(Side{x, a, b, c}) <= 0; };
+  if (before[0][0] && before[0][1] && outside(t.a, t.b, t.c)) return TriangleFeature::edge_01;
+  if (before[1][0] && before[1][1] && outside(t.b, t.c, t.a)) return TriangleFeature::edge_12;
+  if (before[2][0] && before[2][1] && outside(t.a, t.c, t.b)) return TriangleFeature::edge_20;
+  return TriangleFeature::interior;
+}
+
+/// Barycentric weights of the point of `feature` closest to x, ≥ 0.
+OGC_HD inline Vec closest_weights(const Vec& x, const Corners& t, TriangleFeature feature) {
+  const auto on_edge = [&x](const Vec& a, const Vec& b) { return segment_parameter(difference<Rounded>(x, a), difference<Rounded>(b, a)); };
+  const auto stored = [](double a, double b, double c) { return Vec{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)}; };
+  switch (feature) {
+    case TriangleFeature::corner_0: return {1, 0, 0};
+    case TriangleFeature::corner_1: return {0, 1, 0};
+    case TriangleFeature::corner_2: return {0, 0, 1};
+    case TriangleFeature::edge_01: return stored(sub(1.0, on_edge(t.a, t.b)), on_edge(t.a, t.b), 0);
+    case TriangleFeature::edge_12: return stored(0, sub(1.0, on_edge(t.b, t.c)), on_edge(t.b, t.c));
+    case TriangleFeature::edge_20: return stored(sub(1.0, on_edge(t.a, t.c)), 0, on_edge(t.a, t.c));
+    case TriangleFeature::interior: break;
+  }
+  const Real u = difference<Rounded>(x, t.a), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a), n = cross(e, w);
+  const double nn = squared(n), at_b = divide(dot(cross(u, w), n).value, nn), at_c = divide(dot(cross(e, u), n).value, nn);
+  return stored(larger(0.0, sub(sub(1.0, at_b), at_c)), larger(0.0, at_b), larger(0.0, at_c));
+}
+
+/// Whether x is nearer than r to the triangle, whose closest face is `feature` and whose distance is `d`: exact where the slack leaves it open.
+OGC_HD inline bool is_within(const Vec& x, const Corners& t, TriangleFeature feature, const Distance& d, float r) {
+  if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
+  switch (feature) {
+    case TriangleFeature::corner_0:
+    case TriangleFeature::corner_1:
+    case TriangleFeature::corner_2: return exact_sign(PointReach{x, t[static_cast<int>(feature)], r}) < 0;
+    case TriangleFeature::edge_01: return exact_sign(LineReach{x, t.a, t.b, r}) < 0;
+    case TriangleFeature::edge_12: return exact_sign(LineReach{x, t.b, t.c, r}) < 0;
+    case TriangleFeature::edge_20: return exact_sign(LineReach{x, t.a, t.c, r}) < 0;
+    case TriangleFeature::interior: break;
+  }
+  return exact_sign(PlaneReach{x, t.a, t.b, t.a, t.c, r}) < 0;
+}
+
+}  // namespace ogc::fast

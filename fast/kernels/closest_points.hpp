@@ -1,0 +1,122 @@
+// Two edges: distance (in rounded double, with a derived slack), and the faces that hold the closest points (by exact signs), with the rule of method.md
+// §1 for nearly parallel edges. The least squares problem is convex, so a face pair is right iff its own first-order conditions hold: no solve decides.
+#pragma once
+
+#include "compare/stages/closest_points.hpp"
+#include "fast/kernels/predicates.hpp"
+#include "fast/kernels/segment.hpp"
+
+namespace ogc::fast {
+
+using compare::EdgeFeature;
+
+/// The two ends of an edge, lower-numbered vertex first.
+struct Ends {
+  Vec a, b;
+
+  OGC_HD const Vec& operator[](int k) const { return k == 0 ? a : b; }
+};
+
+struct EdgePairFeatures {
+  EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;
+  bool nearly_parallel = false;
+};
+
+OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const Real& f) {
+  const double of_first = smaller(squared_to_segment(-w, f), squared_to_segment(e - w, f));
+  return square_root(smaller(of_first, smaller(squared_to_segment(w, e), squared_to_segment(w + f, e))));
+}
+
+/// Distance of the two closed edges.
+///
+/// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32 roundings of 1/θ and S/θ², and the
+/// foot's error moves the distance by θ times as much: under 2⁻⁴⁶ S/θ. At θ < 2⁻²⁶ two edges are nowhere nearer than an end by more than θ ‖shorter‖.
+OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
+  const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a), n = cross(e, f);
+  const double ee = squared(e), ff = squared(f), nn = squared(n), whole = mul(ee, ff);
+  const double size = add(norm_1(w), add(norm_1(e), norm_1(f)));
+  if (!(nn > mul(0x1p-52, whole))) {
+    return {smallest_end_distance(w, e, f), add(mul(0x1p-45, size), mul(0x1p-25, square_root(smaller(ee, ff))))};
+  }
+  const bool skew = nn >= mul(0x1p-16, whole);
+  const double slack = skew ? mul(0x1p-38, size) : mul(mul(0x1p-45, size), square_root(divide(whole, nn)));
+  const double ef = dot(e, f).value, we = dot(w, e).value, wf = dot(w, f).value;
+  const double s = sub(mul(we, ff), mul(ef, wf)), t = sub(mul(we, ef), mul(ee, wf));
+  if (!(s > 0 && s < nn && t > 0 && t < nn)) return {smallest_end_distance(w, e, f), slack};
+  const double apart = divide(modulus(dot(w, n).value), square_root(nn));
+  return {skew ? apart : smaller(apart, smallest_end_distance(w, e, f)), slack};
+}
+
+/// The faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or zero-length edges) the first in order.
+OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& q) {
+  bool p_before[2][2], q_before[2][2];  // [end][end of the other edge]: the one lies before the other, seen along the other edge
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      p_before[i][j] = exact_sign(End{p[i], q[j], q[1 - j]}) > 0;
+      q_before[i][j] = exact_sign(End{q[i], p[j], p[1 - j]}) > 0;
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      if (!p_before[i][j] && !q_before[j][i]) return {static_cast<EdgeFeature>(i), static_cast<EdgeFeature>(j), false};
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (p_before[i][0] && p_before[i][1] && exact_sign(Receding{p[i], p[1 - i], q.a, q.b}) >= 0) {
+      return {static_cast<EdgeFeature>(i), EdgeFeature::interior, false};
+    }
+    if (q_before[i][0] && q_before[i][1] && exact_sign(Receding{q[i], q[1 - i], p.a, p.b}) >= 0) {
+      return {EdgeFeature::interior, static_cast<EdgeFeature>(i), false};
+    }
+  }
+  return {};
+}
+
+/// Whether nearly parallel edges have projections that overlap in more than a point; p is the lower-numbered edge, on whose line they are compared.
+OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
+  if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
+  const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;
+  return reaches_a && (exact_sign(End{q.a, p.b, p.a}) > 0 || exact_sign(End{q.b, p.b, p.a}) > 0);
+}
+
+/// Whether the edges are nearer than r, given the faces `on` of closest_edge_features: exact where the slack leaves it open.
+OGC_HD inline bool is_within(const Ends& p, const Ends& q, EdgePairFeatures on, const Distance& d, float r) {
+  if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
+  const bool first_inside = on.first == EdgeFeature::interior, second_inside = on.second == EdgeFeature::interior;
+  if (first_inside && second_inside) return exact_sign(PlaneReach{q.a, p.a, p.b, q.a, q.b, r}) < 0;
+  if (first_inside) return exact_sign(LineReach{q[static_cast<int>(on.second)], p.a, p.b, r}) < 0;
+  if (second_inside) return exact_sign(LineReach{p[static_cast<int>(on.first)], q.a, q.b, r}) < 0;
+  return exact_sign(PointReach{p[static_cast<int>(on.first)], q[static_cast<int>(on.second)], r}) < 0;
+}
+
+/// Parameters of the contact points on the two edges, from 0 at the first end to 1 at the second.
+struct EdgeParameters {
+  double first = 0, second = 0;
+};
+
+/// Middle of the overlap on the first edge, and its projection on the closed second edge.
+OGC_HD inline EdgeParameters overlap_parameters(const Real& e, const Real& f, const Real& w) {
+  const double from = segment_parameter(w, e), to = segment_parameter(w + f, e);
+  const double middle = mul(0.5, add(from, to));
+  return {middle, segment_parameter(Rounded{middle} * e - w, f)};
+}
+
+OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
+  const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
+  if (on.nearly_parallel) return overlap_parameters(e, f, w);
+  const double at_first = on.first == EdgeFeature::end_1 ? 1 : 0, at_second = on.second == EdgeFeature::end_1 ? 1 : 0;
+  if (on.first != EdgeFeature::interior && on.second != EdgeFeature::interior) return {at_first, at_second};
+  if (on.first != EdgeFeature::interior) return {at_first, segment_parameter(Rounded{at_first} * e - w, f)};
+  if (on.second != EdgeFeature::interior) return {segment_parameter(w + Rounded{at_second} * f, e), at_second};
+  const Real n = cross(e, f);
+  const double nn = squared(n);
+  const auto clamped = [](double s) { return smaller(larger(s, 0.0), 1.0); };
+  return {clamped(divide(dot(cross(w, f), n).value, nn)), clamped(divide(dot(cross(w, e), n).value, nn))};
+}
+
+OGC_HD inline double points_distance(const Ends& p, const Ends& q, EdgeParameters at) {
+  const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
+  return square_root(squared(w + Rounded{at.second} * f - Rounded{at.first} * e));
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,167 @@
+// A contact between two sides, each the closed face of a record (fast/stages/contact_view.hpp), at the positions that a vertex update reads: closest points
+// in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4).
+//
+//   kind              slots       Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals
+//   point_point       0 | 2       reaction whatever the weights. Slots that a kind lacks repeat slot 0: their weight is 0 and they cost no branch.
+//   point_segment     0 | 2 3
+//   segment_segment   0 1 | 2 3   a segment never meets a point: first < second as faces (compare/stages/detect_edge_edge.hpp)
+//   point_triangle    0 | 1 2 3
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "fast/kernels/accumulator.hpp"
+#include "fast/kernels/activation.hpp"
+#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/vector.hpp"
+
+namespace ogc::fast {
+
+enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
+
+/// Of two bodies that meet.
+struct ContactMaterial {
+  float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
+};
+
+/// Where a segment is closest to a point, as a parameter in [0, 1]; 0 for a segment of length zero. `from_start` = point − start.
+OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) {
+  const float length_squared = dot(along, along), t = dot(along, from_start);
+  if (!(t > 0)) return 0.0f;
+  return t < length_squared ? t / length_squared : 1.0f;
+}
+
+/// Barycentric weights of the point of the closed triangle (a, b, c) closest to p. A collapsed triangle is its edges: never NaN.
+struct TriangleWeights {
+  float a = 0, b = 0, c = 0;
+};
+
+namespace detail {
+
+OGC_HD inline void take_if_closer(const Vec& start, const Vec& along, const Vec& p, float& best, TriangleWeights& weights, int edge) {
+  const float t = closest_on_segment(along, p - start);
+  const Vec offset = (p - start) - t * along;
+  const float distance = dot(offset, offset);
+  if (!(distance < best)) return;
+  best = distance;
+  weights = edge == 0 ? TriangleWeights{1.0f - t, t, 0.0f} : edge == 1 ? TriangleWeights{0.0f, 1.0f - t, t} : TriangleWeights{t, 0.0f, 1.0f - t};
+}
+
+}  // namespace detail
+
+/// Relative to a: `ab`, `ac`, `ap`.
+OGC_HD inline TriangleWeights closest_on_triangle(const Vec& ab, const Vec& ac, const Vec& ap) {
+  const Vec normal = cross(ab, ac);
+  const float area = dot(normal, normal);
+  const float b = dot(cross(ap, ac), normal), c = dot(cross(ab, ap), normal), a = area - b - c;
+  if (a > 0 && b > 0 && c > 0) return {a / area, b / area, c / area};
+  float best = INFINITY;
+  TriangleWeights weights{1, 0, 0};
+  detail::take_if_closer(Vec{}, ab, ap, best, weights, 0);
+  detail::take_if_closer(ab, ac - ab, ap, best, weights, 1);
+  detail::take_if_closer(ac, Vec{} - ac, ap, best, weights, 2);
+  return weights;
+}
+
+/// Parameters in [0, 1] of the closest points of two closed segments.
+struct SegmentParameters {
+  float first = 0, second = 0;
+};
+
+OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
+
+/// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap of more than a point: the middle of the
+/// overlap on the first, its projection on the second (method.md §1), which needs the first to be the lower-numbered edge. Lengths of zero are legal.
+OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec& second, const Vec& between) {
+  const float aa = dot(first, first), bb = dot(second, second), ab = dot(first, second);
+  const Vec normal = cross(first, second);
+  const float sine = dot(normal, normal), to_start = dot(first, between);
+  if (!(aa > 0)) return {0.0f, closest_on_segment(second, Vec{} - between)};
+  if (!(bb > 0)) return {closest_on_segment(first, between), 0.0f};
+  float s = 0;
+  if (sine < 1e-6f * aa * bb) {
+    const float p = to_start / aa, q = (to_start + ab) / aa;
+    const float low = clamp_unit(p < q ? p : q), high = clamp_unit(p < q ? q : p);
+    if (high > low) {
+      s = 0.5f * (low + high);
+      return {s, closest_on_segment(second, s * first - between)};
+    }
+  } else {
+    s = clamp_unit(dot(cross(between, second), normal) / sine);
+  }
+  const float t = (s * ab - dot(second, between)) / bb;
+  if (t > 0 && t < 1) return {s, t};
+  const float end = t > 0 ? 1.0f : 0.0f;
+  return {clamp_unit((to_start + end * ab) / aa), end};
+}
+
+/// By slot; 0 for a slot that the kind lacks.
+struct ContactWeights {
+  float slot[4] = {};
+};
+
+OGC_HD inline ContactWeights contact_weights(ContactKind kind, const Vec* x) {
+  switch (kind) {
+    case ContactKind::point_point: return {{1, 0, -1, 0}};
+    case ContactKind::point_segment: {
+      const float t = closest_on_segment(x[3] - x[2], x[0] - x[2]);
+      return {{1, 0, t - 1, -t}};
+    }
+    case ContactKind::segment_segment: {
+      const SegmentParameters w = closest_on_segments(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
+      return {{1 - w.first, w.first, w.second - 1, -w.second}};
+    }
+    default: {
+      const TriangleWeights w = closest_on_triangle(x[2] - x[1], x[3] - x[1], x[0] - x[1]);
+      return {{1, -w.a, -w.b, -w.c}};
+    }
+  }
+}
+
+/// Σ w_i x_i, from differences to slot 0.
+OGC_HD inline Vec weighted_sum(const ContactWeights& weights, const Vec* x) {
+  return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);
+}
+
+/// Normal and distance of the closest points. `acts`: 0 < d < r. Where the squared distance is not a normal number the points have met as far as single
+/// precision can tell: there is no normal, and no force; the bound, which is zero then, keeps them apart.
+struct ContactShape {
+  Vec normal;
+  float distance = 0;
+  bool acts = false;
+};
+
+OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
+  const float squared = dot(separation, separation);
+  if (!(squared >= 0x1p-126f)) return {};
+  const float distance = sqrtf(squared);
+  return {(1.0f / distance) * separation, distance, distance < radius};
+}
+
+/// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c r²/(4 d²) is 2⁴⁴ k_c, far above
+/// every other block and far below overflow. Nearer points feel the force of this distance.
+OGC_HD inline float activation_distance(float distance, float radius) {
+  const float least = 0x1p-23f * radius;
+  return distance > least ? distance : least;
+}
+
+/// Adds the force and block of a vertex with weight w to `sum`. Returns the normal force λ = −g' ≥ 0 [N].
+OGC_HD inline float add_contact(const ContactShape& shape, float weight, float radius, float stiffness, ForceAndBlock& sum) {
+  const float distance = activation_distance(shape.distance, radius);
+  const ActivationSlope activation = activation_slope(distance, radius, stiffness);
+  sum.add_force(-activation.slope * weight, shape.normal);
+  sum.add_outer(activation.curvature * (weight * weight), shape.normal);
+  return -activation.slope;
+}
+
+/// e_k of two edges with rest lengths ē, ē' (method.md §4): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³ ‖ē‖²‖ē'‖², else 1.
+OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first, float rest_squared_second) {
+  const Vec normal = cross(first, second);
+  const float sine = dot(normal, normal), limit = 1e-3f * rest_squared_first * rest_squared_second;
+  if (!(sine < limit)) return 1.0f;
+  const float q = sine / limit;
+  return q * (2.0f - q);
+}
+
+}  // namespace ogc::fast

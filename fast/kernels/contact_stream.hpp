@@ -1,0 +1,137 @@
+// From the records of a detection to the stream that the sweep reads: slots, stiffness with the mollifier of this detection, friction, and for each
+// neighbour the buffer it is read from. Done once a detection, so that the sweep's 4 incidences a contact and iteration look nothing up.
+#pragma once
+
+#include <cstdint>
+
+#include "fast/kernels/control.hpp"
+#include "fast/kernels/metrics.hpp"
+#include "fast/kernels/sweep.hpp"
+#include "fast/stages/contact_view.hpp"
+
+namespace ogc::fast {
+
+/// What a record does not say itself.
+struct ContactTables {
+  const int* body = nullptr;                  ///< by vertex
+  const ContactMaterial* materials = nullptr; ///< of bodies a and b, at a · body_count + b
+  int body_count = 0;
+  const float* rest_squared = nullptr;        ///< ‖ē‖² by edge [m²]
+  const Vec* detected = nullptr;              ///< positions of the detection, for the mollifier
+  bool mollify = true;                        ///< false in meshes without triangles: parallel strands must repel
+};
+
+OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
+  const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
+  ContactIncidence contact;
+  contact.stiffness = material.stiffness;
+  contact.friction = material.friction;
+  return contact;
+}
+
+OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a, int b, int c, int d) {
+  contact.kind = kind;
+  contact.index[0] = a;
+  contact.index[1] = b;
+  contact.index[2] = c;
+  contact.index[3] = d;
+}
+
+/// Plain vertex numbers as indices, `own` 0.
+OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
+  const int v = record.vertex;
+  const int* corner = record.corner;
+  ContactIncidence contact = meeting(tables, v, corner[0]);
+  if (corner[1] < 0) set_slots(contact, ContactKind::point_point, v, v, corner[0], v);
+  else if (corner[2] < 0) set_slots(contact, ContactKind::point_segment, v, v, corner[0], corner[1]);
+  else set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
+  return contact;
+}
+
+OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
+  const int* p = record.first;
+  const int* q = record.second;
+  ContactIncidence contact = meeting(tables, p[0], q[0]);
+  if (q[1] < 0) set_slots(contact, ContactKind::point_point, p[0], p[0], q[0], p[0]);
+  else if (p[1] < 0) set_slots(contact, ContactKind::point_segment, p[0], p[0], q[0], q[1]);
+  else set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
+  if (contact.kind == ContactKind::segment_segment && tables.mollify) {
+    const Vec* x = tables.detected;
+    contact.stiffness *= mollifier(x[p[1]] - x[p[0]], x[q[1]] - x[q[0]], tables.rest_squared[record.first_edge], tables.rest_squared[record.second_edge]);
+  }
+  return contact;
+}
+
+/// Slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the second side otherwise.
+OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
+  const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
+  return static_cast<std::uint8_t>(shifted ? role + 1 : role);
+}
+
+/// for_each over vertex_count + 1. A detection that failed leaves the old stream, which is whole: the sweeps that follow are not committed.
+struct CopyContactRows {
+  const int* incidence_offsets;
+  int* rows;
+  const StepControl* control;
+
+  OGC_HD void operator()(int v) const {
+    if (control->active != 0) rows[v] = incidence_offsets[v];
+  }
+};
+
+/// for_each_counted over all incidences.
+struct ResolveContact {
+  ContactView view;
+  ContactTables tables;
+  const int* colour;
+  ContactIncidence* stream;
+  const StepControl* control;
+
+  OGC_HD void operator()(int i) const {
+    if (control->active == 0) return;
+    const std::uint32_t code = view.incidences[i].code;
+    const bool edge_edge = (code >> 31) != 0;
+    const std::uint32_t number = (code & 0x7fffffffu) >> 2;
+    ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number]) : contact_of(tables, view.vertex_facet[number]);
+    contact.own = slot_of_role(edge_edge, contact.kind, static_cast<int>(code & 3u));
+    const int own = colour[contact.index[contact.own]];
+    for (int& index : contact.index) {
+      if (colour[index] < own) index = ~index;
+    }
+    stream[i] = contact;
+  }
+};
+
+/// Energy of a contact with plain indices [J]; e_k within the stiffness.
+OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position, float radius) {
+  Vec x[4];
+  for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
+  const ContactShape shape = contact_shape(weighted_sum(contact_weights(contact.kind, x), x), radius);
+  if (!shape.acts) return 0;
+  return activation_energy(activation_distance(shape.distance, radius), radius, contact.stiffness);
+}
+
+/// Terms over records; how many there are is known on the device only.
+struct VertexFacetTerm {
+  ContactView view;
+  ContactTables tables;
+  const Vec* position;
+  float radius;
+
+  OGC_HD void operator()(int i, double* sum) const {
+    sum[sum_vertex_facet] += contact_energy(contact_of(tables, view.vertex_facet[i]), position, radius);
+  }
+};
+
+struct EdgeEdgeTerm {
+  ContactView view;
+  ContactTables tables;
+  const Vec* position;
+  float radius;
+
+  OGC_HD void operator()(int i, double* sum) const {
+    sum[sum_edge_edge] += contact_energy(contact_of(tables, view.edge_edge[i]), position, radius);
+  }
+};
+
+}  // namespace ogc::fast

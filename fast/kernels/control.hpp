@@ -1,0 +1,143 @@
+// What the device decides by itself: flags that the host never sees inside a step, counters, and the kernels of one item that turn counters into flags.
+//
+//   begin_step ─► first_round: detect, guess ─► end_round ─► … ─► [detect] sweep ─► end_iteration ─► … ─► finish_step
+//                                   ▲───────────── guess ──┘          ▲────────── detect ───┘
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "compare/problem/contestant.hpp"
+#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/vector.hpp"
+
+namespace ogc::fast {
+
+OGC_HD inline bool is_finite(float a) { return fabsf(a) <= 3.40282347e38f; }
+OGC_HD inline bool is_finite(const Vec& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
+
+/// The bits of a non-negative float, which have its order; for maxima by atomic_max.
+OGC_HD inline int float_bits(float a) {
+  int bits = 0;
+  memcpy(&bits, &a, sizeof bits);
+  return bits;
+}
+OGC_HD inline float float_from_bits(int bits) {
+  float a = 0;
+  memcpy(&a, &bits, sizeof a);
+  return a;
+}
+
+/// Settings of the control, the same in each step.
+struct ControlSettings {
+  int cut_threshold = 1;       ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int redetect_every = 0;
+  int guess_rounds = 16;
+  float contact_radius = 0;    ///< r [m]
+  float largest_query_radius = 0;  ///< cap of r_q [m]
+};
+
+struct StepControl {
+  // Of the frame.
+  int active = 0;     ///< 1: steps take place; 0: they are no-ops
+  int status = 0;     ///< compare::StepStatus bits that stopped the frame
+  int steps_done = 0; ///< committed since the frame began: number of the row and of the row of targets
+  // Of the step. Flags that `when` reads hold `active` too.
+  int attempted = 0;
+  int guess = 0;      ///< another round of the guess loop
+  int detect = 0;     ///< detection before the next iteration
+  float query_radius = 0;  ///< r_q [m]
+  int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
+  float smallest_bound = 0;  ///< [m]
+  int cut = 0, cut_last = 0;
+  int not_finite = 0, violations = 0;
+  int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
+
+  OGC_HD void count_cut() { atomic_add(&cut, 1); }
+  OGC_HD void count_not_finite() { atomic_add(&not_finite, 1); }
+  OGC_HD void count_violation() { atomic_add(&violations, 1); }
+};
+
+/// Ends the step where something went wrong: nothing of it is committed.
+OGC_HD inline void stop_if_failed(StepControl& c) {
+  if (c.not_finite > 0) c.status |= compare::step_not_finite;
+  if (c.violations > 0) c.status |= compare::step_bound_violated;
+  if (c.status != 0) c.active = c.guess = c.detect = 0;
+}
+
+struct BeginStep {
+  StepControl* control;
+
+  OGC_HD void operator()(int) const {
+    StepControl& c = *control;
+    c.attempted = c.guess = c.active;
+    c.detect = 0;
+    c.largest_move = c.largest_lag = 0;
+    c.smallest_bound = 3.40282347e38f;
+    c.cut = c.cut_last = c.not_finite = c.violations = 0;
+    c.rounds = c.detections = c.since_detection = c.iterations = 0;
+  }
+};
+
+/// r_q = min(r + largest move, cap) (method.md §5).
+struct ChooseQueryRadius {
+  StepControl* control;
+  ControlSettings settings;
+
+  OGC_HD void operator()(int) const {
+    StepControl& c = *control;
+    stop_if_failed(c);
+    const float wanted = settings.contact_radius + float_from_bits(c.largest_move);
+    c.query_radius = wanted < settings.largest_query_radius ? wanted : settings.largest_query_radius;
+  }
+};
+
+/// After a detection. `overflow`: not zero where a list was too small.
+struct EndDetection {
+  StepControl* control;
+  const int* overflow;
+
+  OGC_HD void operator()(int) const {
+    StepControl& c = *control;
+    if (*overflow != 0) c.status |= compare::step_list_grew;
+    ++c.detections;
+    c.since_detection = 0;
+    c.detect = 0;
+    stop_if_failed(c);
+  }
+};
+
+/// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
+struct EndRound {
+  StepControl* control;
+  ControlSettings settings;
+
+  OGC_HD void operator()(int) const {
+    StepControl& c = *control;
+    ++c.rounds;
+    c.guess = c.active != 0 && c.cut >= settings.cut_threshold && c.rounds < settings.guess_rounds ? 1 : 0;
+    c.cut_last = c.cut;
+    c.cut = 0;
+  }
+};
+
+/// Alg. 3 line 29, and the largest number of iterations between detections.
+struct EndIteration {
+  StepControl* control;
+  ControlSettings settings;
+
+  OGC_HD void operator()(int) const {
+    StepControl& c = *control;
+    ++c.iterations;
+    ++c.since_detection;
+    const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
+    c.detect = c.active != 0 && (due || c.cut >= settings.cut_threshold) ? 1 : 0;
+    c.cut_last = c.cut;
+    c.cut = 0;
+    stop_if_failed(c);
+  }
+};
+
+}  // namespace ogc::fast

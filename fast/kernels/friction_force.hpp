@@ -1,0 +1,27 @@
+// Friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex Block Descent (method.md §4). λ, n and the
+// weights are those of the positions that the update reads and constant in the derivatives.
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/accumulator.hpp"
+#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/vector.hpp"
+
+namespace ogc::fast {
+
+/// f₁(y)/y [1/m] with ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, 1/y above; 2/ε at y = 0.
+OGC_HD inline float friction_slope_over_slip(float slip, float limit) {
+  return slip < limit ? (2.0f - slip / limit) / limit : 1.0f / slip;
+}
+
+/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ). `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part; `normal_force` λ ≥ 0 [N]; `limit` ε_v h [m].
+OGC_HD inline void add_friction(const Vec& normal, const Vec& moved, float weight, float friction, float normal_force, float limit, ForceAndBlock& sum) {
+  const Vec slip = moved - dot(normal, moved) * normal;
+  const float strength = friction * normal_force * friction_slope_over_slip(sqrtf(dot(slip, slip)), limit);
+  sum.add_force(-strength * weight, slip);
+  sum.add_identity(strength * (weight * weight));
+  sum.add_outer(-strength * (weight * weight), normal);
+}
+
+}  // namespace ogc::fast

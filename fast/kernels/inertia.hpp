@@ -1,0 +1,21 @@
+// Inertia: m/(2h²) ‖x − y‖², and the target y it pulls to.
+#pragma once
+
+#include "fast/kernels/accumulator.hpp"
+#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/vector.hpp"
+
+namespace ogc::fast {
+
+/// y = xᵗ + h vᵗ + h² a [m].
+OGC_HD inline Vec inertia_target(const Vec& start, const Vec& velocity, const Vec& acceleration, float step) {
+  return start + step * (velocity + step * acceleration);
+}
+
+/// `weight` is m/h² [N/m].
+OGC_HD inline void add_inertia(float weight, const Vec& position, const Vec& target, ForceAndBlock& sum) {
+  sum.add_force(weight, target - position);
+  sum.add_identity(weight);
+}
+
+}  // namespace ogc::fast

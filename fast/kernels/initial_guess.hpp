@@ -1,0 +1,107 @@
+// The start of a step and the rounds of the guess loop (Eq. 28; method.md §5).
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/bending.hpp"
+#include "fast/kernels/certificate.hpp"
+#include "fast/kernels/control.hpp"
+#include "fast/kernels/inertia.hpp"
+#include "fast/kernels/membrane.hpp"
+#include "fast/kernels/truncate.hpp"
+
+namespace ogc::fast {
+
+/// for_each over all vertices: x = xᵗ, y, the largest move. Target of a prescribed vertex: the step's; of a fixed one: its position.
+struct BeginVertex {
+  const Vec* start;               ///< xᵗ
+  const Vec* velocity;            ///< vᵗ
+  const int* prescribed_number;   ///< by vertex: place among the prescribed ones; -1 free, -2 fixed
+  const Vec* prescribed_targets;  ///< [step of the frame][place]
+  int prescribed_count;
+  Vec acceleration;
+  float step;
+  Vec* position;
+  Vec* target;
+  StepControl* control;
+
+  OGC_HD void operator()(int v) const {
+    const Vec x = start[v];
+    const int number = prescribed_number[v];
+    Vec y = x;
+    if (number == -1) y = inertia_target(x, velocity[v], acceleration, step);
+    if (number >= 0) y = prescribed_targets[control->steps_done * prescribed_count + number];
+    position[v] = x;
+    target[v] = y;
+    const Vec move = y - x;
+    const float length = sqrtf(dot(move, move));
+    if (!is_finite(length)) {
+      control->count_not_finite();
+      return;
+    }
+    atomic_max(&control->largest_move, float_bits(length));
+  }
+};
+
+/// for_each over triangles: Gᵗ, for the damping.
+struct BeginTriangle {
+  const TriangleRest* triangles;
+  const Vec* start;
+  Symmetric2* strain_start;
+
+  OGC_HD void operator()(int t) const {
+    const TriangleRest& rest = triangles[t];
+    const Vec a = start[rest.corner[0]];
+    strain_start[t] = green_strain(deformation_gradient(start[rest.corner[1]] - a, start[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
+  }
+};
+
+/// for_each over hinges: θᵗ, for the damping.
+struct BeginHinge {
+  const HingeRest* hinges;
+  const Vec* start;
+  float* angle_start;
+
+  OGC_HD void operator()(int i) const {
+    const int* v = hinges[i].vertex;
+    const Vec base = start[v[0]];
+    angle_start[i] = hinge_shape(start[v[1]] - base, start[v[2]] - base, start[v[3]] - base).angle;
+  }
+};
+
+/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored positions), then X_prev ← x.
+struct BeginBounds {
+  const Vec* position;
+  const float* bound;
+  Vec* previous;
+  StepControl* control;
+  bool check;  ///< false where X_prev and b_v are those of an earlier step
+
+  OGC_HD void operator()(int v) const {
+    const Vec x = position[v];
+    if (check && bound_violated(x, previous[v], bound[v])) control->count_violation();
+    previous[v] = x;
+  }
+};
+
+/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact stays where it is: each contact of the list
+/// is active, as X_prev = x.
+struct GuessVertex {
+  const Vec* target;
+  const Vec* previous;
+  const float* bound;
+  const int* incidence_offsets;
+  bool hold_contacts;
+  Vec* position;
+  StepControl* control;
+
+  OGC_HD void operator()(int v) const {
+    if (control->active == 0) return;
+    if (hold_contacts && incidence_offsets[v + 1] > incidence_offsets[v]) return;
+    const Truncated kept = truncate(previous[v], target[v], bound[v]);
+    position[v] = kept.position;
+    if (kept.exceeded) control->count_cut();
+  }
+};
+
+}  // namespace ogc::fast

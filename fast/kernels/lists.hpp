@@ -1,0 +1,237 @@
+// From raw contacts, appended in any order and more than once, to records in canonical order and to each vertex's incidences. A contact's bucket is its
+// first face; inside a bucket a short segment is sorted, which costs far less than sorting all.
+//
+// Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order buckets, and in a bucket the
+// sorted seconds, have the canonical order of compare/stages. When the cursor has passed the capacity nothing of the detection is used: all kernels
+// but the queries stop at the overflow flag, and the cursor says how much room the same detection needs.
+#pragma once
+
+#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/surface.hpp"
+#include "fast/stages/contact_view.hpp"
+
+namespace ogc::fast {
+
+/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, 0 for vertex–facet.
+struct RawContact {
+  int bucket, second, low, high;
+
+  friend OGC_HD bool operator<(const RawContact& a, const RawContact& b) {
+    return a.second != b.second ? a.second < b.second : (a.low != b.low ? a.low < b.low : a.high < b.high);
+  }
+};
+
+OGC_HD inline bool operator<(const Incidence& a, const Incidence& b) { return a.code < b.code; }
+
+struct ListsView {
+  RawContact* raw = nullptr;        ///< as appended
+  RawContact* sorted = nullptr;     ///< by bucket
+  int capacity = 0;                 ///< of raw, sorted and both record arrays; incidences have four times as much
+  int* cursor = nullptr;            ///< contacts appended, also those that found no room
+  int* overflow = nullptr;          ///< sticky
+  int* needed = nullptr;            ///< capacity that would have sufficed
+  int buckets = 0;
+  int* raw_counts = nullptr;        ///< by bucket
+  int* raw_offsets = nullptr;       ///< buckets + 1
+  int* raw_filled = nullptr;        ///< by bucket
+  int* record_counts = nullptr;     ///< by bucket, without duplicates
+  int* record_offsets = nullptr;    ///< buckets + 1
+  int* edge_edge_count = nullptr;
+  VertexFacetRecord* vertex_facet = nullptr;
+  int* vertex_facet_face = nullptr;  ///< the second face of each record
+  EdgeEdgeRecord* edge_edge = nullptr;
+  int* incidence_counts = nullptr;   ///< by vertex
+  int* incidence_offsets = nullptr;  ///< vertices + 1
+  int* incidence_filled = nullptr;   ///< by vertex
+  Incidence* incidences = nullptr;
+
+  OGC_HD void append(const RawContact& contact) const {
+    const int place = atomic_add(cursor, 1);
+    if (place >= capacity) return;
+    raw[place] = contact;
+    atomic_add(&raw_counts[contact.bucket], 1);
+  }
+};
+
+/// Ascending order in place: by insertion while short, by heap where a crowded vertex has hundreds.
+template <class T>
+OGC_HD void sort_segment(T* items, int n) {
+  if (n <= 32) {
+    for (int i = 1; i < n; ++i) {
+      const T item = items[i];
+      int k = i;
+      for (; k > 0 && item < items[k - 1]; --k) items[k] = items[k - 1];
+      items[k] = item;
+    }
+    return;
+  }
+  const auto sink = [items](int root, int end) {
+    const T item = items[root];
+    for (int child = 2 * root + 1; child < end; child = 2 * root + 1) {
+      if (child + 1 < end && items[child] < items[child + 1]) ++child;
+      if (!(item < items[child])) break;
+      items[root] = items[child];
+      root = child;
+    }
+    items[root] = item;
+  };
+  for (int root = n / 2 - 1; root >= 0; --root) sink(root, n);
+  for (int end = n - 1; end > 0; --end) {
+    const T largest = items[0];
+    items[0] = items[end];
+    items[end] = largest;
+    sink(0, end);
+  }
+}
+
+/// Start of a detection: index over the largest of buckets, vertices and primitives.
+struct PrepareLists {
+  ListsView lists;
+  int vertices;
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    if (i == 0) *lists.cursor = 0;
+    if (i < lists.buckets) lists.raw_counts[i] = lists.raw_filled[i] = 0;
+    if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
+  }
+};
+
+/// After both queries, alone.
+struct CheckCapacity {
+  ListsView lists;
+
+  OGC_HD void operator()(int) const {
+    if (*lists.overflow != 0 || *lists.cursor <= lists.capacity) return;
+    *lists.overflow = 1;
+    *lists.needed = *lists.cursor;
+  }
+};
+
+struct FillBuckets {
+  ListsView lists;
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    const RawContact contact = lists.raw[i];
+    lists.sorted[lists.raw_offsets[contact.bucket] + atomic_add(&lists.raw_filled[contact.bucket], 1)] = contact;
+  }
+};
+
+/// Sorts a bucket and drops what stands in it twice: of one pair the lowest-numbered edges stay.
+struct SortBuckets {
+  ListsView lists;
+
+  OGC_HD void operator()(int bucket) const {
+    if (*lists.overflow != 0) return;
+    RawContact* items = lists.sorted + lists.raw_offsets[bucket];
+    const int n = lists.raw_offsets[bucket + 1] - lists.raw_offsets[bucket];
+    sort_segment(items, n);
+    int kept = 0;
+    for (int k = 0; k < n; ++k) {
+      if (k == 0 || items[k].second != items[kept - 1].second) items[kept++] = items[k];
+    }
+    lists.record_counts[bucket] = kept;
+  }
+};
+
+struct WriteRecords {
+  ListsView lists;
+  SurfaceView surface;
+
+  OGC_HD void operator()(int bucket) const {
+    if (*lists.overflow != 0) return;
+    const int edge_edge_start = lists.record_offsets[surface.vertex_count];
+    if (bucket == 0) *lists.edge_edge_count = lists.record_offsets[lists.buckets] - edge_edge_start;
+    const RawContact* items = lists.sorted + lists.raw_offsets[bucket];
+    for (int k = 0; k < lists.record_counts[bucket]; ++k) {
+      const int record = lists.record_offsets[bucket] + k;
+      if (bucket < surface.vertex_count) {
+        write_vertex_facet(items[k], record);
+      } else {
+        write_edge_edge(items[k], record - edge_edge_start);
+      }
+    }
+  }
+
+ private:
+  OGC_HD void count(int vertex) const {
+    if (vertex >= 0) atomic_add(&lists.incidence_counts[vertex], 1);
+  }
+  OGC_HD void write_vertex_facet(const RawContact& contact, int record) const {
+    VertexFacetRecord out{contact.bucket, {-1, -1, -1}};
+    const int e = contact.second - surface.vertex_count, t = e - surface.edge_count;
+    if (e < 0) {
+      out.corner[0] = contact.second;
+    } else if (t < 0) {
+      out.corner[0] = surface.edges[e].a, out.corner[1] = surface.edges[e].b;
+    } else {
+      for (int k = 0; k < 3; ++k) out.corner[k] = surface.facets[t].corner[k];
+    }
+    lists.vertex_facet[record] = out;
+    lists.vertex_facet_face[record] = contact.second;
+    count(out.vertex);
+    for (const int corner : out.corner) count(corner);
+  }
+  /// Of the two generating edges, `first_edge` is the one that holds the first face; the edges share no vertex, so only one does.
+  OGC_HD void write_edge_edge(const RawContact& contact, int record) const {
+    const int first = contact.bucket - surface.vertex_count;
+    EdgeEdgeRecord out{{-1, -1}, {-1, -1}, contact.low, contact.high};
+    write_face(first, out.first);
+    write_face(contact.second, out.second);
+    const EdgeEnds& low = surface.edges[contact.low];
+    const bool is_low_first = first < surface.vertex_count ? (low.a == first || low.b == first) : first == surface.edge_face(contact.low);
+    if (!is_low_first) out.first_edge = contact.high, out.second_edge = contact.low;
+    lists.edge_edge[record] = out;
+    for (int k = 0; k < 2; ++k) count(out.first[k]), count(out.second[k]);
+  }
+  OGC_HD void write_face(int face, int (&vertices)[2]) const {
+    if (face < surface.vertex_count) {
+      vertices[0] = face;
+    } else {
+      vertices[0] = surface.edges[face - surface.vertex_count].a;
+      vertices[1] = surface.edges[face - surface.vertex_count].b;
+    }
+  }
+};
+
+/// Index over all records: first the vertex–facet, then the edge–edge ones.
+struct FillIncidences {
+  ListsView lists;
+  SurfaceView surface;
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    const int edge_edge_start = lists.record_offsets[surface.vertex_count];
+    if (i < edge_edge_start) {
+      const VertexFacetRecord& record = lists.vertex_facet[i];
+      const std::uint32_t code = static_cast<std::uint32_t>(i) << 2;
+      add(record.vertex, code);
+      for (int k = 0; k < 3; ++k) add(record.corner[k], code | static_cast<std::uint32_t>(k + 1));
+    } else {
+      const EdgeEdgeRecord& record = lists.edge_edge[i - edge_edge_start];
+      const std::uint32_t code = 0x80000000U | static_cast<std::uint32_t>(i - edge_edge_start) << 2;
+      for (int k = 0; k < 2; ++k) {
+        add(record.first[k], code | static_cast<std::uint32_t>(k));
+        add(record.second[k], code | static_cast<std::uint32_t>(k + 2));
+      }
+    }
+  }
+
+ private:
+  OGC_HD void add(int vertex, std::uint32_t code) const {
+    if (vertex < 0) return;
+    lists.incidences[lists.incidence_offsets[vertex] + atomic_add(&lists.incidence_filled[vertex], 1)] = {code};
+  }
+};
+
+struct SortIncidences {
+  ListsView lists;
+
+  OGC_HD void operator()(int v) const {
+    if (*lists.overflow != 0) return;
+    sort_segment(lists.incidences + lists.incidence_offsets[v], lists.incidence_offsets[v + 1] - lists.incidence_offsets[v]);
+  }
+};
+
+}  // namespace ogc::fast

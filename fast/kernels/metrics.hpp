@@ -1,0 +1,176 @@
+// The end of a step: last certificate, commit, and the terms of what a row reports. Terms are in double and only reported; nothing here feeds a position.
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/bending.hpp"
+#include "fast/kernels/certificate.hpp"
+#include "fast/kernels/contact_force.hpp"
+#include "fast/kernels/control.hpp"
+#include "fast/kernels/membrane.hpp"
+#include "fast/stages/contact_view.hpp"
+
+namespace ogc::fast {
+
+/// Sums over the mesh that a row needs, in this order.
+enum SumColumn : int {
+  sum_kinetic = 0,        ///< Σ m/2 ‖v‖² [J]
+  sum_gravity = 1,        ///< −Σ m a·x [J]
+  sum_lost = 2,           ///< Σ m (x − y), three columns [kg m]
+  sum_moved = 5,          ///< Σ m (y − xᵗ), three columns [kg m]
+  sum_membrane = 8, sum_bending = 9, sum_vertex_facet = 10, sum_edge_edge = 11,  ///< [J]
+  sum_columns = 12
+};
+
+/// One row of the device's ring; the host makes a compare::StepMetrics of it.
+struct StepRow {
+  int status = 0;
+  int vertex_facet_contacts = 0, edge_edge_contacts = 0;
+  int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
+  float query_radius = 0, largest_lag = 0, smallest_bound = 0;
+  double lost_guess = 0, lost_end = 0;
+  double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
+};
+
+/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound.
+struct CheckVertex {
+  const Vec* position;
+  const Vec* previous;
+  const float* bound;
+  const Vec* target;
+  const int* prescribed_number;
+  StepControl* control;
+
+  OGC_HD void operator()(int v) const {
+    const Vec x = position[v];
+    if (!is_finite(x)) control->count_not_finite();
+    if (bound_violated(x, previous[v], bound[v])) control->count_violation();
+    atomic_min(&control->smallest_bound, bound[v]);
+    if (prescribed_number[v] < 0) return;
+    const Vec behind = target[v] - x;
+    atomic_max(&control->largest_lag, float_bits(sqrtf(dot(behind, behind))));
+  }
+};
+
+/// After the certificate: nothing that failed is committed.
+struct EndCheck {
+  StepControl* control;
+
+  OGC_HD void operator()(int) const { stop_if_failed(*control); }
+};
+
+/// for_each over all vertices: v = (x − xᵗ)/h, xᵗ = x.
+struct CommitVertex {
+  const Vec* position;
+  float step;
+  Vec* start;
+  Vec* velocity;
+
+  OGC_HD void operator()(int v) const {
+    const Vec x = position[v], moved = x - start[v];
+    velocity[v] = {moved.x / step, moved.y / step, moved.z / step};
+    start[v] = x;
+  }
+};
+
+/// for_each over all vertices, for a snapshot.
+struct CopyBound {
+  const float* from;
+  float* to;
+
+  OGC_HD void operator()(int v) const { to[v] = from[v]; }
+};
+
+/// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet committed).
+struct VertexTerm {
+  const Vec* position;
+  const Vec* start;
+  const Vec* target;
+  const float* mass;
+  const int* prescribed_number;
+  Vec acceleration;
+  double step;
+
+  OGC_HD void operator()(int v, double* sum) const {
+    const double m = mass[v];
+    const Vec x = position[v], s = start[v], y = target[v];
+    const double moved[3] = {static_cast<double>(x.x) - s.x, static_cast<double>(x.y) - s.y, static_cast<double>(x.z) - s.z};
+    sum[sum_kinetic] += 0.5 * m * (moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]) / (step * step);
+    sum[sum_gravity] -= m * (static_cast<double>(acceleration.x) * x.x + static_cast<double>(acceleration.y) * x.y + static_cast<double>(acceleration.z) * x.z);
+    if (prescribed_number[v] != -1) return;
+    sum[sum_lost] += m * (static_cast<double>(x.x) - y.x);
+    sum[sum_lost + 1] += m * (static_cast<double>(x.y) - y.y);
+    sum[sum_lost + 2] += m * (static_cast<double>(x.z) - y.z);
+    sum[sum_moved] += m * (static_cast<double>(y.x) - s.x);
+    sum[sum_moved + 1] += m * (static_cast<double>(y.y) - s.y);
+    sum[sum_moved + 2] += m * (static_cast<double>(y.z) - s.z);
+  }
+};
+
+struct TriangleTerm {
+  const TriangleRest* triangles;
+  const SurfaceMaterial* materials;
+  const Vec* position;
+
+  OGC_HD void operator()(int t, double* sum) const {
+    const TriangleRest& rest = triangles[t];
+    const Vec a = position[rest.corner[0]];
+    const Symmetric2 strain =
+        green_strain(deformation_gradient(position[rest.corner[1]] - a, position[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
+    sum[sum_membrane] += rest.area * membrane_energy_density(materials[rest.body], strain);
+  }
+};
+
+struct HingeTerm {
+  const HingeRest* hinges;
+  const Vec* position;
+
+  OGC_HD void operator()(int i, double* sum) const {
+    const HingeRest& rest = hinges[i];
+    const Vec base = position[rest.vertex[0]];
+    const HingeShape shape = hinge_shape(position[rest.vertex[1]] - base, position[rest.vertex[2]] - base, position[rest.vertex[3]] - base);
+    if (shape.defined) sum[sum_bending] += hinge_energy(rest, shape.angle);
+  }
+};
+
+/// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖; 0 where nothing was to move.
+OGC_HD inline double momentum_lost(const double* sums) {
+  const double lost = sums[sum_lost] * sums[sum_lost] + sums[sum_lost + 1] * sums[sum_lost + 1] + sums[sum_lost + 2] * sums[sum_lost + 2];
+  const double moved = sums[sum_moved] * sums[sum_moved] + sums[sum_moved + 1] * sums[sum_moved + 1] + sums[sum_moved + 2] * sums[sum_moved + 2];
+  return moved > 0 ? sqrt(lost / moved) : 0.0;
+}
+
+/// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is repeated).
+struct FinishStep {
+  StepControl* control;
+  ContactView contacts;
+  const double* sums_guess;
+  const double* sums_end;
+  StepRow* rows;
+
+  OGC_HD void operator()(int) const {
+    StepControl& c = *control;
+    if (c.attempted == 0 || (c.status & compare::step_list_grew) != 0) return;
+    StepRow row;
+    row.status = c.status;
+    row.vertex_facet_contacts = *contacts.vertex_facet_count;
+    row.edge_edge_contacts = *contacts.edge_edge_count;
+    row.detections = c.detections;
+    row.rounds = c.rounds;
+    row.iterations = c.iterations;
+    row.cut_last = c.cut_last;
+    row.query_radius = c.query_radius;
+    row.largest_lag = float_from_bits(c.largest_lag);
+    row.smallest_bound = c.smallest_bound;
+    row.lost_guess = momentum_lost(sums_guess);
+    row.lost_end = momentum_lost(sums_end);
+    row.kinetic = sums_end[sum_kinetic];
+    row.gravity = sums_end[sum_gravity];
+    row.elastic = sums_end[sum_membrane] + sums_end[sum_bending];
+    row.contact = sums_end[sum_vertex_facet] + sums_end[sum_edge_edge];
+    rows[c.steps_done] = row;
+    if (c.active != 0) ++c.steps_done;
+  }
+};
+
+}  // namespace ogc::fast

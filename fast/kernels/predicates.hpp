@@ -1,0 +1,87 @@
+// The polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one polynomial, used for classification and for
+// membership alike, so that no point falls between two faces (method.md §3). Degrees stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
+#pragma once
+
+#include "fast/kernels/exact_sign.hpp"
+
+namespace ogc::fast {
+
+/// (u·w)(e·e) − (u·e)(w·e): the product of the parts of u and w perpendicular to e, times ‖e‖².
+template <class N>
+OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vector<N>& e) {
+  return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
+}
+
+/// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for an edge of zero length.
+struct End {
+  Vec x, a, b;
+  template <class N>
+  OGC_HD N value() const {
+    return dot(difference<N>(x, a), difference<N>(b, a));
+  }
+};
+
+/// Positive where x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x where the triangle has no area.
+struct Side {
+  Vec x, a, b, c;
+  template <class N>
+  OGC_HD N value() const {
+    return perpendicular_product(difference<N>(x, a), difference<N>(c, a), difference<N>(b, a));
+  }
+};
+
+/// Negative where, from v towards w, the distance to the line ab falls. With c(e, v) inside ab this is the plane of Eq. 15 at v: c in U_v iff ≥ 0 for all w.
+struct Receding {
+  Vec v, w, a, b;
+  template <class N>
+  OGC_HD N value() const {
+    return perpendicular_product(difference<N>(v, a), difference<N>(w, v), difference<N>(b, a));
+  }
+};
+
+/// Positive where ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1): nearly parallel. Never for an edge of zero length.
+struct NearlyParallel {
+  Vec a, b, c, d;
+  template <class N>
+  OGC_HD N value() const {
+    const Vector<N> e = difference<N>(b, a), f = difference<N>(d, c), n = cross(e, f);
+    return dot(e, e) * dot(f, f) - N::exact(1e6) * dot(n, n);
+  }
+};
+
+/// Negative where x is nearer than r to the point a.
+struct PointReach {
+  Vec x, a;
+  float r;
+  template <class N>
+  OGC_HD N value() const {
+    const Vector<N> u = difference<N>(x, a);
+    return dot(u, u) - N::exact(r) * N::exact(r);
+  }
+};
+
+/// Negative where x is nearer than r to the line ab.
+struct LineReach {
+  Vec x, a, b;
+  float r;
+  template <class N>
+  OGC_HD N value() const {
+    const Vector<N> u = difference<N>(x, a), e = difference<N>(b, a);
+    return perpendicular_product(u, u, e) - N::exact(r) * N::exact(r) * dot(e, e);
+  }
+};
+
+/// Negative where x is nearer than r to the plane through a spanned by b − a and d − c: a triangle's plane with c = a, or the distance of two lines
+/// ab and cd with x = c.
+struct PlaneReach {
+  Vec x, a, b, c, d;
+  float r;
+  template <class N>
+  OGC_HD N value() const {
+    const Vector<N> n = cross(difference<N>(b, a), difference<N>(d, c));
+    const N height = dot(difference<N>(x, a), n);
+    return height * height - N::exact(r) * N::exact(r) * dot(n, n);
+  }
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,58 @@
+// Rest data of one triangle and one hinge, in double: computed once, stored in single, so that what the sweep reads is the correctly rounded value.
+#pragma once
+
+#include <cmath>
+
+#include "compare/problem/vector.hpp"
+
+namespace ogc::fast {
+
+/// A vector of the rest shape, in double; lives only while rest data are computed.
+struct RestVector {
+  double x, y, z;
+};
+
+inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline double rest_dot(const RestVector& a, const RestVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double rest_length(const RestVector& a) { return std::sqrt(rest_dot(a, a)); }
+inline RestVector rest_cross(const RestVector& a, const RestVector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Area [m²] and the gradients ∇N_k [1/m] of the three linear shape functions in an orthonormal frame of the rest triangle: F = Σ x_k ∇N_kᵀ (3×2).
+struct RestTriangle {
+  double area = 0;
+  double gradient[3][2] = {};
+};
+
+/// The triangle must have an area (validate refuses it otherwise).
+inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& p1, const compare::Vec3& p2) {
+  const RestVector first = rest_difference(p1, p0), second = rest_difference(p2, p0);
+  const double length = rest_length(first), twice_area = rest_length(rest_cross(first, second));
+  const double along = rest_dot(first, second) / length, height = twice_area / length;
+  RestTriangle rest;
+  rest.area = twice_area / 2;
+  rest.gradient[1][0] = 1 / length;
+  rest.gradient[1][1] = -along / (length * height);
+  rest.gradient[2][0] = 0;
+  rest.gradient[2][1] = 1 / height;
+  for (int axis = 0; axis < 2; ++axis) rest.gradient[0][axis] = -(rest.gradient[1][axis] + rest.gradient[2][axis]);
+  return rest;
+}
+
+/// Angle θ₀ [rad] between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in (−π, π], and 3‖e‖²/(A₀ + A₁) [1], e = x1 − x0.
+struct RestHinge {
+  double angle = 0, factor = 0;
+};
+
+/// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in fast/kernels/bending.hpp.
+inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0, const compare::Vec3& o1) {
+  const RestVector edge = rest_difference(x1, x0), a = rest_difference(o0, x0), b = rest_difference(o1, x0);
+  const RestVector normal_a = rest_cross(edge, a), normal_b = rest_cross(b, edge);
+  RestHinge rest;
+  rest.angle = std::atan2(-rest_length(edge) * rest_dot(normal_a, b), rest_dot(normal_a, normal_b));
+  rest.factor = 6 * rest_dot(edge, edge) / (rest_length(normal_a) + rest_length(normal_b));
+  return rest;
+}
+
+}  // namespace ogc::fast

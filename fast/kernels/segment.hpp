@@ -1,0 +1,38 @@
+// Distance of a point and a closed segment in rounded double: the piece that both pair distances share.
+#pragma once
+
+#include "fast/kernels/exact_sign.hpp"
+
+namespace ogc::fast {
+
+using Real = Vector<Rounded>;
+
+/// A distance [m] and how far it can be from the exact one.
+struct Distance {
+  double value = 0, slack = 0;
+
+  /// Never above the exact distance.
+  OGC_HD float below() const {
+    const double low = sub(value, slack);
+    return low > 0 ? round_down(low) : 0.0F;
+  }
+};
+
+OGC_HD inline double norm_1(const Real& a) { return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value)); }
+
+OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
+
+/// Parameter of the point of the line nearest to x, u = x − a, e = b − a, clamped to [0, 1]; 0 where the edge has no length.
+OGC_HD inline double segment_parameter(const Real& u, const Real& e) {
+  const double along = dot(u, e).value, whole = squared(e);
+  if (!(along > 0)) return 0;
+  return along < whole ? divide(along, whole) : 1;
+}
+
+/// Squared distance to the closed segment. Its root errs by less than 2⁻⁴⁸ (‖u‖ + ‖e‖): the parameter by 12 roundings of ‖u‖/‖e‖, the difference
+/// and the norm by 8 of ‖u‖.
+OGC_HD inline double squared_to_segment(const Real& u, const Real& e) {
+  return squared(u - Rounded{segment_parameter(u, e)} * e);
+}
+
+}  // namespace ogc::fast

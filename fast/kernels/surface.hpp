@@ -1,0 +1,65 @@
+// The complex as kernels see it: names and adjacency in plain arrays, no positions.
+#pragma once
+
+#include <cstdint>
+
+#include "fast/kernels/vector.hpp"
+
+namespace ogc::fast {
+
+/// A triangle with its corners in ascending order, and the numbers of its edges 01, 12, 20 in that order.
+struct Facet {
+  int corner[3];
+  int edge[3];
+};
+
+/// Vertices of an edge, smaller first.
+struct EdgeEnds {
+  int a, b;
+};
+
+/// Row i is items[offsets[i] … offsets[i + 1]).
+struct Rows {
+  const int* offsets = nullptr;
+  const int* items = nullptr;
+};
+
+/// Seeds name pairs that are known to take part in the smallest distances, so that a query need not look farther (fast/kernels/bvh.hpp); −1: none.
+struct EdgeSeeds {
+  int vertex[2];  ///< each has an edge that forms a pair with this one
+};
+struct FacetSeeds {
+  int vertex[3];  ///< across edge k of the facet: forms a pair with it
+};
+struct VertexSeeds {
+  int edge[2];  ///< each has a facet that forms a pair with the vertex
+};
+
+struct SurfaceView {
+  int vertex_count = 0, edge_count = 0, triangle_count = 0;
+  const Facet* facets = nullptr;
+  const EdgeEnds* edges = nullptr;
+  Rows neighbours;        ///< V_v of Eq. 8 and 15
+  Rows opposites;         ///< V_e of Eq. 9
+  Rows vertex_edges, vertex_triangles;
+  const int* groups = nullptr;  ///< pairs whose vertices all carry one number ≥ 0 are left out
+  const EdgeSeeds* edge_seeds = nullptr;
+  const FacetSeeds* facet_seeds = nullptr;
+  const VertexSeeds* vertex_seeds = nullptr;
+
+  /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.
+  OGC_HD int vertex_face(int v) const { return v; }
+  OGC_HD int edge_face(int e) const { return vertex_count + e; }
+  OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
+
+  OGC_HD bool in_one_group(int v, const Facet& t) const {
+    const int g = groups[v];
+    return g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g;
+  }
+  OGC_HD bool in_one_group(const EdgeEnds& p, const EdgeEnds& q) const {
+    const int g = groups[p.a];
+    return g >= 0 && groups[p.b] == g && groups[q.a] == g && groups[q.b] == g;
+  }
+};
+
+}  // namespace ogc::fast

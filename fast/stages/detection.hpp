@@ -1,0 +1,96 @@
+// A whole detection: trees at the current positions, both queries, lists, bounds (Alg. 3 lines 4–19). All of it is enqueued, nothing waits and nothing
+// is allocated, so it may stand inside Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the needed size stays
+// that of the first detection that had no room, and the contacts of the last complete one are not mixed with others.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "fast/stages/bound.hpp"
+#include "fast/stages/bvh.hpp"
+#include "fast/stages/contact_view.hpp"
+#include "fast/stages/detect_edge_edge.hpp"
+#include "fast/stages/detect_vertex_facet.hpp"
+#include "fast/stages/lists.hpp"
+#include "fast/stages/surface.hpp"
+
+namespace ogc::fast {
+
+/// What every launch of a detection starts from.
+struct PrepareDetection {
+  PrepareLists lists;
+  ResetDistances distances;
+
+  OGC_HD void operator()(int i) const {
+    lists(i);
+    distances(i);
+  }
+};
+
+template <class Backend>
+class Detection {
+ public:
+  /// `rigid_groups`: see compare/stages/detect.hpp; empty where no pair is left out. `capacity`: contacts at first; 0 for a guess by mesh size.
+  Detection(Backend& backend, const compare::Topology& topology, std::span<const compare::Index> rigid_groups, int capacity = 0)
+      : backend_(backend),
+        surface_(topology, rigid_groups),
+        bvh_(surface_.view()),
+        lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count) {
+    const auto at_least_one = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
+    const SurfaceView surface = surface_.view();
+    for (auto* by_vertex : {&d_min_vertex_, &bound_}) by_vertex->resize(at_least_one(surface.vertex_count)), by_vertex->fill_zero();
+    d_min_edge_.resize(at_least_one(surface.edge_count));
+    d_min_triangle_.resize(at_least_one(surface.triangle_count));
+  }
+
+  /// New order of the trees for `positions`: worth its sort every few steps. Enqueued like a detection, and never needed for a right answer.
+  void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
+
+  /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q = *query_radius ≥ r [m] (on the backend),
+  /// γ_p = bound_relaxation. A no-op while *overflow() is set.
+  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation) {
+    const SurfaceView surface = surface_.view();
+    const ListsView lists = lists_.view();
+    float *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
+    backend_.for_each(std::max(lists.buckets, surface.triangle_count),
+                      PrepareDetection{{lists, surface.vertex_count},
+                                       {query_radius, lists.overflow, surface.edge_count, surface.triangle_count, d_edge, d_triangle}});
+    bvh_.refit(backend_, positions, query_radius);
+    detect_vertex_facet(backend_, {surface, positions, bvh_.facets(), bvh_.vertex_order(), lists, contact_radius, query_radius, d_min_vertex_.data(), d_triangle});
+    detect_edge_edge(backend_, {surface, positions, bvh_.edges(), lists, contact_radius, query_radius, d_edge});
+    lists_.assemble(backend_);
+    compute_bounds(backend_, surface.vertex_count,
+                   {surface.vertex_edges, surface.vertex_triangles, d_min_vertex_.data(), d_edge, d_triangle, bound_relaxation, lists.overflow, bound_.data()});
+  }
+
+  /// Of the last complete detection; valid until grow() returns true.
+  ContactView view() {
+    const ListsView lists = lists_.view();
+    return {lists.vertex_facet,      lists.edge_edge,   lists_.vertex_facet_count(), lists_.edge_edge_count(),
+            lists.incidence_offsets, lists.incidences, bound_.data(),               d_min_vertex_.data()};
+  }
+
+  /// On the backend, not 0 once a list was too small. Work that must not run on incomplete sets asks this first; only grow() clears it.
+  const int* overflow() const { return lists_.overflow(); }
+
+  /// Host only: enlarges what was too small and clears the flag; true where there was anything to do, and the detection has to be repeated.
+  bool grow() { return lists_.grow(); }
+
+  /// Contacts that fit before the lists have to grow.
+  int capacity() const { return lists_.capacity(); }
+
+  const float* d_min_vertex() const { return d_min_vertex_.data(); }      ///< Eq. 22, rounded down [m]
+  const float* d_min_edge() const { return d_min_edge_.data(); }          ///< Eq. 24
+  const float* d_min_triangle() const { return d_min_triangle_.data(); }  ///< Eq. 26
+  /// The contact face of each vertex–facet record, as SurfaceView numbers faces.
+  const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
+
+ private:
+  Backend& backend_;
+  Surface<Backend> surface_;
+  Bvh<Backend> bvh_;
+  Lists<Backend> lists_;
+  typename Backend::template Buffer<float> d_min_vertex_, d_min_edge_, d_min_triangle_, bound_;
+};
+
+}  // namespace ogc::fast

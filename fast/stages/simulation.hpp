@@ -1,0 +1,255 @@
+// A resident simulation: state on the backend, a frame of steps enqueued at once, rows read once a frame. The host acts between frames only: it grows the
+// lists where a step found no room and goes on at that step.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/problem/contestant.hpp"
+#include "fast/stages/step.hpp"
+
+namespace ogc::fast {
+
+template <class Backend>
+class ResidentSimulation : public compare::Simulation {
+ public:
+  /// `device`: what device() answers. `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists grow by themselves.
+  ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options, std::string device, int list_capacity = 0)
+      : backend_(std::move(backend)),
+        device_(std::move(device)),
+        scene_(rounded(scene)),
+        topology_(compare::build_topology(scene_)),
+        rest_(build_rest_state(scene_, topology_)),
+        colouring_(colour_vertices(rest_)),
+        groups_(compare::rigid_groups(scene_)),
+        detection_(backend_, topology_, groups_, list_capacity),
+        sweep_(backend_, rest_, colouring_, topology_, scene_),
+        clock_(backend_, options.profile),
+        moving_(static_cast<std::size_t>(std::count_if(rest_.mobility.begin(), rest_.mobility.end(), [](Mobility m) { return m != Mobility::fixed; }))),
+        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies)),
+        energies_(options.energies) {
+    fill_state();
+    sweep_.reserve_contacts(4 * detection_.capacity());
+    const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions), velocities = compare::to_single(scene_.velocities);
+    upload_motion(positions, velocities);
+  }
+
+  std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
+    std::vector<compare::StepMetrics> rows;
+    std::int64_t repeats = 0;
+    while (static_cast<std::int64_t>(rows.size()) < steps) {
+      const int count = static_cast<int>(std::min<std::int64_t>(steps - static_cast<std::int64_t>(rows.size()), longest_frame));
+      const StepControl control = run(count, repeats, rows);
+      if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) break;
+      if (control.status != 0) {
+        grow();
+        ++repeats;
+      }
+    }
+    return rows;
+  }
+
+  compare::Snapshot snapshot() override {
+    compare::Snapshot result;
+    result.step = step_number_;
+    download(state_.start, result.positions);
+    download(state_.velocity, result.velocities);
+    download(state_.previous, result.previous);
+    result.bounds = last_bounds();
+    result.query_radius = query_radius_;
+    return result;
+  }
+
+  void restore(const compare::Snapshot& snapshot) override {
+    upload_motion(snapshot.positions, snapshot.velocities);
+    step_number_ = snapshot.step;
+  }
+
+  std::vector<std::string> stage_names() const override { return clock_.on() ? step_stage_names() : std::vector<std::string>{}; }
+  std::string device() const override { return device_; }
+
+  const Colouring& colouring() const { return colouring_; }
+  const RestState& rest_state() const { return rest_; }
+  int lanes() const { return sweep_.lanes(); }
+
+ private:
+  static constexpr int longest_frame = 64;  // rows and targets of a frame stay small; a longer one is several
+
+  static compare::Scene rounded(compare::Scene scene) {
+    compare::round_to_single(scene);
+    return scene;
+  }
+
+  template <class T>
+  static void upload(typename Backend::template Buffer<T>& buffer, const std::vector<T>& items) {
+    buffer.resize(items.size());
+    buffer.upload(items.data(), items.size());
+  }
+  static std::vector<Vec> vectors(const std::vector<compare::Vec3f>& from) {
+    std::vector<Vec> to;
+    to.reserve(from.size());
+    for (const compare::Vec3f& a : from) to.push_back({a.x, a.y, a.z});
+    return to;
+  }
+  static void download(const typename Backend::template Buffer<Vec>& buffer, std::vector<compare::Vec3f>& to) {
+    std::vector<Vec> items(buffer.size());
+    buffer.download(items.data(), items.size());
+    to.clear();
+    for (const Vec& a : items) to.push_back({a.x, a.y, a.z});
+  }
+
+  void fill_state() {
+    StepState<Backend>& s = state_;
+    const std::size_t n = rest_.mass.size();
+    s.vertex_count = static_cast<int>(n);
+    s.triangle_count = static_cast<int>(rest_.triangles.size());
+    s.hinge_count = static_cast<int>(rest_.hinges.size());
+    s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
+                           [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
+    for (auto* buffer : {&s.target, &s.previous, &s.first, &s.second}) buffer->resize(n);
+    s.strain_start.resize(rest_.triangles.size());
+    s.angle_start.resize(rest_.hinges.size());
+    s.sums_guess.resize(sum_columns);
+    s.sums_end.resize(sum_columns);
+    s.control.resize(1);
+    s.rows.resize(longest_frame);
+    upload(s.mass, rest_.mass);
+    upload(s.triangles, rest_.triangles);
+    upload(s.hinges, rest_.hinges);
+    std::vector<int> number(n);
+    for (std::size_t v = 0; v < n; ++v) number[v] = rest_.mobility[v] == Mobility::fixed ? -2 : -1;
+    for (const compare::PrescribedMotion& motion : scene_.motions) {
+      for (const compare::Index v : motion.vertices) number[static_cast<std::size_t>(v)] = s.prescribed_count++;
+    }
+    upload(s.prescribed_number, number);
+    s.prescribed_targets.resize(static_cast<std::size_t>(longest_frame) * static_cast<std::size_t>(s.prescribed_count));
+  }
+
+  /// Both position buffers and X_prev start at the positions: fixed vertices are written nowhere else.
+  void upload_motion(const std::vector<compare::Vec3f>& positions, const std::vector<compare::Vec3f>& velocities) {
+    const std::vector<Vec> x = vectors(positions);
+    for (auto* buffer : {&state_.start, &state_.first, &state_.second, &state_.previous}) upload(*buffer, x);
+    upload(state_.velocity, vectors(velocities));
+  }
+
+  void upload_targets(int count) {
+    std::vector<Vec> targets;
+    for (int k = 1; k <= count; ++k) {
+      const double t = static_cast<double>(step_number_ + k) * scene_.settings.time_step;
+      for (const compare::PrescribedMotion& motion : scene_.motions) {
+        for (const compare::Vec3f& x : compare::prescribed_targets(scene_, motion, t)) targets.push_back({x.x, x.y, x.z});
+      }
+    }
+    if (!targets.empty()) state_.prescribed_targets.upload(targets.data(), targets.size());
+  }
+
+  /// Up to `count` steps; adds a row for each that took place, and for the one that failed. Returns the control at the end.
+  StepControl run(int count, std::int64_t& repeats, std::vector<compare::StepMetrics>& rows) {
+    StepControl control;
+    control.active = 1;
+    state_.control.upload(&control, 1);
+    upload_targets(count);
+    std::vector<double> wall_ms;
+    std::vector<std::vector<double>> stage_ms;
+    enqueue(count, wall_ms, stage_ms);
+    state_.control.download(&control, 1);
+    const bool failed = (control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0;
+    std::vector<StepRow> device_rows(static_cast<std::size_t>(longest_frame));
+    state_.rows.download(device_rows.data(), device_rows.size());
+    for (int k = 0; k < control.steps_done + (failed ? 1 : 0); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      compare::StepMetrics row = metrics(device_rows[i], step_number_ + k + 1);
+      row.wall_ms = wall_ms[i];
+      if (clock_.on()) row.stage_ms = stage_ms[i];
+      row.repeats = std::exchange(repeats, 0);
+      if (row.repeats > 0) row.status |= compare::step_list_grew;
+      rows.push_back(std::move(row));
+    }
+    step_number_ += control.steps_done;
+    query_radius_ = control.query_radius;
+    return control;
+  }
+
+  /// Each step is timed by the backend; where stages are timed too nothing is recorded, so that the clock can stand between them.
+  void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
+    if (!clock_.on()) {
+      backend_.replay(recording_, count, [this] { step_.enqueue(); });
+      backend_.synchronize();
+      wall_ms = backend_.replay_milliseconds();
+      return;
+    }
+    using Clock = std::chrono::steady_clock;
+    for (int k = 0; k < count; ++k) {
+      const Clock::time_point start = Clock::now();
+      step_.enqueue();
+      wall_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+      stage_ms.push_back(clock_.take());
+    }
+    backend_.synchronize();
+  }
+
+  compare::StepMetrics metrics(const StepRow& row, std::int64_t step) const {
+    constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
+    compare::StepMetrics result;
+    result.step = step;
+    result.vertex_facet_contacts = row.vertex_facet_contacts;
+    result.edge_edge_contacts = row.edge_edge_contacts;
+    result.broad_phases = result.discrete_detections = row.detections;
+    result.guess_rounds = row.rounds;
+    result.iterations = row.iterations;
+    result.vertices_at_bound = row.cut_last;
+    result.share_at_bound = moving_ > 0 ? static_cast<double>(row.cut_last) / static_cast<double>(moving_) : 0;
+    result.momentum_lost_guess = row.lost_guess;
+    result.momentum_lost_end = row.lost_end;
+    result.largest_lag = row.largest_lag;
+    result.query_radius = row.query_radius;
+    result.residual = not_asked;
+    result.kinetic_energy = energies_ ? row.kinetic : not_asked;
+    result.elastic_energy = energies_ ? row.elastic : not_asked;
+    result.contact_energy = energies_ ? row.contact : not_asked;
+    result.gravity_energy = energies_ ? row.gravity : not_asked;
+    result.smallest_distance = row.smallest_bound / scene_.settings.bound_relaxation;
+    result.status = static_cast<std::uint32_t>(row.status);
+    return result;
+  }
+
+  void grow() {
+    detection_.grow();
+    sweep_.reserve_contacts(4 * detection_.capacity());
+    recording_.clear();
+  }
+
+  std::vector<float> last_bounds() {
+    bounds_.resize(rest_.mass.size());
+    backend_.for_each(state_.vertex_count, CopyBound{detection_.view().bound, bounds_.data()});
+    backend_.synchronize();
+    std::vector<float> result(rest_.mass.size());
+    bounds_.download(result.data(), result.size());
+    return result;
+  }
+
+  Backend backend_;
+  std::string device_;
+  compare::Scene scene_;
+  compare::Topology topology_;
+  RestState rest_;
+  Colouring colouring_;
+  std::vector<compare::Index> groups_;
+  Detection<Backend> detection_;
+  Sweep<Backend> sweep_;
+  StageClock<Backend> clock_;
+  StepState<Backend> state_;
+  std::size_t moving_;
+  Step<Backend> step_;
+  bool energies_;
+  typename Backend::Recording recording_;
+  typename Backend::template Buffer<float> bounds_;
+  std::int64_t step_number_ = 0;
+  float query_radius_ = 0;
+};
+
+}  // namespace ogc::fast

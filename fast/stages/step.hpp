@@ -1,0 +1,215 @@
+// The step of Algorithm 3 with the guess loop of method.md §5, as one sequence of calls that is the same for every step: what happens is decided by flags on
+// the device, so the sequence can be recorded once and nothing in it waits for the host.
+//
+//   begin       y, r_q, Gᵗ, θᵗ; trees sorted anew
+//   guess loop  when(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times
+//   iterations  when(detect): X_prev ← x, detect; prescribed vertices, colours in order; flag from the number of cut vertices
+//   finish      certificate; commit and sums only if clean; one row
+//
+// A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or is thrown away, and xᵗ, vᵗ stay.
+#pragma once
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fast/kernels/initial_guess.hpp"
+#include "fast/kernels/metrics.hpp"
+#include "fast/stages/detection.hpp"
+#include "fast/stages/profile.hpp"
+#include "fast/stages/reduce.hpp"
+#include "fast/stages/sweep.hpp"
+
+namespace ogc::fast {
+
+/// Numbers of a scene that a step needs, in single precision.
+struct StepSettings {
+  float step = 0, contact_radius = 0, friction_limit = 0, bound_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
+  Vec acceleration;                                        ///< [m/s²]
+  int iterations = 0;
+  bool energies = true;
+  ControlSettings control;
+};
+
+/// `moving`: K, the number of free and prescribed vertices.
+inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
+  const compare::Settings& from = scene.settings;
+  StepSettings to;
+  to.step = static_cast<float>(from.time_step);
+  to.contact_radius = static_cast<float>(from.contact_radius);
+  to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
+  to.bound_relaxation = static_cast<float>(from.bound_relaxation);
+  to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y), static_cast<float>(scene.gravity.z)};
+  to.iterations = static_cast<int>(from.iterations);
+  to.energies = energies;
+  to.control.contact_radius = to.contact_radius;
+  to.control.largest_query_radius = static_cast<float>(from.query_radius_cap * from.contact_radius);
+  to.control.cut_threshold = std::max(1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
+  to.control.redetect_every = static_cast<int>(from.redetect_every);
+  to.control.guess_rounds = static_cast<int>(from.guess_rounds);
+  return to;
+}
+
+/// Resident arrays of a simulation. `first` and `second` are the two position buffers of the sweep; detection reads the current one.
+template <class Backend>
+struct StepState {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  int vertex_count = 0, triangle_count = 0, hinge_count = 0, prescribed_count = 0;
+  bool damped = false;
+  Buffer<Vec> start, velocity, target, previous, first, second;
+  Buffer<float> mass;
+  Buffer<int> prescribed_number;   ///< by vertex: place among the prescribed ones; -1 free, -2 fixed
+  Buffer<Vec> prescribed_targets;  ///< [step of the frame][place]
+  Buffer<TriangleRest> triangles;
+  Buffer<HingeRest> hinges;
+  Buffer<Symmetric2> strain_start;
+  Buffer<float> angle_start;
+  Buffer<StepControl> control;
+  Buffer<StepRow> rows;
+  Buffer<double> sums_guess, sums_end;
+};
+
+template <class Backend>
+class Step {
+ public:
+  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings)
+      : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, sum_columns) {}
+
+  /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows.
+  void enqueue() {
+    clock_.time(StepStage::begin, [&] { begin(); });
+    guess_loop();
+    Vec* old = state_.first.data();
+    Vec* fresh = state_.second.data();
+    for (int i = 0; i < settings_.iterations; ++i) {
+      if (i > 0) clock_.time(StepStage::detection, [&] { backend_.when(flag(&StepControl::detect), [&] { detect_again(old); }); });
+      clock_.time(StepStage::sweep, [&] { iterate(old, fresh); });
+      std::swap(old, fresh);
+    }
+    clock_.time(StepStage::metrics, [&] { finish(old); });
+  }
+
+ private:
+  StepControl* control() { return state_.control.data(); }
+  const int* flag(int StepControl::* member) { return &(control()->*member); }
+
+  void begin() {
+    StepState<Backend>& s = state_;
+    backend_.for_each(1, BeginStep{control()});
+    backend_.when(flag(&StepControl::attempted), [&] {
+      backend_.for_each(s.vertex_count,
+                        BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(), s.prescribed_targets.data(), s.prescribed_count,
+                                    settings_.acceleration, settings_.step, s.first.data(), s.target.data(), control()});
+      if (s.damped) {
+        backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
+        backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
+      }
+      backend_.for_each(1, ChooseQueryRadius{control(), settings_.control});
+      detection_.rebuild(s.first.data());
+    });
+  }
+
+  /// Bounds that end here are certified, then X_prev ← x and everything is found anew.
+  void detect(const Vec* position, bool certify) {
+    backend_.for_each(state_.vertex_count, BeginBounds{position, detection_.view().bound, state_.previous.data(), control(), certify});
+    detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation);
+    backend_.for_each(1, EndDetection{control(), detection_.overflow()});
+  }
+
+  void detect_again(const Vec* position) {
+    detect(position, true);
+    sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
+  }
+
+  void guess(bool hold_contacts) {
+    const ContactView view = detection_.view();
+    backend_.for_each(state_.vertex_count, GuessVertex{state_.target.data(), state_.previous.data(), view.bound, view.incidence_offsets, hold_contacts,
+                                                       state_.first.data(), control()});
+    backend_.for_each(1, EndRound{control(), settings_.control});
+  }
+
+  void guess_loop() {
+    const int* again = flag(&StepControl::guess);
+    for (int round = 0; round < settings_.control.guess_rounds; ++round) {
+      const auto find = [&] { detect(state_.first.data(), round > 0); };
+      const auto move = [&] { guess(round > 0); };
+      if (clock_.on()) {
+        clock_.time(StepStage::detection, [&] { backend_.when(again, find); });
+        clock_.time(StepStage::initial_guess, [&] { backend_.when(again, move); });
+      } else {
+        backend_.when(again, [&] { find(), move(); });
+      }
+    }
+    clock_.time(StepStage::initial_guess, [&] {
+      backend_.when(flag(&StepControl::active), [&] {
+        sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
+        add_vertices(state_.first.data());
+        reduction_.end(state_.sums_guess.data());
+      });
+    });
+  }
+
+  void iterate(const Vec* old, Vec* fresh) {
+    StepState<Backend>& s = state_;
+    SweepView view;
+    sweep_.complete(view);
+    view.strain_start = s.strain_start.data();
+    view.angle_start = s.angle_start.data();
+    view.start = s.start.data();
+    view.target = s.target.data();
+    view.previous = s.previous.data();
+    view.bound = detection_.view().bound;
+    view.old = old;
+    view.fresh = fresh;
+    view.control = control();
+    view.radius = settings_.contact_radius;
+    view.friction_limit = settings_.friction_limit;
+    sweep_.iterate(view);
+    backend_.for_each(1, EndIteration{control(), settings_.control});
+  }
+
+  void finish(const Vec* position) {
+    StepState<Backend>& s = state_;
+    const int* active = flag(&StepControl::active);
+    backend_.when(active, [&] {
+      backend_.for_each(s.vertex_count, CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(), s.prescribed_number.data(), control()});
+      backend_.for_each(1, EndCheck{control()});
+    });
+    backend_.when(active, [&] {
+      add_vertices(position);
+      if (settings_.energies) add_energies(position);
+      reduction_.end(s.sums_end.data());
+      backend_.for_each(s.vertex_count, CommitVertex{position, settings_.step, s.start.data(), s.velocity.data()});
+    });
+    backend_.for_each(1, FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
+  }
+
+  void add_vertices(const Vec* position) {
+    StepState<Backend>& s = state_;
+    reduction_.begin();
+    reduction_.add(s.vertex_count, VertexTerm{position, s.start.data(), s.target.data(), s.mass.data(), s.prescribed_number.data(), settings_.acceleration,
+                                              static_cast<double>(settings_.step)});
+  }
+
+  void add_energies(const Vec* position) {
+    StepState<Backend>& s = state_;
+    const ContactView view = detection_.view();
+    const ContactTables tables = sweep_.tables(s.previous.data());
+    reduction_.add(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), position});
+    reduction_.add(s.hinge_count, HingeTerm{s.hinges.data(), position});
+    reduction_.add_counted(view.vertex_facet_count, VertexFacetTerm{view, tables, position, settings_.contact_radius});
+    reduction_.add_counted(view.edge_edge_count, EdgeEdgeTerm{view, tables, position, settings_.contact_radius});
+  }
+
+  Backend& backend_;
+  StepState<Backend>& state_;
+  Detection<Backend>& detection_;
+  Sweep<Backend>& sweep_;
+  StageClock<Backend>& clock_;
+  StepSettings settings_;
+  Reduction<Backend> reduction_;
+};
+
+}  // namespace ogc::fast

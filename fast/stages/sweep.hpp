@@ -1,0 +1,199 @@
+// The sweep (Alg. 4): streams of stencils in the order in which the sweep reads them, made once on the host; the contact stream, made after each
+// detection on the device; and the launches of one iteration. Every sum has the width W, the one thing beside the input that may change a bit.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "fast/kernels/contact_stream.hpp"
+#include "fast/kernels/sweep.hpp"
+#include "fast/stages/colouring.hpp"
+#include "fast/stages/rest_state.hpp"
+
+namespace ogc::fast {
+
+/// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes cannot fill a device otherwise.
+inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : vertices <= 100000 ? 4 : 1; }
+
+/// The streams on the host, slot by slot in the order of the colouring.
+struct SweepStreams {
+  std::vector<SweepVertex> vertices;
+  std::vector<MembraneIncidence> membrane;
+  std::vector<HingeIncidence> hinges;
+};
+
+namespace detail {
+
+/// As a neighbour with this colour is read while `own` is solved.
+inline int encoded(int vertex, const std::vector<int>& colour, int own_colour) {
+  return colour[static_cast<std::size_t>(vertex)] < own_colour ? ~vertex : vertex;
+}
+
+inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle, int corner, const std::vector<int>& colour) {
+  const TriangleRest& shape = rest.triangles[static_cast<std::size_t>(triangle)];
+  const int b = (corner + 1) % 3, c = (corner + 2) % 3, own = colour[static_cast<std::size_t>(shape.corner[corner])];
+  MembraneIncidence incidence;
+  incidence.index[0] = encoded(shape.corner[b], colour, own);
+  incidence.index[1] = encoded(shape.corner[c], colour, own);
+  incidence.triangle = triangle;
+  incidence.stencil = {{shape.gradient[b][0], shape.gradient[b][1]}, {shape.gradient[c][0], shape.gradient[c][1]}, shape.area};
+  return incidence;
+}
+
+/// Role 0, 1: an end of the edge; 2, 3: an opposite vertex. Exchanging both pairs at once keeps the angle (fast/kernels/bending.hpp).
+inline HingeIncidence hinge_incidence(const RestState& rest, int hinge, int role, const std::vector<int>& colour) {
+  constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
+  const HingeRest& shape = rest.hinges[static_cast<std::size_t>(hinge)];
+  const int own = colour[static_cast<std::size_t>(shape.vertex[role])];
+  HingeIncidence incidence;
+  for (int k = 0; k < 3; ++k) incidence.index[k] = encoded(shape.vertex[others[role][k]], colour, own);
+  incidence.hinge = role < 2 ? hinge : ~hinge;
+  incidence.stencil = {shape.stiffness, shape.angle};
+  return incidence;
+}
+
+/// (element, role) of each vertex, by element.
+template <class Element, class Vertices>
+std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_count, const std::vector<Element>& elements, Vertices vertices, int roles) {
+  std::vector<std::vector<std::pair<int, int>>> rows(vertex_count);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (int role = 0; role < roles; ++role) rows[static_cast<std::size_t>(vertices(elements[i])[role])].emplace_back(static_cast<int>(i), role);
+  }
+  return rows;
+}
+
+}  // namespace detail
+
+/// `step` is h [s].
+inline SweepStreams build_streams(const RestState& rest, const Colouring& colouring, double step) {
+  const auto triangles = detail::incidences(rest.mass.size(), rest.triangles, [](const TriangleRest& t) { return t.corner; }, 3);
+  const auto hinges = detail::incidences(rest.mass.size(), rest.hinges, [](const HingeRest& hinge) { return hinge.vertex; }, 4);
+  SweepStreams streams;
+  for (const int v : colouring.order) {
+    const auto i = static_cast<std::size_t>(v);
+    SweepVertex vertex;
+    vertex.vertex = v;
+    vertex.body = rest.body[i];
+    vertex.inertia = static_cast<float>(static_cast<double>(rest.mass[i]) / (step * step));
+    vertex.membrane_begin = static_cast<int>(streams.membrane.size());
+    vertex.membrane_count = static_cast<int>(triangles[i].size());
+    vertex.hinge_begin = static_cast<int>(streams.hinges.size());
+    vertex.hinge_count = static_cast<int>(hinges[i].size());
+    for (const auto& [triangle, corner] : triangles[i]) streams.membrane.push_back(detail::membrane_incidence(rest, triangle, corner, colouring.colour));
+    for (const auto& [hinge, role] : hinges[i]) streams.hinges.push_back(detail::hinge_incidence(rest, hinge, role, colouring.colour));
+    streams.vertices.push_back(vertex);
+  }
+  return streams;
+}
+
+/// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each iteration (positions, bounds, control).
+template <class Backend>
+class Sweep {
+ public:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology, const compare::Scene& scene)
+      : backend_(backend), colour_begin_(colouring.begin), colours_(colouring.count) {
+    const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
+    upload(vertices_, streams.vertices);
+    upload(membrane_, streams.membrane);
+    upload(hinges_, streams.hinges);
+    upload(colour_, colouring.colour);
+    upload(body_, rest.body);
+    upload(materials_, rest.materials);
+    upload(contact_materials_, rest.contact);
+    upload(rest_squared_, rest_lengths_squared(topology, scene));
+    contact_rows_.resize(rest.mass.size() + 1);
+    contact_rows_.fill_zero();
+    tables_ = {body_.data(), contact_materials_.data(), static_cast<int>(rest.materials.size()), rest_squared_.data(), nullptr, !topology.triangles.empty()};
+    vertex_count_ = static_cast<int>(rest.mass.size());
+    lanes_ = static_cast<int>(scene.settings.lanes > 0 ? scene.settings.lanes : static_cast<std::int64_t>(default_lanes(rest.mass.size())));
+    for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
+      if (rest.mobility[v] == Mobility::prescribed) prescribed_host_.push_back(static_cast<int>(v));
+    }
+    upload(prescribed_, prescribed_host_);
+  }
+
+  int colours() const { return colours_; }
+  int lanes() const { return lanes_; }
+  const SurfaceMaterial* materials() const { return materials_.data(); }
+
+  /// What a record does not say itself; `detected`: the positions of the last detection.
+  ContactTables tables(const Vec* detected) const {
+    ContactTables tables = tables_;
+    tables.detected = detected;
+    return tables;
+  }
+
+  /// Room for the incidences of a detection; host only, outside a step.
+  void reserve_contacts(int incidences) { contacts_.resize(static_cast<std::size_t>(incidences)); }
+
+  /// The contact stream of a detection at `detected`.
+  void resolve_contacts(const ContactView& view, const Vec* detected, const StepControl* control) {
+    backend_.for_each(vertex_count_ + 1, CopyContactRows{view.incidence_offsets, contact_rows_.data(), control});
+    backend_.for_each_counted(view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
+                              ResolveContact{view, tables(detected), colour_.data(), contacts_.data(), control});
+  }
+
+  /// The streams of this sweep in a view; positions, targets and control are the caller's.
+  void complete(SweepView& view) const {
+    view.vertices = vertices_.data();
+    view.membrane = membrane_.data();
+    view.hinges = hinges_.data();
+    view.contact_rows = contact_rows_.data();
+    view.contacts = contacts_.data();
+    view.materials = materials_.data();
+  }
+
+  /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each cut counted.
+  void iterate(const SweepView& view) {
+    backend_.for_each(static_cast<int>(prescribed_host_.size()), UpdatePrescribed{view, prescribed_.data()});
+    for (int c = 0; c < colours_; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      update(colour_begin_[k + 1] - colour_begin_[k], UpdateVertex{view, colour_begin_[k]});
+    }
+  }
+
+ private:
+  template <class T>
+  static void upload(Buffer<T>& buffer, const std::vector<T>& items) {
+    buffer.upload(items.data(), items.size());
+  }
+
+  static std::vector<float> rest_lengths_squared(const compare::Topology& topology, const compare::Scene& scene) {
+    std::vector<float> squared;
+    for (const compare::Edge& edge : topology.edges) {
+      const RestVector e =
+          rest_difference(scene.rest_positions[static_cast<std::size_t>(edge[1])], scene.rest_positions[static_cast<std::size_t>(edge[0])]);
+      squared.push_back(static_cast<float>(rest_dot(e, e)));
+    }
+    return squared;
+  }
+
+  void update(int count, const UpdateVertex& kernel) {
+    switch (lanes_) {
+      case 1: return backend_.template for_each_team<1>(count, kernel);
+      case 2: return backend_.template for_each_team<2>(count, kernel);
+      case 4: return backend_.template for_each_team<4>(count, kernel);
+      case 8: return backend_.template for_each_team<8>(count, kernel);
+      case 16: return backend_.template for_each_team<16>(count, kernel);
+      default: return backend_.template for_each_team<32>(count, kernel);
+    }
+  }
+
+  Backend& backend_;
+  std::vector<int> colour_begin_, prescribed_host_;
+  int colours_ = 0, vertex_count_ = 0, lanes_ = 1;
+  Buffer<SweepVertex> vertices_;
+  Buffer<MembraneIncidence> membrane_;
+  Buffer<HingeIncidence> hinges_;
+  Buffer<ContactIncidence> contacts_;
+  Buffer<int> contact_rows_, colour_, body_, prescribed_;
+  Buffer<SurfaceMaterial> materials_;
+  Buffer<ContactMaterial> contact_materials_;
+  Buffer<float> rest_squared_;
+  ContactTables tables_;
+};
+
+}  // namespace ogc::fast

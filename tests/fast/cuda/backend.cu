@@ -1,0 +1,266 @@
+// The CUDA backend against its own definition in fast/stages/backend.hpp, computed here in the plainest way.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+#include "compare/problem/error.hpp"
+#include "fast/cuda/backend.cuh"
+#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/team.hpp"
+
+using namespace ogc::fast;
+
+namespace {
+
+template <class T>
+CudaBuffer<T> on_device(const std::vector<T>& items) {
+  CudaBuffer<T> buffer;
+  buffer.upload(items.data(), items.size());
+  return buffer;
+}
+
+template <class T>
+std::vector<T> on_host(const CudaBuffer<T>& buffer) {
+  std::vector<T> items(buffer.size());
+  buffer.download(items.data(), items.size());
+  return items;
+}
+
+struct SetToNumber {
+  int* target;
+  OGC_HD void operator()(int i) const { target[i] = i + 1; }
+};
+
+struct AddOne {
+  int* target;
+  OGC_HD void operator()(int i) const { atomic_add(target + i, 1); }
+};
+
+struct Assign {
+  int* target;
+  int value;
+  OGC_HD void operator()(int) const { *target = value; }
+};
+
+// Sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives other bits.
+struct Sums {
+  float large = 0, small = 0;
+  int count = 0;
+  OGC_HD Sums& operator+=(const Sums& other) {
+    large += other.large;
+    small += other.small;
+    count += other.count;
+    return *this;
+  }
+};
+
+struct RowSums {
+  const int* offsets;
+  const float* terms;
+  Sums* out;
+  template <class Team>
+  OGC_HD void operator()(int row, Team team) const {
+    if (row % 5 == 3) return;  // teams of one warp may leave early
+    const float* mine = terms + offsets[row];
+    const Sums sums = team.template sum<Sums>(offsets[row + 1] - offsets[row], [mine](int k, Sums& acc) { acc += Sums{mine[k], mine[k] * mine[k], 1}; });
+    if (team.leader()) out[row] = sums;
+  }
+};
+
+struct Rows {
+  std::vector<int> offsets{0};
+  std::vector<float> terms;
+};
+
+Rows random_rows(int count) {
+  std::mt19937 random(7);
+  Rows rows;
+  for (int row = 0; row < count; ++row) {
+    const int length = static_cast<int>(random() % 90);
+    for (int k = 0; k < length; ++k) {
+      rows.terms.push_back(std::ldexp(static_cast<float>(random() % 2001) - 1000.0f, static_cast<int>(random() % 40) - 20));
+    }
+    rows.offsets.push_back(static_cast<int>(rows.terms.size()));
+  }
+  return rows;
+}
+
+template <int W>
+void check_team() {
+  const int count = 1001;
+  const Rows rows = random_rows(count);
+  std::vector<Sums> expected(count);
+  for (int row = 0; row < count; ++row) RowSums{rows.offsets.data(), rows.terms.data(), expected.data()}(row, SerialTeam<W>{});
+  CudaBackend backend;
+  const CudaBuffer<int> offsets = on_device(rows.offsets);
+  const CudaBuffer<float> terms = on_device(rows.terms);
+  CudaBuffer<Sums> out;
+  out.resize(count);
+  backend.for_each_team<W>(count, RowSums{offsets.data(), terms.data(), out.data()});
+  const std::vector<Sums> found = on_host(out);
+  int different = 0;
+  for (std::size_t row = 0; row < found.size(); ++row) different += std::memcmp(&found[row], &expected[row], sizeof(Sums)) != 0;
+  CHECK(different == 0);
+}
+
+}  // namespace
+
+TEST_CASE("for_each visits every index once, also where there are more indices than threads", "[gpu]") {
+  CudaBackend backend;
+  for (const int n : {0, 1, 2, 31, 127, 128, 129, 5000, 3'000'000}) {
+    CudaBuffer<int> visits;
+    visits.resize(static_cast<std::size_t>(n) + 1);
+    backend.for_each(n, AddOne{visits.data()});
+    std::vector<int> expected(static_cast<std::size_t>(n) + 1, 1);
+    expected.back() = 0;
+    CHECK((on_host(visits) == expected));
+  }
+}
+
+TEST_CASE("for_each_counted reads its count on the device and never passes the capacity", "[gpu]") {
+  CudaBackend backend;
+  for (const int count : {0, 1, 700, 1000, 2000}) {
+    CudaBuffer<int> visits;
+    visits.resize(2000);
+    const CudaBuffer<int> n = on_device(std::vector<int>{count});
+    backend.for_each_counted(n.data(), 1000, AddOne{visits.data()});
+    const std::vector<int> found = on_host(visits);
+    const int expected = std::min(count, 1000);
+    CHECK(std::count(found.begin(), found.begin() + expected, 1) == expected);
+    CHECK(std::count(found.begin() + expected, found.end(), 0) == 2000 - expected);
+  }
+}
+
+TEST_CASE("a team of lanes gives the bits of SerialTeam for every width", "[gpu]") {
+  check_team<1>();
+  check_team<2>();
+  check_team<4>();
+  check_team<8>();
+  check_team<16>();
+  check_team<32>();
+}
+
+TEST_CASE("exclusive_scan gives n + 1 sums, in place too", "[gpu]") {
+  CudaBackend backend;
+  for (const std::size_t n : {0u, 1u, 2u, 1000u, 1'000'003u}) {
+    std::vector<int> items(n + 1, 0), expected(n + 1, 0);
+    for (std::size_t i = 0; i < n; ++i) items[i] = static_cast<int>(i * 7919 % 13);
+    for (std::size_t i = 0; i < n; ++i) expected[i + 1] = expected[i] + items[i];
+    CudaBuffer<int> in = on_device(items), out;
+    out.resize(n + 1);
+    backend.exclusive_scan(in.data(), out.data(), static_cast<int>(n));
+    CHECK((on_host(out) == expected));
+    backend.exclusive_scan(in.data(), in.data(), static_cast<int>(n));
+    CHECK((on_host(in) == expected));
+  }
+}
+
+TEST_CASE("sort_pairs is stable and ascending over all 64 bits", "[gpu]") {
+  CudaBackend backend;
+  std::mt19937_64 random(3);
+  for (const std::size_t n : {0u, 1u, 2u, 100u, 4097u, 500'000u}) {
+    std::vector<std::uint64_t> keys(n);
+    std::vector<int> values(n);
+    std::iota(values.begin(), values.end(), 0);
+    for (auto& key : keys) key = random() % 1000 == 0 ? ~random() : (random() % 97) << (random() % 50);
+    std::vector<int> expected = values;
+    std::stable_sort(expected.begin(), expected.end(), [&](int a, int b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; });
+    CudaBuffer<std::uint64_t> device_keys = on_device(keys);
+    CudaBuffer<int> device_values = on_device(values);
+    backend.sort_pairs(device_keys.data(), device_values.data(), static_cast<int>(n));
+    std::sort(keys.begin(), keys.end());
+    CHECK((on_host(device_keys) == keys));
+    CHECK((on_host(device_values) == expected));
+  }
+}
+
+TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
+  CudaBackend backend;
+  CudaBuffer<int> flag, count;
+  flag.resize(1);
+  count.resize(1);
+  // 0: nothing; 1: counts; then a body that scans and sorts inside the condition; then the flag falls again.
+  std::vector<std::uint64_t> keys{3, 1, 2};
+  CudaBuffer<std::uint64_t> device_keys;
+  CudaBuffer<int> values, sums;
+  sums.resize(4);
+  const auto body = [&] {
+    backend.for_each(1, Assign{flag.data(), 0});
+    backend.when(flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
+    backend.for_each(1, Assign{flag.data(), 1});
+    backend.when(flag.data(), [&] {
+      backend.for_each(1, AddOne{count.data()});
+      backend.sort_pairs(device_keys.data(), values.data(), 3);
+      backend.exclusive_scan(values.data(), sums.data(), 3);
+      backend.for_each(1, Assign{flag.data(), 0});
+    });
+    backend.when(flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
+  };
+  CudaRecording recording;
+  for (const int times : {0, 1, 5}) {
+    device_keys.upload(keys.data(), 3);
+    values.upload(std::vector<int>{10, 20, 30}.data(), 3);
+    count.fill_zero();
+    if (times == 0) {
+      body();
+    } else {
+      backend.replay(recording, times, body);
+    }
+    backend.synchronize();
+    CHECK(on_host(count)[0] == std::max(times, 1));
+    CHECK((on_host(values) == std::vector<int>{20, 30, 10}));
+    CHECK((on_host(sums) == std::vector<int>{0, 20, 50, 60}));
+    if (times > 0) CHECK(backend.replay_milliseconds().size() == static_cast<std::size_t>(times));
+  }
+}
+
+TEST_CASE("a recording runs its body on the host again only when a Buffer has moved", "[gpu]") {
+  CudaBackend backend;
+  CudaBuffer<int> items;
+  items.resize(10);
+  CudaRecording recording;
+  int recorded = 0;
+  const auto body = [&] {
+    ++recorded;
+    backend.for_each(static_cast<int>(items.size()), SetToNumber{items.data()});
+  };
+  backend.replay(recording, 3, body);
+  backend.replay(recording, 2, body);
+  CHECK(recorded == 1);
+  items.resize(100'000);
+  backend.replay(recording, 1, body);
+  CHECK(recorded == 2);
+  const std::vector<int> found = on_host(items);
+  CHECK(found.front() == 1);
+  CHECK(found.back() == 100'000);
+}
+
+TEST_CASE("a body that throws while it is recorded leaves the backend usable", "[gpu]") {
+  CudaBackend backend;
+  CudaBuffer<int> items;
+  items.resize(4);
+  CudaRecording recording;
+  CHECK_THROWS_AS(backend.replay(recording, 1, [&] { backend.when(items.data(), [&] { throw std::runtime_error("body"); }); }), std::runtime_error);
+  backend.replay(recording, 1, [&] { backend.for_each(4, SetToNumber{items.data()}); });
+  backend.synchronize();
+  CHECK((on_host(items) == std::vector<int>{1, 2, 3, 4}));
+}
+
+TEST_CASE("a request that does not fit says what was asked for and what to do", "[gpu]") {
+  CudaBuffer<double> buffer;
+  try {
+    buffer.resize(std::size_t{1} << 45);
+    FAIL("256 TiB were granted");
+  } catch (const ogc::compare::ResourceError& error) {
+    const std::string text = error.what();
+    CHECK(text.find("268435456.0 MiB") != std::string::npos);
+    CHECK(text.find("--backend cpu") != std::string::npos);
+  }
+  buffer.resize(8);
+  CHECK((on_host(buffer) == std::vector<double>(8, 0.0)));
+}

@@ -1,0 +1,35 @@
+#include "fast/stages/reduce.hpp"
+
+#include <vector>
+
+#include "fast/cpu/backend.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::fast;
+
+namespace {
+
+struct Term {
+  int column;
+  void operator()(int i, double* sum) const { sum[column] += i + 1; }
+};
+
+}  // namespace
+
+TEST_CASE("sums hold every item once, in its column, whatever their number", "[property]") {
+  CpuBackend backend;
+  for (const int n : {0, 1, 31, 1023, 1024, 1025, 5000}) {
+    Reduction<CpuBackend> reduction(backend, 3);
+    std::vector<double> total(3, -1);
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      reduction.begin();
+      reduction.add(n, Term{0});
+      reduction.add_counted(&n, Term{2});
+      reduction.end(total.data());
+    }
+    const double expected = n * (n + 1.0) / 2;
+    CHECK(total[0] == expected);
+    CHECK(total[1] == 0);
+    CHECK(total[2] == expected);
+  }
+}

@@ -1,0 +1,205 @@
+#include "fast/stages/sweep.hpp"
+
+#include <cstring>
+#include <random>
+
+#include "fast/cpu/backend.hpp"
+#include "fast/stages/detection.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/numeric.hpp"
+#include "tests/fast/scenes.hpp"
+
+using namespace ogc;
+using namespace ogc::fast;
+using namespace ogc::fast::test;
+
+namespace {
+
+// Two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions a little elsewhere, so that damping and friction act.
+struct Fixture {
+  compare::Scene scene;
+  compare::Topology topology;
+  RestState rest;
+  Colouring colouring;
+  CpuBackend backend;
+  std::vector<Vec> x, start, target, fresh, previous;
+  std::vector<float> bound;
+  std::vector<Symmetric2> strain;
+  std::vector<float> angle;
+  StepControl control;
+  std::unique_ptr<Detection<CpuBackend>> detection;
+  std::unique_ptr<Sweep<CpuBackend>> sweep;
+
+  Fixture(bool second_fixed, int lanes, double friction = 0.3) {
+    compare::Material material;
+    material.membrane_damping = 1e-3, material.bending_damping = 1e-3, material.bending_stiffness = 1e-5;
+    material.friction = friction;
+    scene = empty_scene();
+    scene.settings.lanes = lanes;
+    scene.settings.contact_radius = 0.02;
+    add_sheet(scene, 9, 0.1, 0.012, false, material);
+    add_sheet(scene, 8, 0.1, 0, second_fixed, material);
+    compare::round_to_single(scene);
+    topology = compare::build_topology(scene);
+    rest = build_rest_state(scene, topology);
+    colouring = colour_vertices(rest);
+    std::mt19937 random(51);
+    std::normal_distribution<double> normal;
+    for (const compare::Vec3& p : scene.mesh.positions) {
+      x.push_back(narrow(D3{p.x, p.y, p.z} + 1e-3 * D3{normal(random), normal(random), normal(random)}));
+      start.push_back(narrow(wide(x.back()) + 2e-4 * D3{normal(random), normal(random), normal(random)}));
+      target.push_back(narrow(wide(x.back()) + 2e-3 * D3{normal(random), normal(random), normal(random)}));
+    }
+    fresh = previous = x;
+    bound.assign(x.size(), 1.0f);
+    for (const TriangleRest& t : rest.triangles) {
+      const auto at = [&](int k) { return start[static_cast<std::size_t>(t.corner[k])]; };
+      strain.push_back(green_strain(deformation_gradient(at(1) - at(0), at(2) - at(0), t.gradient[1], t.gradient[2])));
+    }
+    for (const HingeRest& h : rest.hinges) {
+      const auto at = [&](int k) { return start[static_cast<std::size_t>(h.vertex[k])]; };
+      angle.push_back(hinge_shape(at(1) - at(0), at(2) - at(0), at(3) - at(0)).angle);
+    }
+    control.active = 1;
+    control.query_radius = 0.03f;
+    detection = std::make_unique<Detection<CpuBackend>>(backend, topology, compare::rigid_groups(scene));
+    sweep = std::make_unique<Sweep<CpuBackend>>(backend, rest, colouring, topology, scene);
+    detection->detect(x.data(), 0.02f, &control.query_radius, 0.45f);
+    REQUIRE(*detection->overflow() == 0);
+    sweep->reserve_contacts(4 * detection->capacity());
+    sweep->resolve_contacts(detection->view(), x.data(), &control);
+  }
+
+  SweepView view() {
+    SweepView v;
+    sweep->complete(v);
+    v.strain_start = strain.data();
+    v.angle_start = angle.data();
+    v.start = start.data();
+    v.target = target.data();
+    v.previous = previous.data();
+    v.bound = bound.data();
+    v.old = x.data();
+    v.fresh = fresh.data();
+    v.control = &control;
+    v.radius = 0.02f;
+    v.friction_limit = 1e-4f;
+    return v;
+  }
+};
+
+bool same_bits(const std::vector<Vec>& a, const std::vector<Vec>& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec)) == 0; }
+
+}  // namespace
+
+namespace {
+
+struct Totals {
+  D3 force, torque;
+  double size = 0;
+};
+
+Totals totals(Fixture& f) {
+  const SweepView view = f.view();
+  Totals sum;
+  for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
+    const SweepVertex vertex = view.vertices[slot];
+    const Vec own = f.x[static_cast<std::size_t>(vertex.vertex)];
+    const D3 push = wide(gather(view, vertex, own, SerialTeam<4>{}).force);
+    sum.force += push;
+    sum.torque += cross(wide(own), push);
+    sum.size += length(push);
+  }
+  return sum;
+}
+
+// Each force has some 30 terms of about its own size, each known to a few tens of u (see the tests of the energies).
+constexpr double relative_error = 300 * 0x1p-24;
+
+}  // namespace
+
+TEST_CASE("all forces of a state add up to nothing: membrane, bending, damping, contact and friction", "[property]") {
+  Fixture f(false, 4);
+  REQUIRE(*f.detection->view().vertex_facet_count > 50);
+  REQUIRE(*f.detection->view().edge_edge_count > 50);
+  const Totals sum = totals(f);
+  CHECK(sum.size > 0.01);
+  CHECK(length(sum.force) <= relative_error * sum.size);
+}
+
+TEST_CASE("without friction, which acts across the gap, all torques add up to nothing too", "[property]") {
+  Fixture f(false, 4, 0);
+  const Totals sum = totals(f);
+  CHECK(length(sum.force) <= relative_error * sum.size);
+  CHECK(length(sum.torque) <= relative_error * sum.size * 0.1);
+}
+
+TEST_CASE("an iteration reads lower colours from the fresh buffer and all others from the old one", "[property]") {
+  for (const bool second_fixed : {false, true}) {
+    Fixture f(second_fixed, 8);
+    const SweepView view = f.view();
+    f.sweep->iterate(view);
+    const std::vector<Vec> answer = f.fresh;
+    // The rule, naively: before each colour, a snapshot of what has been written so far; each vertex of the colour is solved in it.
+    std::vector<Vec> now = f.x;
+    for (int c = 0; c < f.colouring.count; ++c) {
+      std::vector<Vec> seen = now, out = now;
+      for (int i = f.colouring.begin[static_cast<std::size_t>(c)]; i < f.colouring.begin[static_cast<std::size_t>(c) + 1]; ++i) {
+        SweepView naive = view;
+        naive.old = seen.data();
+        naive.fresh = seen.data();
+        const SweepVertex vertex = view.vertices[i];
+        const auto v = static_cast<std::size_t>(vertex.vertex);
+        ForceAndBlock total = gather(naive, vertex, seen[v], SerialTeam<8>{});
+        add_inertia(vertex.inertia, seen[v], f.target[v], total);
+        out[v] = seen[v] + solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
+      }
+      now = out;
+    }
+    CHECK(same_bits(answer, now));
+  }
+}
+
+TEST_CASE("the width of the sums changes only the last bits of an iteration, and the same width gives the same bits", "[property]") {
+  Fixture a(false, 1), b(false, 16), c(false, 16);
+  for (Fixture* f : {&a, &b, &c}) f->sweep->iterate(f->view());
+  CHECK(same_bits(b.fresh, c.fresh));
+  double worst = 0;
+  for (std::size_t v = 0; v < a.x.size(); ++v) worst = std::max(worst, length(a.fresh[v] - b.fresh[v]));
+  CHECK(worst > 0);
+  CHECK(worst <= 1e-6);
+}
+
+TEST_CASE("positions are truncated before they are written, and each cut vertex counts once an iteration", "[property]") {
+  Fixture f(false, 4);
+  std::fill(f.bound.begin(), f.bound.end(), 1e-5f);
+  f.sweep->iterate(f.view());
+  int cut = 0;
+  for (std::size_t v = 0; v < f.x.size(); ++v) {
+    REQUIRE_FALSE(bound_violated(f.fresh[v], f.previous[v], f.bound[v]));
+    if (length(f.fresh[v] - f.previous[v]) > 0.9e-5) ++cut;
+  }
+  CHECK(f.control.cut > 10);
+  CHECK(f.control.cut <= static_cast<int>(f.x.size()));
+  CHECK(f.control.cut <= cut + 1);
+}
+
+TEST_CASE("a proposal that is not finite is not written and is counted", "[unit]") {
+  Fixture f(false, 4);
+  f.target[7] = {NAN, 0, 0};
+  f.sweep->iterate(f.view());
+  CHECK(f.control.not_finite == 1);
+  CHECK(same_bits({f.fresh[7]}, {f.x[7]}));
+}
+
+TEST_CASE("a failed detection leaves the stream as it was", "[unit]") {
+  Fixture f(false, 4);
+  f.sweep->iterate(f.view());
+  const std::vector<Vec> expected = f.fresh;
+  f.control.active = 0;
+  std::vector<Vec> elsewhere(f.x.size(), Vec{1, 2, 3});
+  f.sweep->resolve_contacts(f.detection->view(), elsewhere.data(), &f.control);
+  f.fresh = f.x;
+  f.sweep->iterate(f.view());
+  CHECK(same_bits(f.fresh, expected));
+}
