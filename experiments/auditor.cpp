@@ -1,0 +1,146 @@
+#include "experiments/auditor.hpp"
+
+#include <utility>
+
+#include "experiments/output.hpp"
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+/// Two states wait while a third is judged: the simulation is never idle for want of a buffer, and memory stays a few states.
+constexpr std::size_t most_waiting = 2;
+
+std::string on_body(const std::vector<std::string>& bodies, compare::Index vertex) {
+  return vertex < 0 ? "" : " (body '" + bodies[static_cast<std::size_t>(vertex)] + "')";
+}
+
+}  // namespace
+
+std::vector<std::string> body_names(const compare::Scene& scene) {
+  std::vector<std::string> names(scene.mesh.positions.size());
+  for (const compare::Body& body : scene.bodies)
+    for (compare::Index i = 0; i < body.vertex_count; ++i) names[static_cast<std::size_t>(body.first_vertex + i)] = body.name;
+  return names;
+}
+
+StateJudge::StateJudge(const compare::Scene& scene)
+    : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges)),
+      groups_(compare::rigid_groups(scene)),
+      bodies_(body_names(scene)),
+      authority_(reference::authority()),
+      contact_radius_(static_cast<float>(scene.settings.contact_radius)),
+      bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
+
+compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions) const {
+  return compare::audit(topology_, compare::to_double(positions), groups_);
+}
+
+std::vector<float> StateJudge::exact_bounds(const compare::Snapshot& snapshot) const {
+  const compare::DetectIn in{&topology_, groups_, snapshot.previous, contact_radius_, snapshot.query_radius};
+  const compare::DetectVertexFacetOut facets = authority_.detect_vertex_facet(in).exact;
+  const compare::DetectEdgeEdgeOut edges = authority_.detect_edge_edge(in).exact;
+  return authority_.bound({&topology_, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, bound_relaxation_}).exact.bound;
+}
+
+Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
+  Verdict verdict;
+  verdict.step = snapshot.step;
+  verdict.intersections = audit(snapshot.positions);
+  verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
+  const std::vector<float> exact = exact_bounds(snapshot);
+  double worst = 1;
+  for (std::size_t v = 0; v < exact.size(); ++v) {
+    const double bound = snapshot.bounds[v], limit = exact[v];
+    if (bound <= limit) continue;
+    ++verdict.unsafe_bounds;
+    if (verdict.worst_vertex >= 0 && !(bound / limit > worst)) continue;
+    worst = bound / limit;
+    verdict.worst_vertex = static_cast<compare::Index>(v);
+    verdict.worst_bound = bound;
+    verdict.exact_bound = limit;
+  }
+  return verdict;
+}
+
+std::string StateJudge::describe(const compare::AuditResult& result) const { return compare::describe(result, topology_, bodies_); }
+
+std::string StateJudge::describe(const Verdict& verdict) const {
+  std::string text = verdict.intersections.count == 0 ? "" : describe(verdict.intersections);
+  if (!text.empty() && text.back() != '\n') text += "\n";
+  if (!verdict.motion.kept())
+    text += counted(verdict.motion.violations, "vertex position") + " beyond the bound; the worst: vertex " + std::to_string(verdict.motion.worst_vertex) +
+            on_body(bodies_, verdict.motion.worst_vertex) + " moved " + number(verdict.motion.worst_ratio, 9) + " times its bound\n";
+  if (verdict.unsafe_bounds > 0)
+    text += counted(verdict.unsafe_bounds, "bound") + " larger than the exact one; the worst: vertex " + std::to_string(verdict.worst_vertex) +
+            on_body(bodies_, verdict.worst_vertex) + ", " + number(verdict.worst_bound, 9) + " m instead of " + number(verdict.exact_bound, 9) + " m\n";
+  return text;
+}
+
+Auditor::Auditor(const StateJudge& judge, bool beside) : judge_(judge) {
+  if (beside) thread_ = std::thread([this] { work(); });
+}
+
+Auditor::~Auditor() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    waiting_.clear();
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Auditor::judge_one(const compare::Snapshot& snapshot) {
+  try {
+    Verdict verdict = judge_.judge(snapshot);
+    const std::lock_guard lock(mutex_);
+    ready_.push_back(std::move(verdict));
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+  }
+}
+
+void Auditor::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
+    if (stop_) return;
+    const compare::Snapshot snapshot = std::move(waiting_.front());
+    waiting_.pop_front();
+    busy_ = true;
+    lock.unlock();
+    changed_.notify_all();
+    judge_one(snapshot);
+    lock.lock();
+    busy_ = false;
+    changed_.notify_all();
+  }
+}
+
+void Auditor::submit(compare::Snapshot snapshot) {
+  if (!thread_.joinable()) return judge_one(snapshot);
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < most_waiting; });
+  waiting_.push_back(std::move(snapshot));
+  changed_.notify_all();
+}
+
+std::vector<Verdict> Auditor::take() {
+  const std::lock_guard lock(mutex_);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return std::exchange(ready_, {});
+}
+
+std::vector<Verdict> Auditor::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_.empty() && !busy_; });
+  }
+  return take();
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,206 @@
+// `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and saved failures.
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/judge/corpus.hpp"
+#include "compare/judge/judge.hpp"
+#include "compare/judge/report.hpp"
+#include "compare/judge/states.hpp"
+#include "compare/problem/error.hpp"
+#include "experiments/commands.hpp"
+#include "experiments/output.hpp"
+#include "experiments/progress.hpp"
+#include "fast/contestant.hpp"
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::InputError;
+using compare::Stage;
+using compare::StageReport;
+
+constexpr std::size_t printed_mismatches = 10;
+constexpr std::size_t saved_cases = 20;
+
+struct CompareOptions {
+  std::vector<std::string> stages;
+  std::string backend = "cpu", generator, states, problem, batch, replay, report;
+  std::uint64_t cases = 100000, seed = 1;
+};
+
+fast::Backend backend_of(const std::string& name) {
+  if (name == "cpu") return fast::Backend::cpu;
+  if (name == "cuda") return fast::Backend::cuda;
+  throw InputError("--backend " + name + ": there is no such backend; known: cpu, cuda");
+}
+
+/// Run folders, each opened once.
+class OpenStates {
+ public:
+  const compare::States* of(const std::string& folder) {
+    if (folder.empty()) return nullptr;
+    auto& states = open_[folder];
+    if (!states) states = std::make_unique<compare::States>(folder);
+    return states.get();
+  }
+
+ private:
+  std::map<std::string, std::unique_ptr<compare::States>> open_;
+};
+
+/// The stages asked for, in the order of all_stages; all of those that the generator and both sides have where none is named.
+std::vector<Stage> stages_of(const CompareOptions& options) {
+  std::vector<Stage> stages;
+  for (const std::string& name : options.stages) {
+    const auto stage = compare::find_stage(name);
+    if (!stage) {
+      std::string known;
+      for (const Stage s : compare::all_stages) known += (known.empty() ? "" : ", ") + std::string(compare::stage_name(s));
+      throw InputError("there is no stage '" + name + "'; known: " + known);
+    }
+    stages.push_back(*stage);
+  }
+  if (stages.empty()) stages.assign(compare::all_stages.begin(), compare::all_stages.end());
+  for (const Stage stage : stages)
+    if (!options.generator.empty()) compare::find_generator(stage, options.generator);
+  return stages;
+}
+
+/// Cases given one by one: --problem, --batch, --replay.
+std::vector<compare::TestCase> given_cases(const CompareOptions& options, OpenStates& states) {
+  std::vector<compare::TestCase> cases;
+  if (!options.replay.empty()) cases.push_back(compare::load_case(options.replay));
+  std::vector<compare::CaseName> names;
+  if (!options.batch.empty()) names = compare::load_batch(options.batch);
+  if (!options.problem.empty()) names.push_back(compare::parse_problem(options.problem));
+  for (const compare::CaseName& name : names) cases.push_back(compare::generate(name, states.of(name.states)));
+  return cases;
+}
+
+std::vector<StageReport> judge_generated(const CompareOptions& options, OpenStates& states, const compare::Contestant& contestant,
+                                         const compare::Authority& authority) {
+  std::vector<StageReport> reports;
+  for (const Stage stage : stages_of(options)) {
+    const std::string name(compare::stage_name(stage));
+    Progress progress(0, static_cast<std::int64_t>(options.cases), name + " case");
+    compare::JudgeOptions judge;
+    judge.cases = options.cases;
+    judge.seed = options.seed;
+    judge.generator = options.generator;
+    judge.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+    judge.states = states.of(options.states);
+    judge.progress = [&](std::uint64_t done, std::uint64_t mismatches) {
+      progress.show(static_cast<std::int64_t>(std::min(done, options.cases)), std::to_string(mismatches) + " mismatches");
+    };
+    reports.push_back(compare::judge_stage(stage, contestant, authority, judge));
+    progress.end();
+  }
+  return reports;
+}
+
+/// A replayed case keeps its file's data; all others come back from their names.
+compare::TestCase case_again(const compare::CaseName& name, std::span<const compare::TestCase> given, OpenStates& states) {
+  for (const compare::TestCase& test : given)
+    if (test.name == name) return test;
+  return compare::generate(name, states.of(name.states));
+}
+
+/// Saves the first failing cases; returns the paths.
+std::vector<std::string> save_failures(const std::vector<StageReport>& reports, std::span<const compare::TestCase> given, OpenStates& states,
+                                       const std::filesystem::path& folder) {
+  std::vector<std::string> paths;
+  for (const StageReport& report : reports) {
+    std::vector<compare::CaseName> saved;
+    for (const compare::Mismatch& mismatch : report.tally.mismatches) {
+      if (saved.size() == saved_cases) break;
+      if (std::find(saved.begin(), saved.end(), mismatch.name) != saved.end()) continue;
+      saved.push_back(mismatch.name);
+      paths.push_back(compare::save_case(folder, case_again(mismatch.name, given, states), mismatch.message).string());
+    }
+  }
+  return paths;
+}
+
+void write_report(const std::filesystem::path& folder, const std::vector<StageReport>& reports) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  std::ofstream lines(folder / "report.jsonl"), table(folder / "report.txt");
+  for (const StageReport& report : reports) lines << compare::report_json(report).dump() << "\n";
+  table << compare::report_table(reports);
+  lines.flush();
+  table.flush();
+  if (!lines || !table) throw compare::ResourceError(folder.string() + ": the report cannot be written; check the folder and the space on its disk");
+}
+
+void print_reports(const std::vector<StageReport>& reports, const std::vector<std::string>& saved, const CommandContext& context) {
+  if (context.json) {
+    Json all = Json::array();
+    for (const StageReport& report : reports) all.push_back(compare::report_json(report));
+    print_result(Json{{"stages", all}, {"saved", saved}});
+    return;
+  }
+  std::string text = compare::report_table(reports);
+  for (const StageReport& report : reports)
+    if (report.tally.mismatched > 0) text += "\n" + compare::report_mismatches(report, printed_mismatches);
+  if (!saved.empty()) text += "\n" + counted(saved.size(), "failing case") + " saved; replay one with: ogc compare --replay " + saved.front() + "\n";
+  print_result(text);
+}
+
+int run(const CompareOptions& options, const CommandContext& context) {
+  const compare::Contestant contestant = fast::contestant(backend_of(options.backend));
+  const compare::Authority authority = reference::authority();
+  OpenStates states;
+  const bool is_given = !options.problem.empty() || !options.batch.empty() || !options.replay.empty();
+  const std::vector<compare::TestCase> given = given_cases(options, states);
+  if (is_given && given.empty()) throw InputError(options.batch + ": holds no problem; write one problem string a line");
+  const std::vector<StageReport> reports =
+      is_given ? compare::judge_cases(given, contestant, authority) : judge_generated(options, states, contestant, authority);
+  const std::filesystem::path folder = options.report.empty() ? "ogc-compare" : options.report;
+  const std::vector<std::string> saved = options.replay.empty() ? save_failures(reports, given, states, folder / "failures") : std::vector<std::string>{};
+  if (!options.report.empty()) write_report(folder, reports);
+  print_reports(reports, saved, context);
+  bool judged = false, passed = true;
+  for (const StageReport& report : reports) {
+    judged |= !report.skipped;
+    passed &= report.skipped ? options.stages.empty() : report.passed();
+  }
+  return judged && passed ? exit_success : exit_check_failed;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, CommandContext& context) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command = app.add_subcommand("compare", "Differential test of the fast stages against the exact reference");
+  command->add_option("STAGE", options->stages,
+                      "closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate; none: all that both sides have");
+  command->add_option("--backend", options->backend, "cpu or cuda")->capture_default_str();
+  command->add_option("--cases", options->cases, "Cases a stage; for meshes a case is a vertex or an edge")->capture_default_str()->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "Of the generators")->capture_default_str();
+  command->add_option("--generator", options->generator, "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
+  command->add_option("--states", options->states, "A run folder, whose frames become cases too");
+  auto* problem = command->add_option("--problem", options->problem, "One case by its problem string, as printed in messages");
+  auto* batch = command->add_option("--batch", options->batch, "A file with one problem string a line");
+  auto* replay = command->add_option("--replay", options->replay, "A failing case as saved");
+  problem->excludes(replay);
+  batch->excludes(replay);
+  command->add_option("--report", options->report, "Folder for report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
+  command->add_flag("--json", context.json, "Print the result as JSON on standard output");
+  command->footer("Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of compare/stages.\n"
+                  "Exit status 1: a mismatch, or too many grey decisions.\n\n"
+                  "Examples:\n"
+                  "  ogc compare --cases 1000000\n"
+                  "  ogc compare closest_face truncate --backend cuda --report reports/cuda\n"
+                  "  ogc compare --problem \"stage=closest_face gen=ladder.needle seed=7 index=1234\"");
+  command->callback([options, &context] { context.status = run(*options, context); });
+}
+
+}  // namespace ogc::experiments

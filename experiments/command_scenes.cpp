@@ -1,0 +1,110 @@
+// `ogc scenes`: what can be run, and how to get it onto the disk to change it.
+#include <algorithm>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/files/scene_files.hpp"
+#include "compare/problem/error.hpp"
+#include "experiments/commands.hpp"
+#include "experiments/output.hpp"
+#include "experiments/scenes/registry.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"};
+
+struct Options {
+  std::string scene, folder, scale = "small";
+  bool schema = false;
+};
+
+struct Size {
+  std::string scale;
+  std::size_t vertices, triangles;
+  std::int64_t steps;
+};
+
+Size size_of(const compare::Scene& scene, std::string_view scale) {
+  return {std::string(scale), scene.mesh.positions.size(), scene.mesh.triangles.size(), scene.settings.steps};
+}
+
+std::vector<Size> sizes(const SceneInfo& info) {
+  std::vector<Size> all;
+  for (const std::string_view scale : scale_names) all.push_back(size_of(make_scene(info.name, parse_scale(scale)), scale));
+  return all;
+}
+
+Json to_json(const SceneInfo& info) {
+  Json json{{"name", info.name}, {"figure", info.figure}, {"summary", info.summary}, {"scales", Json::array()}};
+  for (const Size& size : sizes(info))
+    json["scales"].push_back({{"scale", size.scale}, {"vertices", size.vertices}, {"triangles", size.triangles}, {"steps", size.steps}});
+  return json;
+}
+
+void list(const CommandContext& context) {
+  Json json{{"scenes", Json::array()}};
+  std::vector<std::vector<std::string>> rows{{"scene", "figure", "scale", "vertices", "triangles", "steps"}};
+  std::string summaries;
+  for (const SceneInfo& info : scenes()) {
+    if (context.json) {
+      json["scenes"].push_back(to_json(info));
+      continue;
+    }
+    for (const Size& size : sizes(info))
+      rows.push_back({std::string(info.name), std::string(info.figure), size.scale, std::to_string(size.vertices), std::to_string(size.triangles),
+                      std::to_string(size.steps)});
+    summaries += std::string(info.name) + ": " + std::string(info.summary) + "\n";
+  }
+  if (context.json) return print_result(json);
+  print_result(table(rows, 3) + "\n" + summaries);
+}
+
+void show(const std::string& name, const CommandContext& context) {
+  const compare::Scene scene = make_scene(name, Scale::small);
+  const SceneInfo& info = *std::ranges::find(scenes(), name, &SceneInfo::name);
+  if (context.json) return print_result(to_json(info));
+  std::vector<std::vector<std::string>> rows{{"scale", "vertices", "triangles", "steps"}};
+  for (const Size& size : sizes(info))
+    rows.push_back({size.scale, std::to_string(size.vertices), std::to_string(size.triangles), std::to_string(size.steps)});
+  std::vector<std::vector<std::string>> settings;
+  for (const compare::SettingInfo& setting : compare::setting_table())
+    settings.push_back({std::string(setting.name), number(compare::get_setting(scene.settings, setting.name), 6),
+                        setting.unit == "1" ? "" : std::string(setting.unit)});
+  print_result(name + " (" + std::string(info.figure) + "): " + std::string(info.summary) + "\n\n" + table(rows, 1) + "\nsettings at small\n" +
+               table(settings, 3));
+}
+
+void write(const Options& options, const CommandContext& context) {
+  const std::filesystem::path file = compare::write_scene(options.folder, make_scene(options.scene, parse_scale(options.scale)));
+  if (context.json) return print_result(Json{{"written", file.string()}});
+  print_result(file.string() + "\n");
+}
+
+void run(const Options& options, const CommandContext& context) {
+  if (options.schema) return print_result(compare::scene_schema() + "\n");
+  if (!options.folder.empty() && options.scene.empty()) throw compare::InputError("--write needs a scene: ogc scenes NAME --write DIR");
+  if (options.scene.empty()) return list(context);
+  if (options.folder.empty()) return show(options.scene, context);
+  write(options, context);
+}
+
+}  // namespace
+
+void add_scenes_command(CLI::App& app, CommandContext& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, show one, or write one as files to edit");
+  command->add_option("NAME", options->scene, "A scene; without it all are listed");
+  command->add_option("--write", options->folder, "Write NAME.json and its meshes into this folder");
+  command->add_option("--scale", options->scale, "smoke, small or paper: which size --write writes")->capture_default_str();
+  command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
+  command->add_flag("--json", context.json, "Print the result as JSON on standard output");
+  command->footer("Examples:\n"
+                  "  ogc scenes\n"
+                  "  ogc scenes cloth_on_sphere --write mine --scale smoke    # then edit mine/cloth_on_sphere.json and: ogc run mine/cloth_on_sphere.json");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace ogc::experiments

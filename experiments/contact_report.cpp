@@ -1,0 +1,189 @@
+#include "experiments/contact_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/problem/scene.hpp"
+#include "fast/contestant.hpp"
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Face;
+using compare::FaceKind;
+using compare::Topology;
+using compare::Vec3f;
+
+/// The cases of closest_face whose distances belong to the contacts.
+compare::ClosestFaceIn vertex_facet_cases(const ContactReport& report, const std::vector<Vec3f>& positions) {
+  compare::ClosestFaceIn cases;
+  for (const compare::VertexFacetContact& contact : report.vertex_facet.contacts) {
+    const compare::Triangle& corners = report.topology.triangles[static_cast<std::size_t>(contact.owner)];
+    cases.point.push_back(positions[static_cast<std::size_t>(contact.vertex)]);
+    cases.triangle.push_back({positions[static_cast<std::size_t>(corners[0])], positions[static_cast<std::size_t>(corners[1])],
+                              positions[static_cast<std::size_t>(corners[2])]});
+  }
+  return cases;
+}
+
+compare::ClosestPointsIn edge_edge_cases(const ContactReport& report, const std::vector<Vec3f>& positions) {
+  const auto ends = [&](compare::Index edge) {
+    const compare::Edge& vertices = report.topology.edges[static_cast<std::size_t>(edge)];
+    return std::array<Vec3f, 2>{positions[static_cast<std::size_t>(vertices[0])], positions[static_cast<std::size_t>(vertices[1])]};
+  };
+  compare::ClosestPointsIn cases;
+  for (const compare::EdgeEdgeContact& contact : report.edge_edge.contacts) {
+    cases.first.push_back(ends(std::min(contact.first_edge, contact.second_edge)));
+    cases.second.push_back(ends(std::max(contact.first_edge, contact.second_edge)));
+  }
+  return cases;
+}
+
+void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation) {
+  const compare::Authority authority = reference::authority();
+  report.vertex_facet = authority.detect_vertex_facet(in).exact;
+  report.edge_edge = authority.detect_edge_edge(in).exact;
+  report.bound = authority.bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge, report.vertex_facet.d_min_triangle,
+                                  bound_relaxation}).exact.bound;
+  report.vertex_facet_distance = authority.closest_face(vertex_facet_cases(report, positions)).distance;
+  report.edge_edge_distance = authority.closest_points(edge_edge_cases(report, positions)).contact_distance;
+}
+
+void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation, fast::Backend backend) {
+  const compare::Contestant contestant = fast::contestant(backend);
+  report.vertex_facet = contestant.detect_vertex_facet(in);
+  report.edge_edge = contestant.detect_edge_edge(in);
+  report.bound = contestant.bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge, report.vertex_facet.d_min_triangle,
+                                   bound_relaxation}).bound;
+  const std::vector<float> facets = contestant.closest_face(vertex_facet_cases(report, positions)).distance;
+  const std::vector<float> edges = contestant.closest_points(edge_edge_cases(report, positions)).contact_distance;
+  report.vertex_facet_distance.assign(facets.begin(), facets.end());
+  report.edge_edge_distance.assign(edges.begin(), edges.end());
+}
+
+std::vector<compare::Index> vertices_of(const Face& face, const Topology& topology) {
+  const auto i = static_cast<std::size_t>(face.index);
+  if (face.kind == FaceKind::vertex) return {face.index};
+  if (face.kind == FaceKind::edge) return {topology.edges[i].begin(), topology.edges[i].end()};
+  return {topology.triangles[i].begin(), topology.triangles[i].end()};
+}
+
+const char* name(FaceKind kind) { return kind == FaceKind::vertex ? "vertex" : kind == FaceKind::edge ? "edge" : "triangle"; }
+
+std::string name(const Face& face, const Topology& topology) {
+  std::string text = std::string(name(face.kind)) + " " + std::to_string(face.index);
+  if (face.kind == FaceKind::vertex) return text;
+  std::string list;
+  for (const compare::Index vertex : vertices_of(face, topology)) list += (list.empty() ? "" : ", ") + std::to_string(vertex);
+  return text + " (vertices " + list + ")";
+}
+
+Json to_json(const Face& face, const Topology& topology) {
+  return {{"kind", name(face.kind)}, {"index", face.index}, {"vertices", vertices_of(face, topology)}};
+}
+
+/// Counts over tenths of r_q, and of those that have nothing within it.
+std::string distribution(const std::vector<float>& distances, float query_radius) {
+  constexpr std::size_t parts = 10;
+  std::array<std::size_t, parts + 1> counts{};
+  for (const float d : distances)
+    ++counts[d >= query_radius ? parts : std::min(parts - 1, static_cast<std::size_t>(static_cast<double>(d) / query_radius * parts))];
+  const std::size_t most = std::max<std::size_t>(1, std::ranges::max(counts));
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 0; k <= parts; ++k) {
+    const std::string range = k == parts ? "nothing within r_q" : number(static_cast<double>(k) * query_radius / parts) + " … " +
+                                                                      number(static_cast<double>(k + 1) * query_radius / parts) + " m";
+    rows.push_back({"  " + range, std::string(counts[k] * 40 / most, '#'), std::to_string(counts[k])});
+  }
+  return table(rows, 2);
+}
+
+/// The closest pairs first, at most `limit`.
+template <class Contacts, class Line>
+std::string closest(const Contacts& contacts, const std::vector<double>& distances, Line line, std::size_t limit = 5) {
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return distances[i]; });
+  order.resize(std::min(order.size(), limit));
+  std::string text;
+  for (const std::size_t i : order) text += "  " + number(distances[i], 6) + " m: " + line(contacts[i]) + "\n";
+  return text;
+}
+
+}  // namespace
+
+ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation) {
+  ContactReport report;
+  report.topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
+  report.contact_radius = contact_radius;
+  report.query_radius = query_radius;
+  const std::vector<Vec3f> positions = compare::to_single(mesh.positions);
+  const std::vector<compare::Index> groups(positions.size(), -1);
+  const compare::DetectIn in{&report.topology, groups, positions, contact_radius, query_radius};
+  if (engine == Engine::exact) {
+    fill_exact(report, in, positions, bound_relaxation);
+  } else {
+    fill_fast(report, in, positions, bound_relaxation, engine == Engine::cpu ? fast::Backend::cpu : fast::Backend::cuda);
+  }
+  return report;
+}
+
+double mean_edge_length(const compare::Mesh& mesh) {
+  const Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
+  double sum = 0;
+  for (const compare::Edge& edge : topology.edges) {
+    const compare::Vec3 &a = mesh.positions[static_cast<std::size_t>(edge[0])], &b = mesh.positions[static_cast<std::size_t>(edge[1])];
+    sum += std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+  }
+  return topology.edges.empty() ? 0 : sum / static_cast<double>(topology.edges.size());
+}
+
+Json to_json(const ContactReport& report) {
+  Json json{{"contact_radius", report.contact_radius},
+            {"query_radius", report.query_radius},
+            {"vertices", report.topology.vertex_count},
+            {"edges", report.topology.edges},
+            {"triangles", report.topology.triangles},
+            {"vertex_facet", Json::array()},
+            {"edge_edge", Json::array()},
+            {"d_min_vertex", report.vertex_facet.d_min_vertex},
+            {"d_min_edge", report.edge_edge.d_min_edge},
+            {"d_min_triangle", report.vertex_facet.d_min_triangle},
+            {"bound", report.bound}};
+  for (std::size_t i = 0; i < report.vertex_facet.contacts.size(); ++i) {
+    const compare::VertexFacetContact& contact = report.vertex_facet.contacts[i];
+    json["vertex_facet"].push_back({{"vertex", contact.vertex}, {"face", to_json(contact.face, report.topology)}, {"owner", contact.owner},
+                                    {"distance", report.vertex_facet_distance[i]}});
+  }
+  for (std::size_t i = 0; i < report.edge_edge.contacts.size(); ++i) {
+    const compare::EdgeEdgeContact& contact = report.edge_edge.contacts[i];
+    json["edge_edge"].push_back({{"first", to_json(contact.first, report.topology)}, {"second", to_json(contact.second, report.topology)},
+                                 {"first_edge", contact.first_edge}, {"second_edge", contact.second_edge}, {"distance", report.edge_edge_distance[i]}});
+  }
+  return json;
+}
+
+std::string describe(const ContactReport& report) {
+  const Topology& topology = report.topology;
+  const auto [least, most] = std::ranges::minmax(report.bound);
+  std::string text = std::to_string(topology.vertex_count) + " vertices, " + std::to_string(topology.edges.size()) + " edges, " +
+                     std::to_string(topology.triangles.size()) + " triangles; r = " + number(report.contact_radius, 6) + " m, r_q = " +
+                     number(report.query_radius, 6) + " m\n\n" + counted(report.vertex_facet.contacts.size(), "vertex-facet contact") + "\n";
+  text += closest(report.vertex_facet.contacts, report.vertex_facet_distance, [&](const compare::VertexFacetContact& contact) {
+    return "vertex " + std::to_string(contact.vertex) + " and " + name(contact.face, topology);
+  });
+  text += counted(report.edge_edge.contacts.size(), "edge-edge contact") + "\n";
+  text += closest(report.edge_edge.contacts, report.edge_edge_distance, [&](const compare::EdgeEdgeContact& contact) {
+    return name(contact.first, topology) + " and " + name(contact.second, topology);
+  });
+  text += "\nsmallest distance of a vertex to a triangle without it\n" + distribution(report.vertex_facet.d_min_vertex, report.query_radius);
+  text += "smallest distance of an edge to an edge without its ends\n" + distribution(report.edge_edge.d_min_edge, report.query_radius);
+  return text + "\nbounds from " + number(least, 6) + " m to " + number(most, 6) + " m\n";
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,34 @@
+// Contact sets, distances and bounds of one mesh, by any of the engines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "experiments/output.hpp"
+
+namespace ogc::experiments {
+
+enum class Engine { exact, cpu, cuda };
+
+struct ContactReport {
+  compare::Topology topology;
+  float contact_radius = 0, query_radius = 0;  ///< r, r_q [m]
+  compare::DetectVertexFacetOut vertex_facet;
+  compare::DetectEdgeEdgeOut edge_edge;
+  std::vector<double> vertex_facet_distance, edge_edge_distance;  ///< [m], one each contact: of the vertex and the owner; between the contact points
+  std::vector<float> bound;                                       ///< b_v, Eq. 21 [m]
+};
+
+/// Throws compare::ResourceError where the engine is not available. The mesh must be valid.
+ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation);
+
+/// Mean length of all edges [m].
+double mean_edge_length(const compare::Mesh& mesh);
+
+Json to_json(const ContactReport& report);
+std::string describe(const ContactReport& report);
+
+}  // namespace ogc::experiments

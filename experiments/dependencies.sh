@@ -1,0 +1,78 @@
+# Sourced by tests/run and experiments/reproduce: installs what is missing, once, and says what it does.
+# Package names: Debian 12, tried; Ubuntu 24.04 has the same names, untried.
+
+packages=(
+  build-essential cmake ninja-build git ca-certificates
+  python3 python3-venv
+  libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev
+  nlohmann-json3-dev libcli11-dev catch2 librapidcheck-dev
+  libegl1 libgl1 libgl1-mesa-dri libxrender1
+)
+# Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with these.
+fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-pytest)
+
+say() { printf '%s\n' "$*" >&2; }
+
+missing_of() {
+  local name
+  for name in "$@"; do
+    dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q '^install ok installed' || printf '%s\n' "$name"
+  done
+}
+
+install_packages() {
+  local missing as_root=()
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    say "This system has no apt. Install the equivalents of: $*"
+    return 1
+  fi
+  mapfile -t missing < <(missing_of "$@")
+  [ ${#missing[@]} -eq 0 ] && return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { say "Not root and no sudo. Ask an administrator to run: apt-get install ${missing[*]}"; return 1; }
+    as_root=(sudo)
+  fi
+  say "Installing ${#missing[@]} packages: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq >&2 || say "apt-get update failed; trying with the lists at hand"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+}
+
+# Sets $python to an interpreter with what plots need, as far as it can be had.
+prepare_python() {
+  local root=$1 wanted stamp
+  wanted=$(cat "$root/plots/requirements.txt" | cksum)
+  stamp=$root/.venv/requirements.cksum
+  if [ -x "$root/.venv/bin/python" ] && [ "$(cat "$stamp" 2>/dev/null)" = "$wanted" ]; then
+    python=$root/.venv/bin/python
+    return 0
+  fi
+  say "Preparing the Python environment in .venv"
+  rm -rf "$root/.venv"
+  if /usr/bin/env python3 -m venv "$root/.venv" && "$root/.venv/bin/python" -m pip install -q --disable-pip-version-check -r "$root/plots/requirements.txt" >&2; then
+    printf '%s' "$wanted" > "$stamp"
+    python=$root/.venv/bin/python
+    return 0
+  fi
+  rm -rf "$root/.venv"
+  say "The Python package index can't be reached: curves are drawn with the distribution's matplotlib; meshes are not rendered and VTK checks are skipped."
+  install_packages "${fallback_packages[@]}" || return 1
+  python=/usr/bin/python3
+}
+
+# Configures and builds: build <root> <preset> [targets…]; quiet unless it fails.
+build() {
+  local root=$1 preset=$2 log
+  shift 2
+  log=$root/build/$preset/log.txt
+  mkdir -p "$root/build/$preset"
+  if [ ! -f "$root/build/$preset/build.ninja" ]; then
+    say "Configuring build/$preset"
+    (cd "$root" && cmake --preset "$preset" -G Ninja) > "$log" 2>&1 || { cat "$log" >&2; return 1; }
+  fi
+  say "Building build/$preset (log: build/$preset/log.txt)"
+  if ! ninja -C "$root/build/$preset" "$@" > "$log" 2>&1; then
+    grep -E -A20 'FAILED|error' "$log" | head -80 >&2
+    return 1
+  fi
+}
+

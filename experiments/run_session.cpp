@@ -1,0 +1,275 @@
+#include "experiments/run_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/files/mesh_files.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
+#include "experiments/interrupt.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/version.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Snapshot;
+using compare::StepMetrics;
+
+const char* audit_name(AuditMode mode) {
+  switch (mode) {
+    case AuditMode::every: return "every";
+    case AuditMode::frame: return "frame";
+    case AuditMode::end: return "end";
+    case AuditMode::off: break;
+  }
+  return "off";
+}
+
+bool finite(const Snapshot& snapshot) {
+  return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
+}
+
+/// Not a number where there is none.
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Frames 60 times a second of the scene's time, unless the scene says otherwise (scenes.md).
+std::int64_t frame_steps(const compare::Settings& settings) {
+  if (settings.frame_steps > 0) return settings.frame_steps;
+  return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
+}
+
+RunRequest checked(RunRequest request) {
+  compare::round_to_single(request.scene);
+  const std::string problems = compare::describe(compare::validate(request.scene));
+  if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
+  return request;
+}
+
+compare::Provenance provenance(const RunRequest& request, const std::string& device) {
+  const BuildInfo build = build_info();
+  compare::Provenance origin;
+  origin.solver = request.solver;
+  origin.backend = request.backend;
+  origin.device = device;
+  origin.command = request.command_line;
+  origin.version = build.version;
+  origin.commit = build.commit;
+  origin.compiler = build.compiler;
+  origin.cuda = build.cuda;
+  origin.dirty = build.dirty;
+  origin.status = "running";
+  origin.extra["scale"] = request.scale;
+  origin.extra["audit"] = audit_name(request.audit);
+  if (request.from_state) origin.extra["from_state"] = request.from_state->string();
+  return origin;
+}
+
+std::string step_failure(const StepMetrics& row) {
+  const std::string where = " in step " + std::to_string(row.step);
+  if (row.status & compare::step_not_finite)
+    return "a position became infinite or not a number" + where +
+           "; the last good state is kept. Try a smaller time_step, more iterations, or softer materials";
+  if (row.status & compare::step_bound_violated)
+    return "a vertex moved further than its bound" + where + ": the guarantee is broken; the last good state is kept. Please report it";
+  return "";
+}
+
+}  // namespace
+
+RunSession::RunSession(RunRequest request, compare::Contestant contestant)
+    : request_(checked(std::move(request))),
+      settings_(request_.scene.settings),
+      contestant_(std::move(contestant)),
+      judge_(request_.scene) {
+  frame_steps_ = frame_steps(settings_);
+  start_state();
+  check_start();
+}
+
+void RunSession::start_state() {
+  start_.positions = compare::to_single(request_.scene.mesh.positions);
+  start_.velocities = compare::to_single(request_.scene.velocities);
+  if (request_.from_state) {
+    const std::string file = request_.from_state->string();
+    compare::Frame frame = compare::read_frame(*request_.from_state);
+    if (frame.positions.size() != start_.positions.size() || frame.velocities.size() != start_.positions.size())
+      throw compare::InputError(file + ": holds " + std::to_string(frame.positions.size()) + " vertices, the scene '" + request_.scene.name + "' has " +
+                                std::to_string(start_.positions.size()) + "; give the scene and scale of the run that the frame comes from");
+    if (frame.step >= settings_.steps)
+      throw compare::InputError(file + ": is the state after step " + std::to_string(frame.step) + ", and the run ends at step " +
+                                std::to_string(settings_.steps) + "; give a larger --steps");
+    start_.step = frame.step;
+    start_.positions = std::move(frame.positions);
+    start_.velocities = std::move(frame.velocities);
+  }
+  if (!finite(start_)) throw compare::InputError("the start holds a position that is not finite");
+  step_ = start_.step;
+}
+
+void RunSession::check_start() const {
+  const compare::AuditResult result = judge_.audit(start_.positions);
+  if (result.count > 0)
+    throw compare::InputError("the scene '" + request_.scene.name + "' starts with " + counted(result.count, "intersection") +
+                              "; no method that starts from a penetration can promise to have none. Move these apart:\n" + judge_.describe(result));
+}
+
+void RunSession::open_folder() {
+  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile, .energies = true});
+  if (request_.from_state) simulation_->restore(start_);
+  summary_.scene = request_.scene.name;
+  summary_.scale = request_.scale;
+  summary_.solver = request_.solver;
+  summary_.backend = request_.backend;
+  summary_.device = simulation_->device();
+  summary_.folder = request_.folder.string();
+  summary_.first_step = summary_.last_step = step_;
+  summary_.smallest_distance = std::numeric_limits<double>::infinity();
+  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, provenance(request_, summary_.device),
+                                                 request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
+  auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);
+}
+
+RunSummary RunSession::run() {
+  open_folder();
+  try {
+    last_good_ = start_;
+    last_good_.bounds.assign(start_.positions.size(), 0);
+    store_frame(last_good_);
+    simulate();
+    finish();
+  } catch (const std::exception& error) {
+    summary_.status = std::string("failed: ") + error.what();
+    try {
+      writer_->finish(summary_.status);
+    } catch (const std::exception&) {
+      // The first error is the one to report; frames that are finished are readable whatever run.json says.
+    }
+    throw;
+  }
+  return summary_;
+}
+
+std::int64_t RunSession::chunk() const {
+  const std::int64_t to_frame = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
+  return std::min(to_frame, settings_.steps - step_);
+}
+
+void RunSession::simulate() {
+  Progress progress(step_, settings_.steps, "step");
+  while (step_ < settings_.steps && !failed() && !interrupted()) {
+    if (!one_chunk()) break;
+    const double recent = step_times_.empty() ? 0 : step_times_.back();
+    progress.show(step_, number(recent) + " ms a step, " +
+                             counted(static_cast<std::size_t>(summary_.last_vertex_facet_contacts + summary_.last_edge_edge_contacts), "contact"));
+  }
+  collect(auditor_->finish());
+}
+
+/// False where the simulation can't go on.
+bool RunSession::one_chunk() {
+  const std::vector<StepMetrics> rows = simulation_->advance(chunk());
+  add_rows(rows);
+  const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
+  Snapshot snapshot = simulation_->snapshot();
+  // A broken step may have been committed or not: its state is no good one.
+  const bool good = snapshot.step > step_ && (broken.empty() || snapshot.step < rows.back().step) && finite(snapshot);
+  step_ = snapshot.step;
+  if (good) offer(std::move(snapshot), step_ % frame_steps_ == 0 || step_ == settings_.steps);
+  collect(auditor_->take());
+  if (!broken.empty() && !failed()) summary_.failure = broken;
+  return !failed();
+}
+
+void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
+  writer_->add_steps(rows);
+  for (const StepMetrics& row : rows) {
+    step_times_.push_back(row.wall_ms);
+    if (row.wall_ms > summary_.worst_ms) summary_.worst_ms = row.wall_ms, summary_.worst_step = row.step;
+    summary_.last_vertex_facet_contacts = row.vertex_facet_contacts;
+    summary_.last_edge_edge_contacts = row.edge_edge_contacts;
+    summary_.most_contacts = std::max(summary_.most_contacts, row.vertex_facet_contacts + row.edge_edge_contacts);
+    summary_.detections += row.broad_phases;
+    summary_.discrete_detections += row.discrete_detections;
+    summary_.continuous_detections += row.continuous_detections;
+    summary_.guess_rounds += row.guess_rounds;
+    summary_.iterations += row.iterations;
+    summary_.repeats += row.repeats;
+    summary_.largest_share_at_bound = std::max(summary_.largest_share_at_bound, row.share_at_bound);
+    summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
+    summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
+    summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
+    if (row.status & compare::step_bound_violated) summary_.guarantee_kept = false;
+  }
+}
+
+void RunSession::offer(Snapshot snapshot, bool is_frame) {
+  const bool is_last = snapshot.step == settings_.steps;
+  if (request_.audit == AuditMode::off || (request_.audit == AuditMode::end && !is_last)) return accept({std::move(snapshot), is_frame});
+  auditor_->submit(snapshot);
+  offered_.push_back({std::move(snapshot), is_frame});
+}
+
+void RunSession::accept(Offered offered) {
+  last_good_ = std::move(offered.snapshot);
+  if (offered.is_frame) store_frame(last_good_);
+}
+
+void RunSession::collect(const std::vector<Verdict>& verdicts) {
+  for (const Verdict& verdict : verdicts) {
+    Offered offered = std::move(offered_.front());
+    offered_.pop_front();
+    if (summary_.failed_states > 0) continue;
+    ++summary_.audited_states;
+    if (!summary_.guarantee_kept) summary_.guarantee_kept = true;
+    if (verdict.kept()) {
+      accept(std::move(offered));
+    } else {
+      reject(verdict, offered.snapshot);
+    }
+  }
+}
+
+void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
+  summary_.guarantee_kept = false;
+  ++summary_.failed_states;
+  summary_.intersections += verdict.intersections.count;
+  summary_.certificate_violations += verdict.motion.violations;
+  summary_.unsafe_bounds += verdict.unsafe_bounds;
+  compare::Mesh mesh = request_.scene.mesh;
+  mesh.positions = compare::to_double(snapshot.positions);
+  const std::filesystem::path file = request_.folder / ("failed_step_" + std::to_string(verdict.step) + ".ply");
+  compare::write_mesh(file, mesh);
+  summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() + "); the last good state is kept:\n" +
+                     judge_.describe(verdict);
+}
+
+void RunSession::store_frame(const Snapshot& snapshot) {
+  if (snapshot.step == last_frame_) return;
+  writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions, snapshot.velocities, snapshot.bounds});
+  last_frame_ = snapshot.step;
+}
+
+void RunSession::finish() {
+  store_frame(last_good_);
+  summary_.last_step = last_good_.step;
+  summary_.final_hash = state_hash(last_good_.positions);
+  summary_.was_interrupted = !failed() && step_ < settings_.steps;
+  const std::string first_line = summary_.failure.substr(0, summary_.failure.find('\n'));
+  summary_.status = failed() ? "failed: " + first_line : summary_.was_interrupted ? "interrupted" : "finished";
+  summary_.median_ms = median(step_times_);
+  if (step_times_.empty()) summary_.worst_ms = summary_.median_ms;
+  writer_->set_extra("final_hash", summary_.final_hash);
+  writer_->set_extra("guarantee_kept", !summary_.guarantee_kept ? "not checked" : *summary_.guarantee_kept ? "yes" : "no");
+  writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
+  writer_->finish(summary_.status);
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,96 @@
+// One simulation from its scene to its run folder. States are stored only after they were judged (where they are judged at all), so that the last
+// frame of a folder is the last good state; the simulation may be a few states ahead by then, and is stopped.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/problem/contestant.hpp"
+#include "compare/record/run_folder.hpp"
+#include "experiments/auditor.hpp"
+#include "experiments/output.hpp"
+
+namespace ogc::experiments {
+
+struct RunRequest {
+  compare::Scene scene;               ///< with all settings applied
+  std::string scale;                  ///< "smoke", …; empty for a scene file
+  std::string solver = "vbd";
+  std::string backend = "cpu";
+  AuditMode audit = AuditMode::frame;
+  bool audit_beside = false;          ///< see Auditor
+  std::optional<std::filesystem::path> from_state;
+  bool profile = false;
+  std::filesystem::path folder;
+  std::string command_line;
+};
+
+/// What a run comes to. Times [ms]; not-a-number where no step was done.
+struct RunSummary {
+  std::string scene, scale, solver, backend, device, folder, status;
+  std::string failure;                 ///< what went wrong, naming primitives; empty where nothing did
+  bool was_interrupted = false;
+  std::int64_t first_step = 0, last_step = 0;   ///< states: from, to
+  double median_ms = 0, worst_ms = 0;
+  std::int64_t worst_step = 0;
+  std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
+  std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;  ///< detections: trees brought up to date and asked
+  std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
+  double largest_share_at_bound = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
+  std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
+  std::optional<bool> guarantee_kept;  ///< empty where nothing was audited and nothing is known to be wrong
+  std::string final_hash;              ///< state_hash of the last good state
+};
+
+Json to_json(const RunSummary& summary);
+std::string describe(const RunSummary& summary);
+
+class RunSession {
+ public:
+  /// Checks the scene and its start. Throws compare::InputError (invalid, or an intersection at the start, each pair named).
+  RunSession(RunRequest request, compare::Contestant contestant);
+  RunSession(const RunSession&) = delete;
+  RunSession& operator=(const RunSession&) = delete;
+  /// Runs to the end, to a failure (RunSummary::failure), or until interrupted. Throws compare::ResourceError where the disk is full; the folder
+  /// then says so as far as it can.
+  RunSummary run();
+
+ private:
+  struct Offered {
+    compare::Snapshot snapshot;
+    bool is_frame = false;
+  };
+  void start_state();
+  void check_start() const;
+  void open_folder();
+  void simulate();
+  bool one_chunk();
+  std::int64_t chunk() const;
+  void add_rows(const std::vector<compare::StepMetrics>& rows);
+  void offer(compare::Snapshot snapshot, bool is_frame);
+  void accept(Offered offered);
+  void collect(const std::vector<Verdict>& verdicts);
+  void reject(const Verdict& verdict, const compare::Snapshot& snapshot);
+  void store_frame(const compare::Snapshot& snapshot);
+  void finish();
+  bool failed() const { return !summary_.failure.empty(); }
+
+  RunRequest request_;
+  const compare::Settings& settings_;
+  compare::Contestant contestant_;
+  std::unique_ptr<compare::Simulation> simulation_;
+  StateJudge judge_;
+  std::unique_ptr<Auditor> auditor_;
+  std::unique_ptr<compare::RunWriter> writer_;
+  std::deque<Offered> offered_;    ///< states that wait for their verdict
+  compare::Snapshot start_, last_good_;
+  std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
+  std::vector<double> step_times_;
+  RunSummary summary_;
+};
+
+}  // namespace ogc::experiments

@@ -1,0 +1,34 @@
+// Numbers: the paper's Table 1, the authors' published parameters, and damping as in their layers (decided here).
+#include "experiments/scenes/cloth_on_sphere.hpp"
+
+#include "experiments/scenes/shapes.hpp"
+
+namespace ogc::experiments {
+namespace {
+
+compare::Material cloth() {
+  compare::Material material;
+  material.density = 0.2;
+  material.lame_mu = material.lame_lambda = 10;
+  material.bending_stiffness = 5e-7;
+  material.membrane_damping = material.bending_damping = 2e-6;
+  material.contact_stiffness = 10;
+  material.friction = 0.5;
+  return material;
+}
+
+}  // namespace
+
+compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {
+  compare::Scene scene;
+  scene.name = "cloth_on_sphere";
+  append_body(scene, {.name = "cloth", .material = cloth()}, grid(sizes.vertices_a_side, 1, 0.30));
+  append_body(scene, {.name = "sphere", .fixed = true, .material = cloth()}, icosphere(sizes.sphere_subdivisions, 0.262, {-0.15, 0, 0}));
+  scene.settings.time_step = 1.0 / 100;
+  scene.settings.steps = sizes.steps;
+  scene.settings.iterations = 40;
+  scene.settings.contact_radius = 5e-3 * 69 / (sizes.vertices_a_side - 1);
+  return scene;
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,18 @@
+// Fig. 18: a square cloth falls off-centre onto a fixed sphere.
+#pragma once
+
+#include "compare/problem/scene.hpp"
+
+namespace ogc::experiments {
+
+/// Defaults: the paper's. The contact radius follows the spacing, so that every size has the contact regime of r = 5 mm on 70 × 70.
+struct ClothOnSphereSizes {
+  compare::Index vertices_a_side = 70;
+  int sphere_subdivisions = 3;
+  std::int64_t steps = 100;
+};
+
+/// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.262 m about (−0.15, 0, 0).
+compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
+
+}  // namespace ogc::experiments

@@ -1,0 +1,80 @@
+// Closed formulas only, so that a scene is the same wherever it is generated.
+#include "experiments/scenes/shapes.hpp"
+
+#include <cmath>
+#include <map>
+
+namespace ogc::experiments {
+namespace {
+
+using compare::Edge;
+using compare::Index;
+using compare::Mesh;
+using compare::Triangle;
+using compare::Vec3;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Vec3 on_unit_sphere(const Vec3& v) {
+  const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+  return {v.x / length, v.y / length, v.z / length};
+}
+
+Mesh icosahedron() {
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  Mesh mesh;
+  for (const Vec3& v : {Vec3{-1, g, 0}, Vec3{1, g, 0}, Vec3{-1, -g, 0}, Vec3{1, -g, 0}, Vec3{0, -1, g}, Vec3{0, 1, g},
+                        Vec3{0, -1, -g}, Vec3{0, 1, -g}, Vec3{g, 0, -1}, Vec3{g, 0, 1}, Vec3{-g, 0, -1}, Vec3{-g, 0, 1}}) {
+    mesh.positions.push_back(on_unit_sphere(v));
+  }
+  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  return mesh;
+}
+
+Mesh split_in_four(const Mesh& coarse) {
+  Mesh fine;
+  fine.positions = coarse.positions;
+  std::map<Edge, Index> middles;
+  const auto middle = [&](Index a, Index b) {
+    const auto [entry, is_new] = middles.try_emplace(Edge{std::min(a, b), std::max(a, b)}, static_cast<Index>(fine.positions.size()));
+    if (is_new) {
+      const Vec3 &p = coarse.positions[at(a)], &q = coarse.positions[at(b)];
+      fine.positions.push_back(on_unit_sphere({p.x + q.x, p.y + q.y, p.z + q.z}));
+    }
+    return entry->second;
+  };
+  for (const auto& [a, b, c] : coarse.triangles) {
+    const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const Triangle& t : {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc}, Triangle{ab, bc, ca}}) fine.triangles.push_back(t);
+  }
+  return fine;
+}
+
+}  // namespace
+
+Mesh grid(Index count, double side, double height) {
+  Mesh mesh;
+  const auto coordinate = [&](Index i) { return side * i / (count - 1) - side / 2; };
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = 0; j < count; ++j) mesh.positions.push_back({coordinate(i), height, coordinate(j)});
+  }
+  for (Index i = 0; i + 1 < count; ++i) {
+    for (Index j = 0; j + 1 < count; ++j) {
+      const Index a = i * count + j, b = a + 1, c = a + count + 1, d = a + count;
+      const bool even = (i + j) % 2 == 0;
+      mesh.triangles.push_back(even ? Triangle{a, b, c} : Triangle{a, b, d});
+      mesh.triangles.push_back(even ? Triangle{a, c, d} : Triangle{b, c, d});
+    }
+  }
+  return mesh;
+}
+
+Mesh icosphere(int subdivisions, double radius, const Vec3& centre) {
+  Mesh mesh = icosahedron();
+  for (int i = 0; i < subdivisions; ++i) mesh = split_in_four(mesh);
+  for (Vec3& v : mesh.positions) v = {centre.x + radius * v.x, centre.y + radius * v.y, centre.z + radius * v.z};
+  return mesh;
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,30 @@
+"""What the figure scripts share: arguments, claims, and an error in words instead of a traceback."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from plots.run_folder import Run, RunError
+from plots.scene_figure import draw, load_claims
+
+CLAIMS = Path(__file__).parent / "claims"
+
+
+def main(scene, frames, camera):
+    """Draws the figure of one run of `scene`; `frames` are shares of the run's length."""
+    parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
+    parser.add_argument("run", help="run folder, made by: ogc run " + scene)
+    parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
+    arguments = parser.parse_args()
+    try:
+        run = Run(arguments.run)
+        found = run.manifest["scene"]["name"]
+        if found != scene:
+            raise RunError(f"{arguments.run} is a run of '{found}', not of '{scene}'")
+        last = int(run.column("step")[-1])
+        claims = load_claims(CLAIMS / f"{scene}.json", run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
+        out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
+        draw(run, [round(share * last) for share in frames], camera, claims, out)
+    except RunError as error:
+        sys.exit(f"{Path(sys.argv[0]).name}: {error}")
+    print(out)

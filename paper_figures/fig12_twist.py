@@ -1,0 +1,8 @@
+"""Fig. 12 as far as it exists: a square cloth twisted by its two ends; time, contacts, distances, and four frames over the run."""
+
+from paper_figures.common import main
+
+CAMERA = ((0.5, 0.9, 1.6), (0, 0, 0), (0, 1, 0))
+
+if __name__ == "__main__":
+    main("twist", frames=(0, 1 / 3, 2 / 3, 1), camera=CAMERA)

@@ -1,0 +1,33 @@
+"""Renders meshes off-screen. Needs PyVista; `available()` says whether and why not."""
+
+import numpy as np
+
+
+def available():
+    """(True, "") or (False, the reason in words)."""
+    try:
+        import pyvista  # noqa: F401
+    except ImportError as error:
+        return False, f"PyVista can't be imported ({error}); install plots/requirements.txt to render meshes"
+    return True, ""
+
+
+def picture(bodies, camera, size=(640, 480)):
+    """An RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from camera = (eye, target, up).
+
+    Front and back of a sheet have different colours, so that folds can be told; ambient occlusion makes contacts readable.
+    """
+    import pyvista as pv
+
+    pv.OFF_SCREEN = True
+    plotter = pv.Plotter(off_screen=True, window_size=list(size))
+    plotter.set_background("white")
+    for points, triangles, front, back in bodies:
+        faces = np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel()
+        mesh = pv.PolyData(np.asarray(points, dtype=float), faces)
+        plotter.add_mesh(mesh, color=front, smooth_shading=True, specular=0.1, backface_params={"color": back}, split_sharp_edges=False)
+    plotter.enable_anti_aliasing("ssaa")
+    plotter.camera_position = [tuple(camera[0]), tuple(camera[1]), tuple(camera[2])]
+    image = plotter.screenshot(return_img=True)
+    plotter.close()
+    return image

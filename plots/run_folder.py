@@ -1,0 +1,102 @@
+"""Reads run folders (design of the data: README.md, "Read a run"). Says in words what is missing, instead of drawing nonsense."""
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+
+class RunError(Exception):
+    """Something about a run folder keeps it from being drawn; the message says what, where and what to do."""
+
+
+@dataclass
+class Frame:
+    """One stored state; positions [m], velocities [m/s], bounds [m]."""
+
+    step: int
+    time: float
+    positions: np.ndarray
+    velocities: np.ndarray
+    bounds: np.ndarray
+
+
+class Run:
+    """A run folder: `manifest` (run.json), `steps` (column name without unit -> array), `frames` (paths, ascending)."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        manifest = self.folder / "run.json"
+        if not manifest.is_file():
+            raise RunError(f"{self.folder} is no run folder: it has no run.json. Make one with: ogc run SCENE --out {self.folder}")
+        self.manifest = json.loads(manifest.read_text())
+        self.steps, self.units = _read_steps(self.folder / "steps.csv")
+        self.frames = sorted((self.folder / "frames").glob("frame_*.h5"))
+        if not self.frames:
+            raise RunError(f"{self.folder} has no finished frame yet (status: {self.status})")
+
+    @property
+    def status(self):
+        return self.manifest.get("status", "unknown")
+
+    def column(self, name):
+        if name not in self.steps:
+            raise RunError(f"{self.folder}/steps.csv has no column '{name}'; it has: {', '.join(self.steps)}")
+        return self.steps[name]
+
+    def stage_columns(self):
+        """Times by stage [ms], where the run was profiled."""
+        return {name.removeprefix("stage_"): self.steps[name] for name in self.steps if name.startswith("stage_")}
+
+    def setting(self, name):
+        """Value of a setting, in its own unit (SI)."""
+        return self.manifest["settings"][name]["value"]
+
+    def bodies(self):
+        """The scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's first vertex."""
+        path = self.folder / "trajectory.vtkhdf"
+        if not path.is_file():
+            raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
+        with h5py.File(path, "r") as file:
+            triangles = file["VTKHDF/Polygons/Connectivity"][:].reshape(-1, 3)
+        result = []
+        for body in self.manifest["scene"]["bodies"]:
+            first = body["first_triangle"]
+            result.append({**body, "triangles": triangles[first:first + body["triangle_count"]] - body["first_vertex"]})
+        return result
+
+    def frame(self, path):
+        with h5py.File(path, "r") as file:
+            return Frame(int(file.attrs["step"]), float(file.attrs["time"]), file["positions"][:], file["velocities"][:], file["bounds"][:])
+
+    def frame_at_step(self, step):
+        """The stored frame nearest to `step`."""
+        numbers = [int(path.stem.removeprefix("frame_")) for path in self.frames]
+        return self.frame(self.frames[int(np.argmin([abs(n - step) for n in numbers]))])
+
+    def require_finished(self):
+        if self.status != "finished":
+            raise RunError(f"{self.folder} is not finished (status: {self.status}); its frames can be read, its figure can't be drawn")
+        if not self.manifest.get("guarantee_kept", True):
+            raise RunError(f"{self.folder}: the audit failed; see run.json")
+
+
+def _read_steps(path):
+    if not path.is_file():
+        raise RunError(f"{path} is missing")
+    with path.open(newline="") as file:
+        rows = [row for row in csv.reader(file) if row]
+    if len(rows) < 2:
+        raise RunError(f"{path} holds no step yet")
+    names, units = zip(*(_split_unit(text) for text in rows[0]))
+    width = len(names)
+    table = [[float(text) if text else np.nan for text in row] for row in rows[1:] if len(row) == width]
+    return {name: np.array([row[i] for row in table]) for i, name in enumerate(names)}, dict(zip(names, units))
+
+
+def _split_unit(text):
+    name, _, unit = text.partition("[")
+    return name.strip(), unit.rstrip("] ").strip()

@@ -1,0 +1,114 @@
+"""The figure of one run: time a step, detections, contacts, smallest distance, and rendered frames."""
+
+import json
+from pathlib import Path
+
+import h5py  # noqa: F401  (a missing reader should be reported before anything is drawn)
+import numpy as np
+
+from plots import render, style
+from plots.run_folder import RunError
+
+
+def load_claims(path, backend):
+    """What the paper says about a scene on a backend: {quantity: (value, machine)}; empty where it says nothing."""
+    path = Path(path)
+    if not path.is_file():
+        return {}
+    return {c["quantity"]: (c["value"], c["machine"]) for c in json.loads(path.read_text())["claims"] if c["backend"] == backend}
+
+
+def bodies_of(run, frame):
+    """Bodies as `render.picture` wants them, with the frame's positions; fixed bodies grey."""
+    fronts, backs = ["#0072B2", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#56B4E9"]
+    result, cloth = [], 0
+    for body in run.bodies():
+        first, count = body["first_vertex"], body["vertex_count"]
+        points, triangles = frame.positions[first:first + count], body["triangles"]
+        if body["fixed"]:
+            result.append((points, triangles, "#B0B0B0", "#B0B0B0"))
+        else:
+            result.append((points, triangles, fronts[cloth % 3], backs[cloth % 3]))
+            cloth += 1
+    return result
+
+
+def draw_time(axes, run, claims):
+    steps, stages = run.column("step"), run.stage_columns()
+    if stages:
+        axes.stackplot(steps, list(stages.values()), labels=list(stages), colors=style.COLOURS, alpha=0.85)
+    else:
+        axes.plot(steps, run.column("wall"), label="step")
+    for quantity, dash in (("step_ms_average", "--"), ("step_ms_maximum", ":")):
+        if quantity in claims:
+            value, machine = claims[quantity]
+            axes.axhline(value, color="black", linestyle=dash, linewidth=0.8, label=f"paper, {quantity.split('_')[-1]}: {value:g} ms ({machine})")
+    axes.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
+    axes.legend(fontsize=7)
+
+
+def draw_detections(axes, run):
+    steps = run.column("step")
+    axes.step(steps, run.column("discrete_detections"), where="mid", label="detections")
+    axes.step(steps, run.column("guess_rounds"), where="mid", linestyle="--", label="rounds of the guess loop")
+    axes.set(xlabel="step", ylabel="count a step", title="Detections (all discrete; none is continuous)", ylim=(0, None))
+    axes.legend()
+
+
+def draw_contacts(axes, run):
+    steps = run.column("step")
+    axes.plot(steps, run.column("vertex_facet_contacts"), label="vertex–facet")
+    axes.plot(steps, run.column("edge_edge_contacts"), linestyle="--", label="edge–edge")
+    axes.set(xlabel="step", ylabel="contacts", title="Contacts at the last detection of the step", ylim=(0, None))
+    axes.legend()
+
+
+def draw_distance(axes, run):
+    radius = run.setting("contact_radius")
+    axes.plot(run.column("step"), 1e3 * run.column("smallest_distance"), label="smallest distance (never above the exact one)")
+    axes.axhline(1e3 * radius, color="black", linestyle="--", linewidth=0.8, label=f"contact radius r = {1e3 * radius:g} mm")
+    axes.axhline(5e2 * radius, color="black", linestyle=":", linewidth=0.8, label="τ = r/2")
+    axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance of non-adjacent primitives", ylim=(0, None))
+    axes.legend()
+
+
+def draw_frames(figure, grid, run, steps, camera):
+    usable, reason = render.available()
+    for column, step in enumerate(steps):
+        axes = figure.add_subplot(grid[column])
+        axes.axis("off")
+        frame = run.frame_at_step(step)
+        axes.set_title(f"step {frame.step}, t = {frame.time:.3g} s")
+        if usable:
+            axes.imshow(render.picture(bodies_of(run, frame), camera))
+        else:
+            axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
+
+
+def headline(run):
+    wall = run.column("wall")[1:] if len(run.column("wall")) > 1 else run.column("wall")
+    m = run.manifest
+    kept = {True: "exact audit: no intersection", False: "exact audit: FAILED"}.get(m.get("guarantee_kept"), "not audited")
+    return (f"{m['scene']['name']}, {m['backend']} ({m['device']}), {len(run.column('step'))} steps: median {np.median(wall):.3g} ms, "
+            f"worst {wall.max():.3g} ms a step; {kept}; commit {m['commit'][:10]}{' (dirty)' if m.get('dirty') else ''}")
+
+
+def draw(run, frames, camera, claims, out):
+    """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or failed its audit."""
+    run.require_finished()
+    plt = style.use()
+    figure = plt.figure(figsize=(11, 8.2))
+    grid = figure.add_gridspec(3, 4, height_ratios=[1, 1, 0.95])
+    draw_time(figure.add_subplot(grid[0, :2]), run, claims)
+    draw_detections(figure.add_subplot(grid[0, 2:]), run)
+    draw_contacts(figure.add_subplot(grid[1, :2]), run)
+    draw_distance(figure.add_subplot(grid[1, 2:]), run)
+    draw_frames(figure, [grid[2, i] for i in range(4)], run, frames, camera)
+    figure.suptitle(headline(run), fontsize=9)
+    out = Path(out)
+    try:
+        figure.savefig(out)
+        figure.savefig(out.with_suffix(".pdf"))
+    except OSError as error:
+        raise RunError(f"{out} can't be written: {error}") from error
+    plt.close(figure)

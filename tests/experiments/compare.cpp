@@ -1,0 +1,136 @@
+// The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare` says so.
+#include <filesystem>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/judge/corpus.hpp"
+#include "compare/judge/judge.hpp"
+#include "fast/contestant.hpp"
+#include "reference/contestant.hpp"
+#include "tests/catch.hpp"
+#include "tests/compare/judge/faults.hpp"
+#include "tests/experiments/program.hpp"
+
+using namespace ogc;
+using namespace ogc::compare;
+
+namespace {
+
+JudgeOptions few_cases(Stage stage) {
+  JudgeOptions options;
+  options.cases = is_mesh_stage(stage) ? 2000 : 4000;
+  options.batch = 1000;
+  options.seed = 5;
+  return options;
+}
+
+/// What went wrong, for the log of a failed test.
+std::string first_mismatch(const StageReport& report) {
+  if (report.tally.mismatches.empty()) return "no mismatch";
+  return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
+}
+
+}  // namespace
+
+TEST_CASE("the exact answers pass their own judge", "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant exact = tests::exact_contestant(authority);
+  for (const Stage stage : all_stages) {
+    const StageReport report = judge_stage(stage, exact, authority, few_cases(stage));
+    INFO(first_mismatch(report));
+    REQUIRE(report.passed());
+  }
+}
+
+TEST_CASE("the judge catches every planted fault", "[agreement]") {
+  const Authority authority = reference::authority();
+  for (const tests::Fault& fault : tests::faults()) {
+    Contestant wrong = tests::exact_contestant(authority);
+    fault.plant(wrong, authority);
+    const StageReport report = judge_stage(fault.stage, wrong, authority, few_cases(fault.stage));
+    INFO(fault.name);
+    CHECK(report.tally.mismatched > 0);
+  }
+}
+
+TEST_CASE("a report does not depend on the number of threads", "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant fast = fast::contestant(fast::Backend::cpu);
+  for (const Stage stage : {Stage::closest_face, Stage::detect_edge_edge}) {
+    JudgeOptions options = few_cases(stage);
+    options.threads = 1;
+    const StageReport one = judge_stage(stage, fast, authority, options);
+    options.threads = 3;
+    const StageReport three = judge_stage(stage, fast, authority, options);
+    REQUIRE(one.tally.total().cases == three.tally.total().cases);
+    REQUIRE(one.tally.total().decisions == three.tally.total().decisions);
+    REQUIRE(one.tally.mismatched == three.tally.mismatched);
+    for (std::size_t i = 0; i < one.tally.metrics.size(); ++i) {
+      REQUIRE(one.tally.metrics[i].errors.maximum() == three.tally.metrics[i].errors.maximum());
+      REQUIRE(one.tally.metrics[i].worst == three.tally.metrics[i].worst);
+    }
+  }
+}
+
+TEST_CASE("the CPU's bounds, activation and truncation agree with the reference", "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant fast = fast::contestant(fast::Backend::cpu);
+  for (const Stage stage : {Stage::bound, Stage::activation, Stage::truncate}) {
+    const StageReport report = judge_stage(stage, fast, authority, few_cases(stage));
+    INFO(first_mismatch(report));
+    REQUIRE(report.passed());
+  }
+}
+
+TEST_CASE("what a contestant throws reaches the caller", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant broken = tests::exact_contestant(authority);
+  broken.closest_face = [](const ClosestFaceIn&) -> ClosestFaceOut { throw std::runtime_error("no device"); };
+  REQUIRE_THROWS_WITH(judge_stage(Stage::closest_face, broken, authority, few_cases(Stage::closest_face)), "no device");
+  broken.bound = nullptr;
+  REQUIRE(judge_stage(Stage::bound, broken, authority, few_cases(Stage::bound)).skipped);
+}
+
+TEST_CASE("ogc compare judges stages and writes a report", "[agreement]") {
+  const tests::TemporaryFolder folder;
+  const std::string report = (folder / "report").string();
+  const tests::ProgramResult result = tests::run_ogc("compare bound truncate --cases 1000 --seed 3 --json --report " + report);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  REQUIRE(json.at("stages").size() == 2);
+  REQUIRE(json.at("stages").at(1).at("stage") == "truncate");
+  REQUIRE(json.at("stages").at(1).at("cases") == 1000);
+  REQUIRE(json.at("stages").at(1).at("mismatches") == 0);
+  REQUIRE(std::filesystem::exists(folder / "report" / "report.jsonl"));
+  REQUIRE(std::filesystem::exists(folder / "report" / "report.txt"));
+}
+
+TEST_CASE("ogc compare takes a problem string, a batch file and a saved case", "[agreement]") {
+  const tests::TemporaryFolder folder;
+  const std::string problem = "stage=truncate gen=ladder.bound seed=7 index=12";
+  const tests::ProgramResult one = tests::run_ogc("compare --problem \"" + problem + "\"");
+  REQUIRE(one.status == 0);
+  REQUIRE(tests::contains(one.out, {"truncate", problem}));
+  const auto batch = folder.write("corpus.txt", problem + "\nstage=bound gen=few seed=1 index=4\n");
+  REQUIRE(tests::run_ogc("compare --batch " + batch.string()).status == 0);
+  const auto saved = save_case(folder / "saved", generate(parse_problem(problem)), "by hand");
+  REQUIRE(tests::run_ogc("compare --replay " + saved.string()).status == 0);
+}
+
+TEST_CASE("ogc compare refuses unknown stages, generators, backends and files with exit status 2", "[agreement]") {
+  const auto refuses = [](const std::string& arguments, const std::string& what) {
+    const tests::ProgramResult result = tests::run_ogc("compare " + arguments);
+    INFO(arguments << ": " << result.err);
+    REQUIRE(result.status == 2);
+    REQUIRE(tests::contains(result.err, {what}));
+  };
+  refuses("closest_fce", "closest_face");
+  refuses("bound --generator unifrom", "ladder.fan");
+  refuses("--backend vulkan", "cuda");
+  refuses("--cases 0", "--cases");
+  refuses("--replay nothing.json", "nothing.json");
+  refuses("--batch nothing.txt", "nothing.txt");
+  refuses("--problem \"stage=bound\"", "gen");
+  refuses("--states nothing", "nothing");
+}

@@ -1,0 +1,46 @@
+#include <nlohmann/json.hpp>
+
+#include "compare/files/mesh_files.hpp"
+#include "compare/record/run_folder.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/program.hpp"
+
+using namespace ogc;
+using namespace ogc::tests;
+
+TEST_CASE("ogc export writes each frame as a mesh, and an index for ParaView", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  REQUIRE(run_ogc("run cloth_on_sphere --scale smoke --steps 4 --audit off --out " + run).status == 0);
+  const compare::RunReader reader(run);
+  for (const std::string format : {"obj", "ply", "vtp"}) {
+    const ProgramResult result = run_ogc("export " + run + " --json --format " + format + " --out " + (folder / format).string());
+    INFO(format << "\n" << result.err);
+    REQUIRE(result.status == 0);
+    const nlohmann::json files = nlohmann::json::parse(result.out).at("files");
+    CHECK(files.size() == reader.frame_count() + (format == "vtp" ? 1 : 0));
+    for (const auto& file : files) CHECK(std::filesystem::file_size(file.get<std::string>()) > 0);
+    if (format == "vtp") continue;
+    const compare::Mesh mesh = compare::read_mesh(files.back().get<std::string>());
+    CHECK(mesh.triangles == reader.scene().mesh.triangles);
+    CHECK(compare::to_single(mesh.positions) == reader.frame(reader.frame_count() - 1).positions);
+  }
+}
+
+TEST_CASE("ogc export assembles the trajectory of a run that was killed", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  REQUIRE(run_ogc("run cloth_on_sphere --scale smoke --steps 4 --audit off --out " + run).status == 0);
+  std::filesystem::remove(folder / "run/trajectory.vtkhdf");
+  REQUIRE(run_ogc("export " + run).status == 0);
+  CHECK(std::filesystem::exists(folder / "run/trajectory.vtkhdf"));
+  CHECK(std::filesystem::exists(folder / "run/vtp/cloth_on_sphere.pvd"));
+}
+
+TEST_CASE("ogc export refuses what is no run, and unknown formats, with exit status 2", "[unit]") {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_ogc("export " + (folder / "nothing").string());
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, {"nothing"}));
+  CHECK(run_ogc("export " + (folder / "nothing").string() + " --format usd").status == 2);
+}

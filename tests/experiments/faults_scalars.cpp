@@ -1,0 +1,108 @@
+// Faults of bound, activation and truncate.
+#include <cmath>
+#include <limits>
+
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+using SpoilBound = std::function<float(float)>;
+using SpoilActivation = std::function<void(float d, float r, float k, std::size_t i, ActivationOut&)>;
+using SpoilTruncate = std::function<void(const TruncateIn&, std::size_t, TruncateOut&)>;
+
+Fault bound_fault(const std::string& name, const SpoilBound& spoil) {
+  return {name, Stage::bound, [spoil](Contestant& contestant, const Authority&) {
+            contestant.bound = [right = contestant.bound, spoil](const BoundIn& in) {
+              BoundOut out = right(in);
+              for (float& b : out.bound) b = spoil(b);
+              return out;
+            };
+          }};
+}
+
+/// One of the three minima left out.
+Fault unread_fault(const std::string& name, std::span<const float> BoundIn::*unread) {
+  return {name, Stage::bound, [unread](Contestant& contestant, const Authority&) {
+            contestant.bound = [right = contestant.bound, unread](const BoundIn& in) {
+              const std::vector<float> large((in.*unread).size(), 1e30f);
+              BoundIn other = in;
+              other.*unread = large;
+              return right(other);
+            };
+          }};
+}
+
+Fault activation_fault(const std::string& name, const SpoilActivation& spoil) {
+  return {name, Stage::activation, [spoil](Contestant& contestant, const Authority&) {
+            contestant.activation = [right = contestant.activation, spoil](const ActivationIn& in) {
+              ActivationOut out = right(in);
+              for (std::size_t i = 0; i < in.distance.size(); ++i) spoil(in.distance[i], in.contact_radius[i], in.stiffness[i], i, out);
+              return out;
+            };
+          }};
+}
+
+Fault truncate_fault(const std::string& name, const SpoilTruncate& spoil) {
+  return {name, Stage::truncate, [spoil](Contestant& contestant, const Authority&) {
+            contestant.truncate = [right = contestant.truncate, spoil](const TruncateIn& in) {
+              TruncateOut out = right(in);
+              for (std::size_t i = 0; i < in.position.size(); ++i) spoil(in, i, out);
+              return out;
+            };
+          }};
+}
+
+float outwards(float x, float from) { return x == from ? x : std::nextafter(x, x > from ? infinity : -infinity); }
+
+}  // namespace
+
+std::vector<Fault> scalar_faults() {
+  return {
+      bound_fault("bound: 1 % too large", [](float b) { return 1.01f * b; }),
+      bound_fault("bound: one ulp too large", [](float b) { return std::nextafter(b, infinity); }),
+      bound_fault("bound: half of what is right", [](float b) { return 0.5f * b; }),
+      unread_fault("bound: own edges forgotten", &BoundIn::d_min_edge),
+      unread_fault("bound: own triangles forgotten", &BoundIn::d_min_triangle),
+      activation_fault("activation: Eq. 19 as printed",
+                       [](float d, float r, float, std::size_t i, ActivationOut& out) {
+                         if (d < r / 2) out.slope[i] *= r / 2;
+                       }),
+      activation_fault("activation: half the coefficient of the logarithm",
+                       [](float d, float r, float, std::size_t i, ActivationOut& out) {
+                         if (d < r / 2) out.curvature[i] *= 0.5f;
+                       }),
+      activation_fault("activation: no curvature jump at the radius",
+                       [](float d, float r, float k, std::size_t i, ActivationOut& out) {
+                         if (d == r) out.curvature[i] = k;
+                       }),
+      activation_fault("activation: energy without its constant, Eq. 20",
+                       [](float d, float r, float k, std::size_t i, ActivationOut& out) {
+                         if (d < r / 2) out.energy[i] = -k * r * r / 4 * std::log(d);
+                       }),
+      truncate_fault("truncate: flag inverted", [](const auto&, std::size_t i, TruncateOut& out) { out.exceeded[i] = !out.exceeded[i]; }),
+      truncate_fault("truncate: one ulp too far",
+                     [](const auto& in, std::size_t i, TruncateOut& out) {
+                       Vec3f& x = out.position[i];
+                       const Vec3f& p = in.previous[i];
+                       if (out.exceeded[i]) x = {outwards(x.x, p.x), outwards(x.y, p.y), outwards(x.z, p.z)};
+                     }),
+      truncate_fault("truncate: not truncated", [](const auto& in, std::size_t i, TruncateOut& out) { out.position[i] = in.position[i]; }),
+      truncate_fault("truncate: stale position copied",
+                     [](const auto& in, std::size_t i, TruncateOut& out) {
+                       if (out.exceeded[i]) out.position[i] = in.previous[i];
+                     }),
+      truncate_fault("truncate: untouched positions recomputed",
+                     [](const auto& in, std::size_t i, TruncateOut& out) {
+                       Vec3f& x = out.position[i];
+                       if (!out.exceeded[i]) x.x = in.previous[i].x + (x.x - in.previous[i].x);
+                     }),
+  };
+}
+
+}  // namespace ogc::tests

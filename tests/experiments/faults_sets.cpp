@@ -1,0 +1,209 @@
+// Faults of the two detections.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+using SpoilFacets = std::function<void(const DetectIn&, const Authority&, DetectVertexFacetOut&)>;
+using SpoilEdges = std::function<void(const DetectIn&, const Authority&, DetectEdgeEdgeOut&)>;
+
+Fault facet_fault(const std::string& name, const SpoilFacets& spoil) {
+  return {name, Stage::detect_vertex_facet, [spoil](Contestant& contestant, const Authority& authority) {
+            contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, spoil, authority](const DetectIn& in) {
+              DetectVertexFacetOut out = right(in);
+              spoil(in, authority, out);
+              return out;
+            };
+          }};
+}
+
+Fault edge_fault(const std::string& name, const SpoilEdges& spoil) {
+  return {name, Stage::detect_edge_edge, [spoil](Contestant& contestant, const Authority& authority) {
+            contestant.detect_edge_edge = [right = contestant.detect_edge_edge, spoil, authority](const DetectIn& in) {
+              DetectEdgeEdgeOut out = right(in);
+              spoil(in, authority, out);
+              return out;
+            };
+          }};
+}
+
+bool has(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+bool rigid(const DetectIn& in, std::initializer_list<Index> vertices) {
+  const Index group = in.rigid_groups[*vertices.begin()];
+  return group >= 0 && std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return in.rigid_groups[v] == group; });
+}
+
+Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
+  const auto k = static_cast<std::size_t>(feature);
+  if (k < 3) return {FaceKind::vertex, topology.triangles[t][k]};
+  if (k < 6) return {FaceKind::edge, topology.triangle_edges[t][k - 3]};
+  return {FaceKind::triangle, t};
+}
+
+/// Every triangle's closest face within r, without the test of the feasible region: k triangles around an edge seen from within give k contacts.
+void without_feasible_region(const DetectIn& in, const Authority& authority, DetectVertexFacetOut& out) {
+  const Topology& topology = *in.topology;
+  for (Index v = 0; v < topology.vertex_count; ++v) {
+    ClosestFaceIn question;
+    std::vector<Index> asked;
+    for (Index t = 0; t < static_cast<Index>(topology.triangles.size()); ++t) {
+      const Triangle& c = topology.triangles[t];
+      if (has(c, v) || rigid(in, {v, c[0], c[1], c[2]})) continue;
+      question.point.push_back(in.positions[v]);
+      question.triangle.push_back({in.positions[c[0]], in.positions[c[1]], in.positions[c[2]]});
+      asked.push_back(t);
+    }
+    const ClosestFaceOut answer = authority.closest_face(question).exact;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      if (answer.distance[i] >= in.contact_radius) continue;
+      const Face face = face_of(topology, asked[i], answer.feature[i]);
+      if (std::none_of(out.contacts.begin(), out.contacts.end(), [&](const auto& c) { return c.vertex == v && c.face == face; }))
+        out.contacts.push_back({v, face, asked[i]});
+    }
+  }
+}
+
+/// The region rule that accepts all but pairs of end points.
+void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
+  const auto& edges = in.topology->edges;
+  ClosestPointsIn question;
+  std::vector<std::array<Index, 2>> asked;
+  for (Index e = 0; e < static_cast<Index>(edges.size()); ++e)
+    for (Index f = e + 1; f < static_cast<Index>(edges.size()); ++f) {
+      const Edge &a = edges[e], &b = edges[f];
+      if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] || rigid(in, {a[0], a[1], b[0], b[1]})) continue;
+      question.first.push_back({in.positions[a[0]], in.positions[a[1]]});
+      question.second.push_back({in.positions[b[0]], in.positions[b[1]]});
+      asked.push_back({e, f});
+    }
+  const ClosestPointsOut answer = authority.closest_points(question).exact;
+  const auto face = [&](Index e, EdgeFeature feature) {
+    return feature == EdgeFeature::interior ? Face{FaceKind::edge, e} : Face{FaceKind::vertex, edges[e][static_cast<std::size_t>(feature)]};
+  };
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const bool both_ends = answer.first_feature[i] != EdgeFeature::interior && answer.second_feature[i] != EdgeFeature::interior;
+    if (both_ends || answer.contact_distance[i] >= in.contact_radius) continue;
+    const Face p = face(asked[i][0], answer.first_feature[i]), q = face(asked[i][1], answer.second_feature[i]);
+    const EdgeEdgeContact contact{std::min(p, q), std::max(p, q), asked[i][0], asked[i][1]};
+    if (std::none_of(out.contacts.begin(), out.contacts.end(), [&](const auto& c) { return c.first == contact.first && c.second == contact.second; }))
+      out.contacts.push_back(contact);
+  }
+}
+
+void fixed_capacity(const DetectIn&, const Authority&, DetectVertexFacetOut& out) {
+  std::map<Index, int> by_owner;
+  std::erase_if(out.contacts, [&](const VertexFacetContact& c) { return ++by_owner[c.owner] > 4; });
+}
+
+void without_one_ring(const DetectIn& in, const Authority&, DetectVertexFacetOut& out) {
+  std::erase_if(out.contacts, [&](const VertexFacetContact& c) {
+    const auto near = in.topology->vertex_neighbours[static_cast<std::size_t>(c.vertex)];
+    return std::any_of(near.begin(), near.end(), [&](Index v) { return has(in.topology->triangles[c.owner], v); });
+  });
+}
+
+/// An update lost: the minimum of one triangle, or edge, stays where it began.
+void lost_update(std::vector<float>& minima, float query_radius) {
+  const auto it = std::find_if(minima.begin(), minima.end(), [&](float d) { return d < query_radius; });
+  if (it != minima.end()) *it = query_radius;
+}
+
+void highest_owner(const DetectIn& in, const Authority&, DetectVertexFacetOut& out) {
+  for (VertexFacetContact& c : out.contacts) {
+    if (c.face.kind == FaceKind::triangle) continue;
+    const auto index = static_cast<std::size_t>(c.face.index);
+    c.owner = (c.face.kind == FaceKind::edge ? in.topology->edge_triangles[index] : in.topology->vertex_triangles[index]).back();
+  }
+}
+
+/// The set of the call before.
+template <class Out>
+auto stale() {
+  return [last = std::make_shared<Out>()](const DetectIn&, const Authority&, Out& out) { std::swap(last->contacts, out.contacts); };
+}
+
+/// Pairs inside a rigid group kept.
+Fault groups_ignored() {
+  return {"detect_vertex_facet: rigid groups ignored", Stage::detect_vertex_facet, [](Contestant& contestant, const Authority&) {
+            contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet](const DetectIn& in) {
+              const std::vector<Index> free(in.positions.size(), -1);
+              DetectIn other = in;
+              other.rigid_groups = free;
+              return right(other);
+            };
+          }};
+}
+
+std::vector<Fault> facet_faults() {
+  return {
+      facet_fault("detect_vertex_facet: one contact dropped",
+                  [](const auto&, const auto&, auto& out) {
+                    if (!out.contacts.empty()) out.contacts.pop_back();
+                  }),
+      facet_fault("detect_vertex_facet: one contact twice",
+                  [](const auto&, const auto&, auto& out) {
+                    if (!out.contacts.empty()) out.contacts.push_back(out.contacts.front());
+                  }),
+      facet_fault("detect_vertex_facet: wrong owner", highest_owner),
+      facet_fault("detect_vertex_facet: no feasible-region test", without_feasible_region),
+      facet_fault("detect_vertex_facet: list of fixed capacity, overflow dropped", fixed_capacity),
+      facet_fault("detect_vertex_facet: pairs within one ring left out", without_one_ring),
+      facet_fault("detect_vertex_facet: missing atomic at d_min of a triangle",
+                  [](const auto& in, const auto&, auto& out) { lost_update(out.d_min_triangle, in.query_radius); }),
+      facet_fault("detect_vertex_facet: stale list", stale<DetectVertexFacetOut>()),
+      facet_fault("detect_vertex_facet: d_min of a vertex one ulp too large",
+                  [](const auto&, const auto&, auto& out) {
+                    for (float& d : out.d_min_vertex) d = std::nextafter(d, infinity);
+                  }),
+      facet_fault("detect_vertex_facet: d_min of a vertex always 0",
+                  [](const auto&, const auto&, auto& out) { std::fill(out.d_min_vertex.begin(), out.d_min_vertex.end(), 0.0f); }),
+      groups_ignored(),
+  };
+}
+
+std::vector<Fault> edge_faults() {
+  return {
+      edge_fault("detect_edge_edge: one contact dropped",
+                 [](const auto&, const auto&, auto& out) {
+                   if (!out.contacts.empty()) out.contacts.pop_back();
+                 }),
+      edge_fault("detect_edge_edge: all but pairs of end points", all_but_end_points),
+      edge_fault("detect_edge_edge: edge ends swapped",
+                 [](const auto& in, const auto&, auto& out) {
+                   for (EdgeEdgeContact& c : out.contacts) {
+                     if (c.first.kind != FaceKind::vertex) continue;
+                     const Edge& e = in.topology->edges[c.first_edge];
+                     c.first.index = e[0] == c.first.index ? e[1] : e[0];
+                   }
+                 }),
+      edge_fault("detect_edge_edge: the two edges swapped",
+                 [](const auto&, const auto&, auto& out) {
+                   for (EdgeEdgeContact& c : out.contacts) std::swap(c.first_edge, c.second_edge);
+                 }),
+      edge_fault("detect_edge_edge: missing atomic at d_min of an edge",
+                 [](const auto& in, const auto&, auto& out) { lost_update(out.d_min_edge, in.query_radius); }),
+      edge_fault("detect_edge_edge: stale list", stale<DetectEdgeEdgeOut>()),
+  };
+}
+
+}  // namespace
+
+std::vector<Fault> set_faults() {
+  std::vector<Fault> all = facet_faults();
+  for (Fault& fault : edge_faults()) all.push_back(std::move(fault));
+  return all;
+}
+
+}  // namespace ogc::tests

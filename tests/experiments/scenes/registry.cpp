@@ -1,0 +1,139 @@
+// Every registered scene at every scale: valid, in single precision, and in the paper's contact regime.
+#include "experiments/scenes/registry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "compare/oracle/audit.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+using namespace ogc::experiments;
+using Catch::Matchers::Contains;
+
+namespace {
+
+double length(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+// Of the first body, the cloth.
+double shortest_edge(const Scene& scene) {
+  double result = std::numeric_limits<double>::infinity();
+  for (Index t = 0; t < scene.bodies[0].triangle_count; ++t) {
+    const auto& [a, b, c] = scene.mesh.triangles[static_cast<std::size_t>(t)];
+    const Vec3 &p = scene.mesh.positions[static_cast<std::size_t>(a)], &q = scene.mesh.positions[static_cast<std::size_t>(b)];
+    const Vec3& s = scene.mesh.positions[static_cast<std::size_t>(c)];
+    result = std::min({result, length(p, q), length(q, s), length(s, p)});
+  }
+  return result;
+}
+
+Vec3f at_vertex(const Scene& scene, const PrescribedMotion& motion, std::size_t i, double t) { return prescribed_targets(scene, motion, t)[i]; }
+
+}  // namespace
+
+TEST_CASE("every scene is valid at every scale, named as registered, and already in single precision", "[unit]") {
+  std::string_view previous;
+  for (const SceneInfo& info : scenes()) {
+    CHECK(previous < info.name);
+    previous = info.name;
+    for (const Scale scale : {Scale::smoke, Scale::small, Scale::paper}) {
+      INFO(info.name << " at scale " << static_cast<int>(scale));
+      const Scene scene = make_scene(info.name, scale);
+      CHECK(describe(validate(scene)).empty());
+      CHECK(scene.name == info.name);
+      Scene rounded = scene;
+      round_to_single(rounded);
+      CHECK(rounded == scene);
+    }
+  }
+}
+
+TEST_CASE("no scene starts with an intersection", "[unit]") {
+  for (const SceneInfo& info : scenes()) {
+    for (const Scale scale : {Scale::smoke, Scale::small, Scale::paper}) {
+      INFO(info.name << " at scale " << static_cast<int>(scale));
+      const Scene scene = make_scene(info.name, scale);
+      CHECK(audit(build_topology(scene), scene.mesh.positions, rigid_groups(scene)).count == 0);
+    }
+  }
+}
+
+TEST_CASE("scales shrink vertices and steps, and keep the radius in units of the spacing", "[unit]") {
+  for (const SceneInfo& info : scenes()) {
+    INFO(info.name);
+    const Scene smoke = make_scene(info.name, Scale::smoke), small = make_scene(info.name, Scale::small), paper = make_scene(info.name, Scale::paper);
+    CHECK(smoke.mesh.positions.size() < small.mesh.positions.size());
+    CHECK(small.mesh.positions.size() < paper.mesh.positions.size());
+    CHECK(smoke.settings.steps < small.settings.steps);
+    CHECK(small.settings.steps < paper.settings.steps);
+    const double regime = paper.settings.contact_radius / shortest_edge(paper);
+    for (const Scene& scene : {smoke, small}) {
+      // Positions of up to 0.5 m in single precision against edges of more than 1 cm: half an ulp at each end, twice.
+      CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / 0.01));
+    }
+  }
+}
+
+TEST_CASE("cloth_on_sphere has the paper's numbers", "[unit]") {
+  const Scene scene = make_scene("cloth_on_sphere", Scale::paper);
+  REQUIRE(scene.bodies.size() == 2);
+  CHECK(scene.bodies[0].vertex_count == 4900);
+  CHECK(scene.bodies[0].triangle_count == 9522);
+  CHECK(scene.bodies[1].vertex_count == 642);
+  CHECK(scene.bodies[1].fixed);
+  CHECK_FALSE(scene.bodies[0].fixed);
+  CHECK(scene.bodies[0].material.contact_stiffness == 10);
+  CHECK(scene.bodies[0].material.friction == 0.5);
+  CHECK(scene.bodies[0].material.membrane_damping == static_cast<double>(2e-6f));
+  CHECK(scene.settings.contact_radius == static_cast<double>(5e-3f));
+  CHECK(scene.settings.time_step == static_cast<double>(0.01f));
+  CHECK(scene.settings.iterations == 40);
+  CHECK(scene.settings.steps == 100);
+  CHECK(scene.motions.empty());
+  for (const Index v : {0, 4899}) CHECK(scene.mesh.positions[static_cast<std::size_t>(v)].y == static_cast<double>(0.30f));
+}
+
+TEST_CASE("twist has the paper's numbers", "[unit]") {
+  const Scene scene = make_scene("twist", Scale::paper);
+  REQUIRE(scene.bodies.size() == 1);
+  CHECK(scene.bodies[0].vertex_count == 10000);
+  CHECK(scene.bodies[0].triangle_count == 19602);
+  CHECK(scene.bodies[0].material.contact_stiffness == 100);
+  CHECK(scene.bodies[0].material.friction == static_cast<double>(0.2f));
+  CHECK(scene.bodies[0].material.bending_stiffness == static_cast<double>(1e-6f));
+  CHECK(scene.settings.contact_radius == static_cast<double>(2e-3f));
+  CHECK(scene.settings.time_step == static_cast<double>(1.0f / 300));
+  CHECK(scene.settings.iterations == 10);
+  CHECK(scene.settings.steps == 9600);
+  CHECK(scene.gravity == Vec3{});
+}
+
+TEST_CASE("twist turns its two end columns against each other, a relative turn in four seconds", "[unit]") {
+  const Scene scene = make_scene("twist", Scale::paper);
+  REQUIRE(scene.motions.size() == 2);
+  for (const PrescribedMotion& motion : scene.motions) {
+    CHECK(motion.vertices.size() == 100);
+    for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
+  }
+  // After 2 s each column has turned by a quarter: z = −0.5 goes to y = ±0.5, on the two sides of the sheet.
+  const Vec3f left = at_vertex(scene, scene.motions[0], 0, 2), right = at_vertex(scene, scene.motions[1], 0, 2);
+  CHECK(left.y == Approx(0.5));
+  CHECK(right.y == Approx(-0.5));
+  CHECK(left.x == -0.5f);
+  // After 4 s both are half round: the same place, one relative turn later.
+  CHECK(at_vertex(scene, scene.motions[0], 0, 4).z == Approx(0.5));
+  CHECK(at_vertex(scene, scene.motions[1], 0, 4).z == Approx(0.5));
+}
+
+TEST_CASE("unknown scenes and scales are refused with the nearest name", "[unit]") {
+  CHECK_THROWS_AS(make_scene("twits", Scale::smoke), InputError);
+  CHECK_THROWS_WITH(make_scene("twits", Scale::smoke), Contains("did you mean 'twist'?") && Contains("cloth_on_sphere"));
+  CHECK_THROWS_WITH(parse_scale("smal"), Contains("did you mean 'small'?"));
+  CHECK(parse_scale("smoke") == Scale::smoke);
+  CHECK(parse_scale("small") == Scale::small);
+  CHECK(parse_scale("paper") == Scale::paper);
+}

@@ -1,0 +1,84 @@
+#include "experiments/scenes/shapes.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "compare/problem/validate.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+using namespace ogc::experiments;
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Vec3 difference(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+Vec3 normal(const Mesh& mesh, const Triangle& t) {
+  const Vec3& a = mesh.positions[at(t[0])];
+  return cross(difference(mesh.positions[at(t[1])], a), difference(mesh.positions[at(t[2])], a));
+}
+
+Topology topology_of(const Mesh& mesh) { return build_topology(static_cast<Index>(mesh.positions.size()), mesh.triangles); }
+
+}  // namespace
+
+TEST_CASE("a grid has the paper's numbers of vertices and triangles and is a valid disc", "[unit]") {
+  const auto [count, vertices, triangles] = GENERATE(std::array{2, 4, 2}, std::array{3, 9, 8}, std::array{70, 4900, 9522}, std::array{100, 10000, 19602});
+  const Mesh mesh = grid(count, 1, 0.3);
+  CHECK(mesh.positions.size() == at(vertices));
+  CHECK(mesh.triangles.size() == at(triangles));
+  CHECK(validate(mesh).empty());
+  const Topology topology = topology_of(mesh);
+  CHECK(topology.boundary_edges.size() == at(4 * (count - 1)));
+  CHECK(topology.non_manifold_edges.empty());
+  CHECK(vertices - static_cast<int>(topology.edges.size()) + triangles == 1);
+}
+
+TEST_CASE("a grid spans its square, lies in its plane, faces up, and every cell has half of its area in each triangle", "[unit]") {
+  constexpr Index count = 5;
+  const Mesh mesh = grid(count, 1, 0.25);
+  CHECK(mesh.positions.front() == Vec3{-0.5, 0.25, -0.5});
+  CHECK(mesh.positions[1] == Vec3{-0.5, 0.25, -0.25});
+  CHECK(mesh.positions.back() == Vec3{0.5, 0.25, 0.5});
+  for (const Triangle& t : mesh.triangles) CHECK(normal(mesh, t) == Vec3{0, 0.0625, 0});
+}
+
+TEST_CASE("the diagonals of a grid alternate: (i, j) to (i+1, j+1) where i + j is even", "[unit]") {
+  constexpr Index count = 6;
+  const Topology topology = topology_of(grid(count, 1, 0));
+  for (Index i = 0; i + 1 < count; ++i) {
+    for (Index j = 0; j + 1 < count; ++j) {
+      const Index a = i * count + j;
+      const bool even = (i + j) % 2 == 0;
+      CHECK((find_edge(topology, a, a + count + 1) >= 0) == even);
+      CHECK((find_edge(topology, a + 1, a + count) >= 0) == !even);
+    }
+  }
+}
+
+TEST_CASE("an icosphere has 10 · 4ⁿ + 2 vertices, is closed, and faces outwards", "[unit]") {
+  const auto [subdivisions, vertices] = GENERATE(std::array{0, 12}, std::array{1, 42}, std::array{2, 162}, std::array{3, 642});
+  const Vec3 centre{-0.15, 0, 0.5};
+  const Mesh mesh = icosphere(subdivisions, 0.262, centre);
+  CHECK(mesh.positions.size() == at(vertices));
+  CHECK(mesh.triangles.size() == at(2 * vertices - 4));
+  CHECK(validate(mesh).empty());
+  const Topology topology = topology_of(mesh);
+  CHECK(topology.boundary_edges.empty());
+  CHECK(topology.hinges.size() == topology.edges.size());
+  for (const Triangle& t : mesh.triangles) CHECK(dot(normal(mesh, t), difference(mesh.positions[at(t[0])], centre)) > 0);
+}
+
+TEST_CASE("all vertices of an icosphere lie on the sphere up to rounding", "[unit]") {
+  const Vec3 centre{-0.15, 0, 0};
+  const double radius = 0.262, rounding = 16 * 0x1p-53;
+  for (const Vec3& v : icosphere(3, radius, centre).positions) {
+    CHECK(std::abs(std::sqrt(dot(difference(v, centre), difference(v, centre))) - radius) <= rounding);
+  }
+}

@@ -1,0 +1,299 @@
+#!/usr/bin/env python3
+"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, no paths of a machine.
+
+The tables below are the include rules of CONTRIBUTING.md; a room is named by its folder, the longest that fits. Usage:
+
+    tests/includes.py ROOT         the self-test, then ROOT; one line for each finding, exit status 1 where there is any
+    tests/includes.py --self-test  only the self-test: violations planted in a temporary tree must be found, and nothing else
+"""
+
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+SOURCE_SUFFIXES = {".hpp", ".h", ".cpp", ".cu", ".cuh"}
+LINE_LIMITED_SUFFIXES = SOURCE_SUFFIXES | {".py", ".sh", ".cmake", ".txt"}
+LONGEST_FILE = 800
+
+PROBLEM = ("compare/problem/", "compare/stages/")
+FILES = PROBLEM + ("compare/files/", "compare/record/")
+
+# Room -> beginnings of the project includes that it may have.
+PROJECT = {
+    "compare/problem": PROBLEM,
+    "compare/stages": PROBLEM,
+    "compare/files": FILES,
+    "compare/record": FILES,
+    "compare/judge": FILES + ("compare/judge/",),
+    "compare/oracle": PROBLEM + ("compare/oracle/",),
+    "reference": PROBLEM + ("reference/",),
+    "fast": PROBLEM + ("fast/",),
+    "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
+    "experiments/examples": ("compare/", "fast/contact_sets.hpp"),
+    "experiments/command_contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp", "fast/contact_sets.hpp"),
+    "tests": ("",),
+}
+
+# Beginning of a foreign include -> rooms that may have it (besides tests).
+FOREIGN = {
+    "CGAL/": ("compare/oracle", "reference"),
+    "boost/multiprecision/": ("compare/oracle", "reference"),
+    "gmp": ("compare/oracle", "reference"),
+    "mpfr": ("compare/oracle", "reference"),
+    "Eigen/": ("reference",),
+    "cholmod": ("reference",),
+    "suitesparse/": ("reference",),
+    "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),
+    "hdf5": ("compare/files", "compare/record"),
+    "H5": ("compare/files", "compare/record"),
+    "tbb/": ("compare/oracle", "reference", "fast/cpu", "experiments"),
+    "oneapi/tbb": ("compare/oracle", "reference", "fast/cpu", "experiments"),
+    "cuda": ("fast/cuda",),
+    "cub/": ("fast/cuda",),
+    "cxxabi.h": ("fast/cuda",),
+    "thrust/": ("fast/cuda",),
+    "cooperative_groups": ("fast/cuda",),
+    "CLI/": ("experiments",),
+    "benchmark/": ("experiments",),
+    "dlfcn.h": ("experiments",),
+    "catch2/": (),
+    "rapidcheck": (),
+    "unistd.h": ("compare/files", "compare/record", "experiments"),
+    "fcntl.h": ("compare/files", "compare/record", "experiments"),
+    "sys/": ("compare/files", "compare/record", "experiments"),
+}
+
+STANDARD = set(
+    """algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits clocale cmath codecvt compare
+    complex concepts condition_variable coroutine csetjmp csignal cstdarg cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque
+    exception execution filesystem format forward_list fstream functional future initializer_list iomanip ios iosfwd iostream istream iterator latch
+    limits list locale map memory memory_resource mutex new numbers numeric optional ostream queue random ranges ratio regex scoped_allocator semaphore
+    set shared_mutex source_location span sstream stack stdexcept stop_token streambuf string string_view syncstream system_error thread tuple
+    type_traits typeindex typeinfo unordered_map unordered_set utility valarray variant vector version""".split()
+)
+
+# It stands above the two folders of ogc_problem, whose stages it lists; neither of them may include it.
+ABOVE_ITS_FOLDER = "compare/problem/contestant.hpp"
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
+SKIPPED_FOLDERS = {".git", "build", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
+
+
+class House:
+    """All files below a root, their includes, and what was found wrong with them."""
+
+    def __init__(self, root):
+        self.root = Path(root)
+        self.findings = []
+        self.includes = {}  # file -> [(line number, included file)], project includes that exist
+        for path in sorted(self.files()):
+            self.read(path)
+        self.check_cycles()
+        self.check_folder_pairs()
+
+    def files(self):
+        for path in self.root.rglob("*"):
+            parts = path.relative_to(self.root).parts
+            if path.is_file() and not SKIPPED_FOLDERS.intersection(parts[:-1]) and not parts[0].startswith("build"):
+                yield path
+
+    def report(self, file, line, message):
+        self.findings.append(f"{file}:{line}: {message}")
+
+    def read(self, path):
+        file = path.relative_to(self.root).as_posix()
+        try:
+            lines = path.read_text(encoding="utf-8").splitlines()
+        except UnicodeDecodeError:
+            return  # pictures and binary results
+        for number, text in enumerate(lines, 1):
+            if MACHINE_PATH.search(text):
+                self.report(file, number, "contains an absolute path of a machine; write it relative to the repository")
+        if path.suffix in LINE_LIMITED_SUFFIXES and len(lines) > LONGEST_FILE:
+            self.report(file, len(lines), f"has {len(lines)} lines; split it, {LONGEST_FILE} is the limit")
+        if path.suffix in SOURCE_SUFFIXES:
+            self.read_includes(file, lines)
+
+    def read_includes(self, file, lines):
+        self.includes[file] = []
+        room = longest(PROJECT, file)
+        for number, text in enumerate(lines, 1):
+            match = INCLUDE.match(text)
+            if not match:
+                continue
+            project, foreign = match.groups()
+            if room is None:
+                self.report(file, number, "stands in no room that may include anything; add its folder to tests/includes.py")
+            elif project is not None:
+                self.check_project(file, number, room, project)
+            else:
+                self.check_foreign(file, number, room, foreign)
+
+    def check_project(self, file, number, room, included):
+        if not (self.root / included).is_file():
+            self.report(file, number, f'"{included}" does not exist; write includes from the root of the repository')
+            return
+        self.includes[file].append((number, included))
+        if not included.startswith(PROJECT[room]):
+            self.report(file, number, f'{room} may not include "{included}"')
+
+    def check_foreign(self, file, number, room, included):
+        if included in STANDARD or room == "tests":
+            return
+        header = longest_beginning(FOREIGN, included)
+        if header is None:
+            self.report(file, number, f"<{included}> is neither standard nor in the table of tests/includes.py")
+        elif not any(below(file, allowed) for allowed in FOREIGN[header]):
+            self.report(file, number, f"<{included}> is allowed only in {', '.join(FOREIGN[header]) or 'tests'}")
+
+    def check_cycles(self):
+        """Depth first; an edge to a file that is still open closes a cycle."""
+        state = {}
+        for start in self.includes:
+            if start in state:
+                continue
+            path, stack = [start], [iter(self.includes[start])]
+            state[start] = "open"
+            while stack:
+                number, included = next(stack[-1], (0, None))
+                if included is None:
+                    stack.pop()
+                    state[path.pop()] = "closed"
+                elif state.get(included) == "open":
+                    cycle = path[path.index(included):] + [included]
+                    self.report(path[-1], number, "closes an include cycle: " + " -> ".join(cycle))
+                elif included not in state and included in self.includes:
+                    state[included] = "open"
+                    path.append(included)
+                    stack.append(iter(self.includes[included]))
+
+    def check_folder_pairs(self):
+        """A .cpp at the top of a room assembles its parts, which see the room's interface headers beside it: that is no pair, two headers are."""
+        edges = {}
+        for file, included in self.includes.items():
+            for number, other in included:
+                if other == ABOVE_ITS_FOLDER and below(file, "compare/problem", "compare/stages"):
+                    self.report(file, number, f'"{other}" stands above the folders of ogc_problem; they may not include it')
+                assembles = "/" not in folder(file) and file.endswith(".cpp")
+                if file != ABOVE_ITS_FOLDER and not assembles:
+                    edges.setdefault((folder(file), folder(other)), (file, number, other))
+        for (one, two), (file, number, other) in sorted(edges.items()):
+            if one < two and (two, one) in edges:
+                back, back_number, _ = edges[(two, one)]
+                self.report(file, number, f'"{other}": the folders {one} and {two} include each other (the other way: {back}:{back_number})')
+
+
+def folder(file):
+    return file.rpartition("/")[0]
+
+
+def below(file, *folders):
+    return any(file == name or file.startswith(name + "/") for name in folders)
+
+
+def longest(table, file):
+    return max((room for room in table if below(file, room)), key=len, default=None)
+
+
+def longest_beginning(table, name):
+    return max((beginning for beginning in table if name.startswith(beginning)), key=len, default=None)
+
+
+SOUND = {
+    "compare/problem/mesh.hpp": "#include <vector>\n",
+    "compare/problem/contestant.hpp": '#include "compare/stages/bound.hpp"\n',
+    "compare/stages/bound.hpp": '#include "compare/problem/mesh.hpp"\n',
+    "compare/files/scene.cpp": "#include <nlohmann/json.hpp>\n#include <fcntl.h>\n",
+    "compare/oracle/audit.cpp": '#include <CGAL/AABB_tree.h>\n#include "compare/problem/mesh.hpp"\n',
+    "reference/contestant.hpp": '#include "compare/problem/contestant.hpp"\n',
+    "fast/contestant.hpp": '#include "compare/problem/contestant.hpp"\n',
+    "fast/contact_sets.hpp": "#include <span>\n",
+    "fast/cpu/cpu.hpp": '#include "fast/contestant.hpp"\n',
+    "fast/contestant.cpp": '#include "fast/cpu/cpu.hpp"\n',
+    "fast/cuda/backend.cu": "#include <cub/cub.cuh>\n#include <cuda_runtime.h>\n",
+    "experiments/run.cpp": '#include <CLI/CLI.hpp>\n#include "fast/contestant.hpp"\n#include "reference/contestant.hpp"\n',
+    "experiments/command_contacts.cpp": '#include "fast/contact_sets.hpp"\n',
+    "tests/fast/all.cpp": '#include <catch2/catch.hpp>\n#include "fast/contact_sets.hpp"\n',
+    "README.md": "See https://example.org/work/page and ../work/notes.\n",
+}
+
+# Name -> (files that change, what one finding says, where).
+PLANTED = {
+    "compare includes a contestant": ({"compare/files/x.cpp": '\n#include "fast/contact_sets.hpp"\n'}, "compare/files may not include", "compare/files/x.cpp:2"),
+    "fast includes reference": ({"fast/contact_sets.hpp": '#include "reference/contestant.hpp"\n'}, "fast may not include", "fast/contact_sets.hpp:1"),
+    "reference includes files": ({"compare/files/x.hpp": "", "reference/x.cpp": '#include "compare/files/x.hpp"\n'}, "reference may not include", "reference/x.cpp:1"),
+    "oracle includes the judge": ({"compare/judge/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/x.hpp"\n'}, "compare/oracle may not", "compare/oracle/x.cpp:1"),
+    "experiments includes the inside": ({"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
+    "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
+    "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in", "fast/x.cpp:1"),
+    "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in", "compare/problem/x.cpp:1"),
+    "CUDA outside of cuda": ({"fast/kernels/x.hpp": "#include <cuda_runtime.h>\n"}, "is allowed only in fast/cuda", "fast/kernels/x.hpp:1"),
+    "TBB in a kernel": ({"fast/kernels/x.hpp": "#include <tbb/parallel_for.h>\n"}, "is allowed only in", "fast/kernels/x.hpp:1"),
+    "an unknown library": ({"fast/x.cpp": "#include <fmt/format.h>\n"}, "neither standard nor", "fast/x.cpp:1"),
+    "not from the root": ({"fast/x.cpp": '#include "contestant.hpp"\n'}, "does not exist", "fast/x.cpp:1"),
+    "a file in no room": ({"plots/x.cpp": "#include <vector>\n"}, "stands in no room", "plots/x.cpp:1"),
+    "a cycle": (
+        {"fast/a.hpp": '#include "fast/b.hpp"\n', "fast/b.hpp": '#include "fast/c.hpp"\n', "fast/c.hpp": '#include "fast/a.hpp"\n'},
+        "closes an include cycle: fast/a.hpp -> fast/b.hpp -> fast/c.hpp -> fast/a.hpp",
+        "fast/c.hpp:1",
+    ),
+    "a file that includes itself": ({"fast/a.hpp": '#include "fast/a.hpp"\n'}, "closes an include cycle", "fast/a.hpp:1"),
+    "folders that include each other": (
+        {"fast/cpu/a.hpp": "", "fast/cpu/b.hpp": '#include "fast/stages/b.hpp"\n', "fast/stages/a.hpp": '#include "fast/cpu/a.hpp"\n', "fast/stages/b.hpp": ""},
+        "the folders fast/cpu and fast/stages include each other",
+        "fast/cpu/b.hpp:1",
+    ),
+    "a room's header that includes a part which includes it": (
+        {"fast/cpu/x.hpp": "", "fast/x.hpp": '#include "fast/cpu/x.hpp"\n'},
+        "the folders fast and fast/cpu include each other",
+        "fast/x.hpp:1",
+    ),
+    "a stage includes contestant.hpp": (
+        {"compare/stages/x.hpp": '#include "compare/problem/contestant.hpp"\n'},
+        "stands above the folders",
+        "compare/stages/x.hpp:1",
+    ),
+    "a long file": ({"fast/x.cpp": "\n" * (LONGEST_FILE + 1)}, "has 801 lines", "fast/x.cpp:801"),
+    "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine", "README.md:2"),
+    "a path in a script": ({".ci/run": "cd '/" + "root/ogc'\n"}, "absolute path of a machine", ".ci/run:1"),
+}
+
+
+def findings_of(files):
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in files.items():
+            path = Path(root) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return House(root).findings
+
+
+def self_test():
+    """Messages about planted violations that were not found, or found beside others."""
+    failures = [f"self-test: a sound tree is refused: {finding}" for finding in findings_of(SOUND)]
+    for name, (changes, message, where) in PLANTED.items():
+        found = findings_of({**SOUND, **changes})
+        if len(found) != 1 or message not in found[0] or not found[0].startswith(where + ":"):
+            failures.append(f"self-test: {name}: expected one finding at {where}, '{message}', got {found}")
+    return failures
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        print(__doc__, file=sys.stderr)
+        return 2
+    findings = self_test()
+    if arguments[0] != "--self-test":
+        house = House(arguments[0])
+        if not house.includes:
+            findings.append(f"{arguments[0]}: no source files there")
+        findings += house.findings
+    for finding in findings:
+        print(finding)
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
