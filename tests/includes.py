@@ -221,11 +221,26 @@ SOUND = {
 
 # Name -> (files that change, what one finding says, where).
 PLANTED = {
-    "compare includes a contestant": ({"compare/files/x.cpp": '\n#include "fast/contact_sets.hpp"\n'}, "compare/files may not include", "compare/files/x.cpp:2"),
-    "fast includes reference": ({"fast/contact_sets.hpp": '#include "reference/contestant.hpp"\n'}, "fast may not include", "fast/contact_sets.hpp:1"),
-    "reference includes files": ({"compare/files/x.hpp": "", "reference/x.cpp": '#include "compare/files/x.hpp"\n'}, "reference may not include", "reference/x.cpp:1"),
-    "oracle includes the judge": ({"compare/judge/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/x.hpp"\n'}, "compare/oracle may not", "compare/oracle/x.cpp:1"),
-    "experiments includes the inside": ({"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
+    "compare includes a contestant": (
+        {"compare/files/x.cpp": '\n#include "fast/contact_sets.hpp"\n'},
+        "compare/files may not include", "compare/files/x.cpp:2",
+    ),
+    "fast includes reference": (
+        {"fast/contact_sets.hpp": '#include "reference/contestant.hpp"\n'},
+        "fast may not include", "fast/contact_sets.hpp:1",
+    ),
+    "reference includes files": (
+        {"compare/files/x.hpp": "", "reference/x.cpp": '#include "compare/files/x.hpp"\n'},
+        "reference may not include", "reference/x.cpp:1",
+    ),
+    "oracle includes the judge": (
+        {"compare/judge/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/x.hpp"\n'},
+        "compare/oracle may not", "compare/oracle/x.cpp:1",
+    ),
+    "experiments includes the inside": (
+        {"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'},
+        "experiments may not", "experiments/x.cpp:1",
+    ),
     "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
     "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in", "fast/x.cpp:1"),
     "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in", "compare/problem/x.cpp:1"),

@@ -103,7 +103,8 @@ void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion
 }
 
 void check_motions(std::vector<Problem>& problems, const Scene& scene, bool covered, std::size_t limit) {
-  ProblemSort unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + std::to_string(scene.mesh.positions.size() - 1));
+  const std::string last = std::to_string(scene.mesh.positions.size() - 1);
+  ProblemSort unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + last);
   ProblemSort fixed(problems, limit, "moves a vertex of a fixed body", "leave the vertex out or make the body free");
   ProblemSort twice(problems, limit, "moves a vertex that is prescribed already", "list each vertex once, in one motion");
   const std::vector<Index> body = covered ? body_of_vertex(scene) : std::vector<Index>{};

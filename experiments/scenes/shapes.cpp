@@ -1,6 +1,7 @@
 // Closed formulas only, so that a scene is the same wherever it is generated.
 #include "experiments/scenes/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 

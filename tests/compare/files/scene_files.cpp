@@ -70,8 +70,10 @@ class Edited {
   json content;
 };
 
+using UseObject = std::function<void(const json::json_pointer&, const json&)>;
+
 // Calls use(pointer to an object of the document, schema of that object) for every object that the schema describes.
-void each_object(const json& schema, const json& document, const json::json_pointer& at, const std::function<void(const json::json_pointer&, const json&)>& use) {
+void each_object(const json& schema, const json& document, const json::json_pointer& at, const UseObject& use) {
   if (schema.value("type", "") == "object") {
     use(at, schema);
     for (const auto& [key, inner] : schema["properties"].items()) {
