@@ -27,8 +27,9 @@ using compare::InputError;
 using compare::Stage;
 using compare::StageReport;
 
-constexpr std::size_t printed_mismatches = 10;
-constexpr std::size_t saved_cases = 20;
+// A generator; one that fails everywhere must not hide the others.
+constexpr std::size_t printed_mismatches = 3;
+constexpr std::ptrdiff_t saved_cases = 4;
 
 struct CompareOptions {
   std::vector<std::string> stages;
@@ -113,14 +114,15 @@ compare::TestCase case_again(const compare::CaseName& name, std::span<const comp
   return compare::generate(name, states.of(name.states));
 }
 
-/// Saves the first failing cases; returns the paths.
+/// Saves the first failing cases of each generator; returns the paths.
 std::vector<std::string> save_failures(const std::vector<StageReport>& reports, std::span<const compare::TestCase> given, OpenStates& states,
                                        const std::filesystem::path& folder) {
   std::vector<std::string> paths;
   for (const StageReport& report : reports) {
     std::vector<compare::CaseName> saved;
     for (const compare::Mismatch& mismatch : report.tally.mismatches) {
-      if (saved.size() == saved_cases) break;
+      const auto same_generator = [&](const compare::CaseName& name) { return name.generator == mismatch.name.generator; };
+      if (std::count_if(saved.begin(), saved.end(), same_generator) == saved_cases) continue;
       if (std::find(saved.begin(), saved.end(), mismatch.name) != saved.end()) continue;
       saved.push_back(mismatch.name);
       paths.push_back(compare::save_case(folder, case_again(mismatch.name, given, states), mismatch.message).string());

@@ -24,8 +24,13 @@ std::string per_step(std::int64_t count, std::int64_t steps) {
 }  // namespace
 
 Json to_json(const RunSummary& summary) {
-  Json json{{"scene", summary.scene},   {"scale", summary.scale.empty() ? Json(nullptr) : Json(summary.scale)}, {"solver", summary.solver}, {"backend", summary.backend},
-            {"device", summary.device}, {"folder", summary.folder}, {"status", summary.status}};
+  Json json{{"scene", summary.scene}};
+  json["scale"] = summary.scale.empty() ? Json(nullptr) : Json(summary.scale);
+  json["solver"] = summary.solver;
+  json["backend"] = summary.backend;
+  json["device"] = summary.device;
+  json["folder"] = summary.folder;
+  json["status"] = summary.status;
   json["guarantee_kept"] = summary.guarantee_kept ? Json(*summary.guarantee_kept) : Json(nullptr);
   json["final_hash"] = summary.final_hash;
   json["first_step"] = summary.first_step;

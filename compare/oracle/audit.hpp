@@ -26,10 +26,12 @@ struct AuditOptions {
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;
-  std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet
+  std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet, without those left out
 };
 
-/// Exact: no rounding decides. `rigid_groups` as in DetectIn; may be empty (then no pair is left out but by a shared vertex).
+/// Exact: no rounding decides, and the answer does not depend on the number of threads. `rigid_groups` as in DetectIn; may be empty (then no pair is left
+/// out but by a shared vertex). A collapsed triangle is the segment or point that it covers, an edge of length zero a point. A vertex on a triangle is listed
+/// beside its edges, which touch the triangle too. Throws InputError where a position is not finite or sizes do not fit.
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups = {},
                   const AuditOptions& options = {});
 

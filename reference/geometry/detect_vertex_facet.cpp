@@ -42,7 +42,7 @@ class VertexQuery {
     if (d < in_.query_radius) ++answer_.pairs;
     const bool within = d < in_.contact_radius;
     if (within) enter(face_of(t, feature));
-    if (within || grey(with_radius(gap, in_.contact_radius))) ask_about(t, corners, feature);
+    if (within || grey(with_radius(gap, in_.contact_radius))) ask_about(t, corners);
     return d;
   }
 
@@ -95,19 +95,25 @@ class VertexQuery {
   }
 
   /// The faces of a triangle within r that are or could be closest: which of them are doubtful, and what they are doubtful against.
-  void ask_about(Index t, const Corners& corners, TriangleFeature closest) {
+  void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);
+    std::vector<Face> closest;
     for (int f = 0; f < 7; ++f) {
-      if ((features >> f & 1) != 0) note(face_of(t, static_cast<TriangleFeature>(f)));
+      if ((features >> f & 1) != 0) closest.push_back(face_of(t, static_cast<TriangleFeature>(f)));
     }
-    if (has_area(corners)) return;
-    // A collapsed triangle has several closest faces at once; Algorithm 1 takes one, another order of its edges would take another.
-    for (int f = 0; f < 6; ++f) {
-      const Face face = face_of(t, static_cast<TriangleFeature>(f));
-      if (static_cast<TriangleFeature>(f) == closest || !membership(face).possible) continue;
-      doubtful_.add(face, false);
-      if (membership(face_of(t, closest)).possible) doubtful_.add(face_of(t, closest), false);
-      doubtful_.join(face, face_of(t, closest));
+    for (const Face face : closest) note(face);
+    if (!has_area(corners)) note_ties(closest);
+  }
+
+  /// A collapsed triangle has several closest faces at once; Algorithm 1 takes one, another order of its corners would take another.
+  void note_ties(const std::vector<Face>& closest) {
+    for (const Face face : closest) {
+      if (!membership(face).possible) continue;
+      for (const Face other : closest) {
+        if (other == face) continue;
+        doubtful_.add(face, !membership(other).possible);
+        doubtful_.join(face, other);
+      }
     }
   }
 

@@ -247,6 +247,16 @@ TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coincidin
   CHECK(contacts_of(truth, 3).size() == 1);
   CHECK(truth.exact.d_min_vertex[3] == 0.5f);
   CHECK(truth.exact.d_min_vertex[4] == 0);
+  // Vertices 1 and 2 coincide, so both are closest in triangle 0. The lower-numbered corner is 1, whose block ends before its neighbour 4; another order
+  // of the corners would give a contact with 2.
+  Surface coinciding{{{4, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {-1, 0, 2}, {-1, 1, 2}}, {{0, 1, 2}, {1, 4, 5}}, {}, {}};
+  const auto tie = detect(coinciding, 2, 3);
+  const VertexFacetContact other{3, vertex_face(2), 0};
+  std::vector<VertexFacetContact> answer = tie.exact.contacts;
+  CHECK(std::find(answer.begin(), answer.end(), other) == answer.end());
+  CHECK(accepted(tie, answer));
+  answer.push_back(other);
+  CHECK(accepted(tie, answer));
 }
 
 TEST_CASE("detect_vertex_facet: a vertex one unit in the last place beside a shared edge is grey between the edge and its triangles", "[unit]") {
