@@ -13,8 +13,8 @@
 #include "compare/problem/mesh.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
+#include "fast/contact_view.hpp"
 #include "fast/contestant.hpp"
-#include "fast/stages/contact_view.hpp"
 
 namespace ogc::fast {
 

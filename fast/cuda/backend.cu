@@ -72,9 +72,13 @@ void CudaBackend::end_recording(Recording& recording) {
 
 void CudaBackend::abandon_recording() noexcept {
   recording_ = false;
-  if (current_ != stream_) cudaStreamDestroy(current_);
-  current_ = stream_;
   cudaGraph_t graph = nullptr;
+  if (current_ != stream_) {
+    cudaStreamEndCapture(current_, &graph);  // the body belongs to its node: not destroyed here
+    cudaStreamDestroy(current_);
+    graph = nullptr;
+  }
+  current_ = stream_;
   cudaStreamEndCapture(stream_, &graph);
   if (graph != nullptr) cudaGraphDestroy(graph);
   cudaGetLastError();

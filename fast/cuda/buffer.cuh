@@ -15,7 +15,8 @@
 
 namespace ogc::fast {
 
-/// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the size asked for, the size free and what to do.
+/// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the size asked for, the size free and
+/// what to do.
 void* device_allocate(std::size_t bytes);
 void device_free(void* memory) noexcept;
 

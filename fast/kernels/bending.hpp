@@ -25,14 +25,14 @@ struct HingeRest {
   float stiffness = 0;               ///< c [J]
 };
 
-/// What angle and gradient need of a hinge's present shape.
+/// Angle of a hinge and what its gradients need of the present shape.
 struct HingeShape {
-  Vec edge, normal_a, normal_b;  ///< e, n_a, n_b
-  float length_squared = 0;        ///< ‖e‖²
-  float foot_a = 0, foot_b = 0;    ///< s_a, s_b
-  float angle = 0;                 ///< θ
-  Vec gradient_a, gradient_b;    ///< ∂θ/∂o0, ∂θ/∂o1 [1/m]
-  bool defined = false;            ///< false where a triangle or the edge collapsed
+  Vec normal_a, normal_b;              ///< n_a, n_b
+  float length_squared = 0;            ///< ‖e‖²
+  float beyond_a = 0, beyond_b = 0;    ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
+  float divisor_a = 0, divisor_b = 0;  ///< ‖e‖ ‖n‖²
+  float angle = 0;                     ///< θ
+  bool defined = false;                ///< false where a triangle or the edge collapsed
 };
 
 /// A triangle has collapsed where its doubled area is below the rounding error of its own cross product, 4 u ‖e‖‖a‖ (two products and a difference in
@@ -44,7 +44,6 @@ OGC_HD inline bool hinge_side_collapsed(float normal_squared, float length_squar
 
 OGC_HD inline HingeShape hinge_shape(const Vec& edge, const Vec& a, const Vec& b) {
   HingeShape shape;
-  shape.edge = edge;
   shape.normal_a = cross(edge, a);
   shape.normal_b = cross(b, edge);
   shape.length_squared = dot(edge, edge);
@@ -53,16 +52,17 @@ OGC_HD inline HingeShape hinge_shape(const Vec& edge, const Vec& a, const Vec& b
   shape.defined = true;
   const float length = sqrtf(shape.length_squared);
   shape.angle = arctangent2(-length * dot(shape.normal_a, b), dot(shape.normal_a, shape.normal_b));
-  shape.gradient_a = (-length / squared_a) * shape.normal_a;
-  shape.gradient_b = (-length / squared_b) * shape.normal_b;
-  shape.foot_a = dot(a, edge) / shape.length_squared;
-  shape.foot_b = dot(b, edge) / shape.length_squared;
+  shape.beyond_a = shape.length_squared - dot(a, edge);
+  shape.beyond_b = shape.length_squared - dot(b, edge);
+  shape.divisor_a = length * squared_a;
+  shape.divisor_b = length * squared_b;
   return shape;
 }
 
-/// ∂θ/∂x0 [1/m].
-OGC_HD inline Vec hinge_gradient_edge(const HingeShape& shape) {
-  return (shape.foot_a - 1.0f) * shape.gradient_a + (shape.foot_b - 1.0f) * shape.gradient_b;
+/// ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators: the lanes of a team hold both roles at once.
+OGC_HD inline Vec hinge_gradient(const HingeShape& shape, bool opposite) {
+  const float a = opposite ? -shape.length_squared : shape.beyond_a, b = opposite ? 0.0f : shape.beyond_b;
+  return (a / shape.divisor_a) * shape.normal_a + (b / shape.divisor_b) * shape.normal_b;
 }
 
 struct HingeStencil {

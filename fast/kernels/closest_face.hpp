@@ -10,44 +10,46 @@ namespace ogc::fast {
 
 using compare::TriangleFeature;
 
-/// Corners in ascending order of their vertex numbers, so that a shared edge gives the same operands in all of its triangles.
 struct Corners {
   Vec a, b, c;
 
   OGC_HD const Vec& operator[](int k) const { return k == 0 ? a : (k == 1 ? b : c); }
 };
 
+/// Part of x on the inner side of the edge e from its first end, u = x − first end, w = third corner − first end: of the sign of Side.
+OGC_HD inline double inner_side(const Real& u, const Real& w, const Real& e) { return perpendicular_product(u, w, e).value; }
+
 /// Distance of x and the closed triangle.
 ///
-/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: the normal errs by 4 roundings of L² and the barycentric sums by 16 of S L², which
-/// moves a point by S L²/‖n‖ at most; in all under 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁶ L counts as its edges, no point of it being farther from them.
+/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: a side errs by 16 roundings of ‖u‖‖w‖‖e‖², which moves the foot across that edge
+/// by 16 ‖u‖‖w‖‖e‖/‖n‖, and the normal's 4 roundings tilt the plane by as much: under 2⁻⁴⁸ S L²/‖n‖ together. A triangle lower than 2⁻²⁴ L counts as its
+/// edges, no point of it being farther from them. Both limits stay under 2 u S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
-  const Real u = difference<Rounded>(x, t.a), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a), f = difference<Rounded>(t.c, t.b);
-  const Real n = cross(e, w);
-  const double ee = squared(e), ww = squared(w), nn = squared(n);
-  const double longest = larger(larger(ee, ww), squared(f)), longest_4 = mul(longest, longest);
+  const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a);
+  const Real f = difference<Rounded>(t.c, t.b), n = cross(e, w);
+  const double nn = squared(n), longest = larger(larger(squared(e), squared(w)), squared(f)), longest_4 = mul(longest, longest);
   const double size = add(add(norm_1(u), norm_1(e)), norm_1(w));
-  const bool has_inside = nn > mul(0x1p-52, longest_4);
+  const bool has_inside = nn > mul(0x1p-48, longest_4);
 
-  double slack = mul(0x1p-38, size);  // L²/‖n‖ ≤ 2⁸: nearly all triangles
+  double slack = mul(0x1p-40, size);  // L²/‖n‖ ≤ 2⁸: nearly all triangles
   if (!has_inside) {
-    slack = add(mul(0x1p-46, size), mul(0x1p-25, square_root(longest)));
+    slack = add(mul(0x1p-46, size), mul(0x1p-24, square_root(longest)));
   } else if (nn < mul(0x1p-16, longest_4)) {
-    slack = mul(mul(0x1p-46, size), square_root(divide(longest_4, nn)));
+    slack = mul(mul(0x1p-47, size), square_root(divide(longest_4, nn)));
   }
-  if (has_inside) {
-    const double ew = dot(e, w).value, ue = dot(u, e).value, uw = dot(u, w).value;
-    const double at_b = sub(mul(ww, ue), mul(ew, uw)), at_c = sub(mul(ee, uw), mul(ew, ue));
-    if (at_b > 0 && at_c > 0 && add(at_b, at_c) < nn) return {divide(modulus(dot(u, n).value), square_root(nn)), slack};
+  if (has_inside && inner_side(u, w, e) > 0 && inner_side(u, e, w) > 0 && inner_side(v, -e, f) > 0) {
+    return {divide(modulus(dot(u, n).value), square_root(nn)), slack};
   }
-  const Real v = difference<Rounded>(x, t.b);
   const double nearest = smaller(smaller(squared_to_segment(u, e), squared_to_segment(u, w)), squared_to_segment(v, f));
   return {square_root(nearest), slack};
 }
 
+/// Facet::descending of a triangle whose corners are numbered in order.
+inline constexpr unsigned corners_in_order = 4;
+
 /// The face of the triangle whose interior holds the point closest to x; where two faces meet the lower-dimensional one wins. The signs partition space;
-/// a triangle without area can offer several edges, of which the first is taken.
-OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t) {
+/// a triangle without area can offer several faces, of which the first is taken. `descending`: see Facet.
+OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, unsigned descending = corners_in_order) {
   bool before[3][2];  // edge k from corner k to k + 1: before its first, its second end
   for (int k = 0; k < 3; ++k) {
     const Vec &a = t[k], &b = t[(k + 1) % 3];
@@ -57,10 +59,12 @@ OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t) {
   for (int k = 0; k < 3; ++k) {
     if (!before[k][0] && !before[(k + 2) % 3][1]) return static_cast<TriangleFeature>(k);
   }
-  const auto outside = [&](const Vec& a, const Vec& b, const Vec& c) { return exact_sign(Side{x, a, b, c}) <= 0; };
-  if (before[0][0] && before[0][1] && outside(t.a, t.b, t.c)) return TriangleFeature::edge_01;
-  if (before[1][0] && before[1][1] && outside(t.b, t.c, t.a)) return TriangleFeature::edge_12;
-  if (before[2][0] && before[2][1] && outside(t.a, t.c, t.b)) return TriangleFeature::edge_20;
+  for (int k = 0; k < 3; ++k) {
+    if (!before[k][0] || !before[k][1]) continue;
+    const Vec &a = t[k], &b = t[(k + 1) % 3], &c = t[(k + 2) % 3];
+    const bool swap = (descending >> k & 1U) != 0;
+    if (exact_sign(Side{x, swap ? b : a, swap ? a : b, c}) <= 0) return static_cast<TriangleFeature>(3 + k);
+  }
   return TriangleFeature::interior;
 }
 

@@ -30,16 +30,16 @@ OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const R
 /// Distance of the two closed edges.
 ///
 /// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32 roundings of 1/θ and S/θ², and the
-/// foot's error moves the distance by θ times as much: under 2⁻⁴⁶ S/θ. At θ < 2⁻²⁶ two edges are nowhere nearer than an end by more than θ ‖shorter‖.
+/// foot's error moves the distance by θ times as much: under 2⁻⁴⁷ S/θ. At θ < 2⁻²³ two edges are nowhere nearer than an end by more than θ ‖shorter‖.
 OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a), n = cross(e, f);
   const double ee = squared(e), ff = squared(f), nn = squared(n), whole = mul(ee, ff);
   const double size = add(norm_1(w), add(norm_1(e), norm_1(f)));
-  if (!(nn > mul(0x1p-52, whole))) {
-    return {smallest_end_distance(w, e, f), add(mul(0x1p-45, size), mul(0x1p-25, square_root(smaller(ee, ff))))};
+  if (!(nn > mul(0x1p-46, whole))) {
+    return {smallest_end_distance(w, e, f), add(mul(0x1p-46, size), mul(0x1p-23, square_root(smaller(ee, ff))))};
   }
   const bool skew = nn >= mul(0x1p-16, whole);
-  const double slack = skew ? mul(0x1p-38, size) : mul(mul(0x1p-45, size), square_root(divide(whole, nn)));
+  const double slack = skew ? mul(0x1p-38, size) : mul(mul(0x1p-46, size), square_root(divide(whole, nn)));
   const double ef = dot(e, f).value, we = dot(w, e).value, wf = dot(w, f).value;
   const double s = sub(mul(we, ff), mul(ef, wf)), t = sub(mul(we, ef), mul(ee, wf));
   if (!(s > 0 && s < nn && t > 0 && t < nn)) return {smallest_end_distance(w, e, f), slack};

@@ -1,4 +1,4 @@
-// A contact between two sides, each the closed face of a record (fast/stages/contact_view.hpp), at the positions that a vertex update reads: closest points
+// A contact between two sides, each the closed face of a record (fast/contact_view.hpp), at the positions that a vertex update reads: closest points
 // in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4).
 //
 //   kind              slots       Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals

@@ -7,7 +7,7 @@
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/sweep.hpp"
-#include "fast/stages/contact_view.hpp"
+#include "fast/contact_view.hpp"
 
 namespace ogc::fast {
 

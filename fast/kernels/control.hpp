@@ -88,6 +88,7 @@ struct ChooseQueryRadius {
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
+    if (c.attempted == 0) return;
     stop_if_failed(c);
     const float wanted = settings.contact_radius + float_from_bits(c.largest_move);
     c.query_radius = wanted < settings.largest_query_radius ? wanted : settings.largest_query_radius;

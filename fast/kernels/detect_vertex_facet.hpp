@@ -46,7 +46,7 @@ struct DetectVertexFacet {
 
   /// Each triangle around a shared face reports it; the lists keep one.
   OGC_HD void collect(int v, const Vec& x, int t, const Facet& facet, const Corners& corners, const Distance& d) const {
-    const TriangleFeature feature = closest_feature(x, corners);
+    const TriangleFeature feature = closest_feature(x, corners, facet.descending);
     if (!is_within(x, corners, feature, d, contact_radius)) return;
     if (feature == TriangleFeature::interior) {
       lists.append({v, surface.triangle_face(t), 0, 0});

@@ -15,7 +15,8 @@ OGC_HD inline float friction_slope_over_slip(float slip, float limit) {
   return slip < limit ? (2.0f - slip / limit) / limit : 1.0f / slip;
 }
 
-/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ). `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part; `normal_force` λ ≥ 0 [N]; `limit` ε_v h [m].
+/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ). `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N];
+/// `limit` ε_v h [m].
 OGC_HD inline void add_friction(const Vec& normal, const Vec& moved, float weight, float friction, float normal_force, float limit, ForceAndBlock& sum) {
   const Vec slip = moved - dot(normal, moved) * normal;
   const float strength = friction * normal_force * friction_slope_over_slip(sqrtf(dot(slip, slip)), limit);

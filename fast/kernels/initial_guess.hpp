@@ -84,8 +84,8 @@ struct BeginBounds {
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact stays where it is: each contact of the list
-/// is active, as X_prev = x.
+/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact stays where it is: each contact
+/// of the list is active, as X_prev = x.
 struct GuessVertex {
   const Vec* target;
   const Vec* previous;

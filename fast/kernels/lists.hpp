@@ -6,9 +6,9 @@
 // but the queries stop at the overflow flag, and the cursor says how much room the same detection needs.
 #pragma once
 
+#include "fast/contact_view.hpp"
 #include "fast/kernels/atomic.hpp"
 #include "fast/kernels/surface.hpp"
-#include "fast/stages/contact_view.hpp"
 
 namespace ogc::fast {
 

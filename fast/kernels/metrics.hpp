@@ -8,7 +8,7 @@
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/membrane.hpp"
-#include "fast/stages/contact_view.hpp"
+#include "fast/contact_view.hpp"
 
 namespace ogc::fast {
 
@@ -42,6 +42,7 @@ struct CheckVertex {
   StepControl* control;
 
   OGC_HD void operator()(int v) const {
+    if (control->active == 0) return;
     const Vec x = position[v];
     if (!is_finite(x)) control->count_not_finite();
     if (bound_violated(x, previous[v], bound[v])) control->count_violation();
@@ -59,14 +60,16 @@ struct EndCheck {
   OGC_HD void operator()(int) const { stop_if_failed(*control); }
 };
 
-/// for_each over all vertices: v = (x − xᵗ)/h, xᵗ = x.
+/// for_each over all vertices of a step that is clean: v = (x − xᵗ)/h, xᵗ = x.
 struct CommitVertex {
   const Vec* position;
   float step;
+  const StepControl* control;
   Vec* start;
   Vec* velocity;
 
   OGC_HD void operator()(int v) const {
+    if (control->active == 0) return;
     const Vec x = position[v], moved = x - start[v];
     velocity[v] = {moved.x / step, moved.y / step, moved.z / step};
     start[v] = x;

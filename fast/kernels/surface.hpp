@@ -7,10 +7,12 @@
 
 namespace ogc::fast {
 
-/// A triangle with its corners in ascending order, and the numbers of its edges 01, 12, 20 in that order.
+/// A triangle with its corners in the order of the mesh and the numbers of its edges 01, 12, 20. Bit k of `descending` is set where edge k starts at
+/// its higher-numbered vertex, so that every triangle at an edge can give the edge's predicate the same operands.
 struct Facet {
   int corner[3];
   int edge[3];
+  unsigned descending;
 };
 
 /// Vertices of an edge, smaller first.

@@ -3,7 +3,8 @@
 // thing at the same time, and one reduction for all of them.
 //
 // Two position buffers an iteration (method.md §7): a neighbour of lower colour is read from the fresh buffer, any other from the old one. Which of the
-// two is known when the streams are made, so it stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as colour -1.
+// two is known when the streams are made, so it stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as
+// colour -1.
 #pragma once
 
 #include <cmath>
@@ -36,8 +37,8 @@ struct alignas(16) MembraneIncidence {
   MembraneStencil stencil{};
 };
 
-/// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex as x0); at an opposite vertex it is x0, x1, o1 (with the own
-/// vertex as o0).
+/// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex as x0); at an opposite vertex it is
+/// x0, x1, o1 (with the own vertex as o0).
 struct alignas(8) HingeIncidence {
   int index[3] = {0, 0, 0};
   int hinge = -1;  ///< number in RestState::hinges; ~number at an opposite vertex
@@ -51,6 +52,9 @@ struct alignas(16) ContactIncidence {
   ContactKind kind = ContactKind::point_point;
   std::uint8_t own = 0;
 };
+
+/// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
+OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
 /// Everything that an update reads and writes. Plain pointers, valid for one launch sequence.
 struct SweepView {
@@ -72,10 +76,8 @@ struct SweepView {
   float radius = 0;          ///< r [m]
   float friction_limit = 0;  ///< ε_v h [m]
 
-  OGC_HD Vec read(int index) const { return index < 0 ? fresh[~index] : old[index]; }
+  OGC_HD Vec read(int index) const { return (index < 0 ? fresh : old)[decoded(index)]; }
 };
-
-OGC_HD inline int decoded(int index) { return index < 0 ? ~index : index; }
 
 OGC_HD inline void add_membrane_incidence(const SweepView& view, const MembraneIncidence& incidence, const SurfaceMaterial& material, const Vec& own,
                                           ForceAndBlock& sum) {
@@ -92,7 +94,7 @@ OGC_HD inline void add_hinge_incidence(const SweepView& view, const HingeInciden
   const HingeShape shape = hinge_shape(end - base, side - base, p2 - base);
   if (!shape.defined) return;
   const float angle_start = material.bending_damping > 0 ? view.angle_start[decoded(incidence.hinge)] : 0.0f;
-  add_hinge(incidence.stencil, material.bending_damping, shape.angle, angle_start, opposite ? shape.gradient_a : hinge_gradient_edge(shape), sum);
+  add_hinge(incidence.stencil, material.bending_damping, shape.angle, angle_start, hinge_gradient(shape, opposite), sum);
 }
 
 OGC_HD inline void add_contact_incidence(const SweepView& view, const ContactIncidence& incidence, ForceAndBlock& sum) {

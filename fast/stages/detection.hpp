@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <span>
 
+#include "fast/contact_view.hpp"
 #include "fast/stages/bound.hpp"
 #include "fast/stages/bvh.hpp"
-#include "fast/stages/contact_view.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
 #include "fast/stages/lists.hpp"
@@ -56,7 +56,8 @@ class Detection {
                       PrepareDetection{{lists, surface.vertex_count},
                                        {query_radius, lists.overflow, surface.edge_count, surface.triangle_count, d_edge, d_triangle}});
     bvh_.refit(backend_, positions, query_radius);
-    detect_vertex_facet(backend_, {surface, positions, bvh_.facets(), bvh_.vertex_order(), lists, contact_radius, query_radius, d_min_vertex_.data(), d_triangle});
+    detect_vertex_facet(backend_, {surface, positions, bvh_.facets(), bvh_.vertex_order(), lists, contact_radius, query_radius,
+                                   d_min_vertex_.data(), d_triangle});
     detect_edge_edge(backend_, {surface, positions, bvh_.edges(), lists, contact_radius, query_radius, d_edge});
     lists_.assemble(backend_);
     compute_bounds(backend_, surface.vertex_count,

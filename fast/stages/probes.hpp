@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,46 +12,10 @@
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/truncate.hpp"
 #include "fast/stages/contact_engine.hpp"
+#include "fast/stages/probe_forces.hpp"
+#include "fast/stages/probe_memory.hpp"
 
 namespace ogc::fast {
-
-/// Arrays of one probe on the backend: cases go in, answers come out.
-template <class Backend>
-class ProbeMemory {
- public:
-  explicit ProbeMemory(Backend& backend) : backend_(backend) {}
-
-  /// As many items of type To, of the same layout, on the backend; valid as long as the memory.
-  template <class To, class From>
-  const To* in(const std::vector<From>& items) {
-    static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
-    auto buffer = std::make_shared<typename Backend::template Buffer<To>>();
-    buffer->upload(reinterpret_cast<const To*>(items.data()), items.size());
-    kept_.push_back(buffer);
-    return buffer->data();
-  }
-
-  /// Room for n answers on the backend, with `to` resized to take them in `fetch`.
-  template <class From, class To>
-  From* out(std::vector<To>& to, std::size_t n) {
-    static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
-    auto buffer = std::make_shared<typename Backend::template Buffer<From>>();
-    buffer->resize(n);
-    to.resize(n);
-    fetches_.push_back([buffer, &to] { buffer->download(reinterpret_cast<From*>(to.data()), to.size()); });
-    return buffer->data();
-  }
-
-  void fetch() {
-    backend_.synchronize();
-    for (const auto& download : fetches_) download();
-  }
-
- private:
-  Backend& backend_;
-  std::vector<std::shared_ptr<void>> kept_;
-  std::vector<std::function<void()>> fetches_;
-};
 
 struct ProbeClosestFace {
   const Vec* points;
@@ -211,6 +174,8 @@ compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> 
   contestant.bound = [backend](const compare::BoundIn& in) { return probe_bound(*backend, in); };
   contestant.activation = [backend](const compare::ActivationIn& in) { return probe_activation(*backend, in); };
   contestant.truncate = [backend](const compare::TruncateIn& in) { return probe_truncate(*backend, in); };
+  contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };
+  contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
   return contestant;
 }
 

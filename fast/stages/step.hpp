@@ -7,6 +7,7 @@
 //   finish      certificate; commit and sums only if clean; one row
 //
 // A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or is thrown away, and xᵗ, vᵗ stay.
+// Only detections stand inside `when`, which costs a device as much as ten kernels; all else works on arrays that are whole even then.
 #pragma once
 
 #include <cmath>
@@ -98,17 +99,15 @@ class Step {
   void begin() {
     StepState<Backend>& s = state_;
     backend_.for_each(1, BeginStep{control()});
-    backend_.when(flag(&StepControl::attempted), [&] {
-      backend_.for_each(s.vertex_count,
-                        BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(), s.prescribed_targets.data(), s.prescribed_count,
-                                    settings_.acceleration, settings_.step, s.first.data(), s.target.data(), control()});
-      if (s.damped) {
-        backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
-        backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
-      }
-      backend_.for_each(1, ChooseQueryRadius{control(), settings_.control});
-      detection_.rebuild(s.first.data());
-    });
+    backend_.for_each(s.vertex_count,
+                      BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(), s.prescribed_targets.data(), s.prescribed_count,
+                                  settings_.acceleration, settings_.step, s.first.data(), s.target.data(), control()});
+    if (s.damped) {
+      backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
+      backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
+    }
+    backend_.for_each(1, ChooseQueryRadius{control(), settings_.control});
+    detection_.rebuild(s.first.data());
   }
 
   /// Bounds that end here are certified, then X_prev ← x and everything is found anew.
@@ -143,11 +142,9 @@ class Step {
       }
     }
     clock_.time(StepStage::initial_guess, [&] {
-      backend_.when(flag(&StepControl::active), [&] {
-        sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
-        add_vertices(state_.first.data());
-        reduction_.end(state_.sums_guess.data());
-      });
+      sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
+      add_vertices(state_.first.data());
+      reduction_.end(state_.sums_guess.data());
     });
   }
 
@@ -172,17 +169,13 @@ class Step {
 
   void finish(const Vec* position) {
     StepState<Backend>& s = state_;
-    const int* active = flag(&StepControl::active);
-    backend_.when(active, [&] {
-      backend_.for_each(s.vertex_count, CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(), s.prescribed_number.data(), control()});
-      backend_.for_each(1, EndCheck{control()});
-    });
-    backend_.when(active, [&] {
-      add_vertices(position);
-      if (settings_.energies) add_energies(position);
-      reduction_.end(s.sums_end.data());
-      backend_.for_each(s.vertex_count, CommitVertex{position, settings_.step, s.start.data(), s.velocity.data()});
-    });
+    backend_.for_each(s.vertex_count,
+                      CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(), s.prescribed_number.data(), control()});
+    backend_.for_each(1, EndCheck{control()});
+    add_vertices(position);
+    if (settings_.energies) add_energies(position);
+    reduction_.end(s.sums_end.data());
+    backend_.for_each(s.vertex_count, CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
     backend_.for_each(1, FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
   }
 

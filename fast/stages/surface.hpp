@@ -10,17 +10,12 @@
 
 namespace ogc::fast {
 
-/// The triangle with its corners in ascending order.
-inline Facet sorted_facet(const compare::Topology& topology, std::size_t t) {
+inline Facet facet_of(const compare::Topology& topology, std::size_t t) {
   Facet facet{};
-  const compare::Triangle& corners = topology.triangles[t];
-  std::copy(corners.begin(), corners.end(), facet.corner);
-  std::sort(facet.corner, facet.corner + 3);
-  for (int k = 0; k < 3; ++k) {
-    const auto [low, high] = std::minmax(facet.corner[k], facet.corner[(k + 1) % 3]);
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (std::minmax(corners[j], corners[(j + 1) % 3]) == std::pair<const int&, const int&>(low, high)) facet.edge[k] = topology.triangle_edges[t][j];
-    }
+  for (std::size_t k = 0; k < 3; ++k) {
+    facet.corner[k] = topology.triangles[t][k];
+    facet.edge[k] = topology.triangle_edges[t][k];
+    if (topology.triangles[t][k] > topology.triangles[t][(k + 1) % 3]) facet.descending |= 1U << k;
   }
   return facet;
 }
@@ -107,7 +102,7 @@ class Surface {
         edge_count_(static_cast<int>(topology.edges.size())),
         triangle_count_(static_cast<int>(topology.triangles.size())) {
     std::vector<Facet> facets(topology.triangles.size());
-    for (std::size_t t = 0; t < facets.size(); ++t) facets[t] = sorted_facet(topology, t);
+    for (std::size_t t = 0; t < facets.size(); ++t) facets[t] = facet_of(topology, t);
     std::vector<EdgeEnds> edges(topology.edges.size());
     std::transform(topology.edges.begin(), topology.edges.end(), edges.begin(), [](const compare::Edge& e) { return EdgeEnds{e[0], e[1]}; });
     facets_.upload(facets.data(), facets.size());

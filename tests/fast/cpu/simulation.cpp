@@ -97,38 +97,57 @@ TEST_CASE("the printed single round falls behind free fall at once where bounds 
   CHECK(row.momentum_lost_guess > 0.5);
 }
 
-TEST_CASE("a cloth comes to rest on a fixed plane at less than a radius and stays there", "[property]") {
+TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets are found before each iteration", "[property]") {
   compare::Scene scene = empty_scene();
-  add_sheet(scene, 8, 0.06, 0.004, false);
-  add_sheet(scene, 6, 0.10, 0, true);
+  compare::Material material;
+  material.contact_stiffness = 10;
+  add_sheet(scene, 8, 0.06, 0.00499, false, material);
+  add_sheet(scene, 6, 0.10, 0, true, material);
   scene.settings.redetect_every = 1;
-  const Outcome outcome = run(scene, 150);
-  REQUIRE(outcome.rows.size() == 150);
+  const Outcome outcome = run(scene, 60);
+  REQUIRE(outcome.rows.size() == 60);
   for (std::size_t v = 0; v < 64; ++v) {
-    CHECK(outcome.end.positions[v].y > 0.002);
-    CHECK(outcome.end.positions[v].y < 0.005);
-    CHECK(std::abs(outcome.end.velocities[v].y) < 2e-3);
+    CHECK(outcome.end.positions[v].y > 0.0049);
+    CHECK(outcome.end.positions[v].y < 0.00501);
+    CHECK(std::abs(outcome.end.velocities[v].y) < 1e-3);
   }
   CHECK(outcome.rows.back().contact_energy > 0);
-  CHECK(outcome.rows.back().vertex_facet_contacts >= 36);
+  CHECK(outcome.rows.back().vertex_facet_contacts >= 64);
 }
 
+TEST_CASE("found once a step, the sets miss what a vertex just above a radius falls into, and the cloth chatters within a step of free fall", "[property]") {
+  compare::Scene scene = empty_scene();
+  compare::Material material;
+  material.contact_stiffness = 10;
+  add_sheet(scene, 8, 0.06, 0.00499, false, material);
+  add_sheet(scene, 6, 0.10, 0, true, material);
+  const double h = scene.settings.time_step;
+  const Outcome outcome = run(scene, 100);
+  for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(outcome.end.positions[v].y - 0.005) < 9.81 * h * h);
+}
+
+// Membrane and contact are soft against the inertia m/h² of 0.2 N/m, so that few sweeps suffice: a stiff membrane recovers a translation slowly after the
+// first sweep braked it with the normal force of a start that fell into the plane, and stiff contacts do not converge (see the chattering above).
 TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g (sin a - mu cos a) without", "[property]") {
   const double tilt = 0.35, h = 0.01;
   const auto slide = [&](double friction) {
     compare::Scene scene = empty_scene();
     compare::Material material;
     material.friction = friction;
-    add_sheet(scene, 6, 0.05, 0.0049, false, material);
-    add_sheet(scene, 16, 0.4, 0, true, material);
+    material.contact_stiffness = 1;
+    material.lame_lambda = material.lame_mu = 1e-3;
+    material.bending_stiffness = 1e-10;
+    add_sheet(scene, 6, 0.05, 0.00499, false, material);
+    add_sheet(scene, 8, 0.2, 0, true, material);
     scene.gravity = {9.81 * std::sin(tilt), -9.81 * std::cos(tilt), 0};
     scene.settings.iterations = 40;
-    const Outcome outcome = run(scene, 25);
+    scene.settings.redetect_every = 1;
+    const Outcome outcome = run(scene, 6);
     return mean(outcome.end.velocities, 0, 36, &compare::Vec3f::x);
   };
   CHECK(slide(0.6) < 0.01);  // below eps_v: it holds
-  CHECK(slide(0.1) == Approx(9.81 * (std::sin(tilt) - 0.1 * std::cos(tilt)) * 25 * h).epsilon(0.05));
-  CHECK(slide(0) == Approx(9.81 * std::sin(tilt) * 25 * h).epsilon(0.02));
+  CHECK(slide(0.1) == Approx(9.81 * (std::sin(tilt) - 0.1 * std::cos(tilt)) * 6 * h).epsilon(0.03));
+  CHECK(slide(0) == Approx(9.81 * std::sin(tilt) * 6 * h).epsilon(0.03));
 }
 
 TEST_CASE("the same scene gives the same bits twice, with other numbers of threads, in other frames, with profile and without energies", "[property]") {
@@ -191,9 +210,10 @@ TEST_CASE("stored positions lie within the bounds of the last detection", "[prop
 
 TEST_CASE("energy only falls while a cloth drops, touches and slides", "[property]") {
   compare::Scene scene = drop_scene();
+  for (auto& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.iterations = 60;
   scene.settings.redetect_every = 1;
-  const Outcome outcome = run(scene, 40);
+  const Outcome outcome = run(scene, 15);
   double before = INFINITY, start = 0;
   for (const auto& row : outcome.rows) {
     const double total = row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;

@@ -38,7 +38,7 @@ struct Case {
     const Vec x0 = x[order[role][0]], x1 = x[order[role][1]], a = x[order[role][2]], b = x[order[role][3]];
     const HingeShape shape = hinge_shape(x1 - x0, a - x0, b - x0);
     ForceAndBlock sum;
-    if (shape.defined) add_hinge(stencil, damping, shape.angle, angle_start, role < 2 ? hinge_gradient_edge(shape) : shape.gradient_a, sum);
+    if (shape.defined) add_hinge(stencil, damping, shape.angle, angle_start, hinge_gradient(shape, role >= 2), sum);
     return sum;
   }
   // Largest gradient of the angle: one over the smaller height, with the feet of the heights along the edge.

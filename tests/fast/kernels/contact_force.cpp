@@ -167,7 +167,9 @@ TEST_CASE("nearly parallel edges touch in the middle of their overlap", "[unit]"
 TEST_CASE("the mollifier is 0 for parallel edges, 1 from its limit on, and C1 there", "[unit]") {
   CHECK(mollifier({1, 0, 0}, {2, 0, 0}, 1, 4) == 0);
   CHECK(mollifier({1, 0, 0}, {0, 2, 0}, 1, 4) == 1);
-  const auto at = [](double sine) { return static_cast<double>(mollifier({1, 0, 0}, {static_cast<float>(std::sqrt(1 - sine * sine)), static_cast<float>(sine), 0}, 1, 1)); };
+  const auto at = [](double sine) {
+    return static_cast<double>(mollifier({1, 0, 0}, {static_cast<float>(std::sqrt(1 - sine * sine)), static_cast<float>(sine), 0}, 1, 1));
+  };
   const double limit = std::sqrt(1e-3);
   CHECK(at(limit * std::sqrt(0.5)) == Approx(0.75));
   CHECK(at(0.999 * limit) == Approx(1).margin(1e-5));

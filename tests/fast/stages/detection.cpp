@@ -46,7 +46,7 @@ ContactSets all_pairs(const TestMesh& surface, float r_q) {
   sets.d_min_edge.assign(topology.edges.size(), r_q);
   sets.d_min_triangle.assign(topology.triangles.size(), r_q);
   for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
-    const Facet facet = sorted_facet(topology, t);
+    const Facet facet = facet_of(topology, t);
     const Corners corners{x[facet.corner[0]], x[facet.corner[1]], x[facet.corner[2]]};
     Box box;
     for (int k = 0; k < 3; ++k) box.include(corners[k]);

@@ -88,7 +88,9 @@ struct Fixture {
   }
 };
 
-bool same_bits(const std::vector<Vec>& a, const std::vector<Vec>& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec)) == 0; }
+bool same_bits(const std::vector<Vec>& a, const std::vector<Vec>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec)) == 0;
+}
 
 }  // namespace
 

@@ -1,0 +1,124 @@
+// The judge's way in to the energies: each case becomes one incidence of the sweep's streams, made and added by the functions that the sweep uses.
+#pragma once
+
+#include <vector>
+
+#include "compare/stages/bending.hpp"
+#include "compare/stages/membrane.hpp"
+#include "fast/kernels/initial_guess.hpp"
+#include "fast/kernels/sweep.hpp"
+#include "fast/stages/probe_memory.hpp"
+#include "fast/stages/sweep.hpp"
+
+namespace ogc::fast {
+
+/// The points of a batch of stencils in one array.
+template <class Case, std::size_t count>
+std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array<compare::Vec3f, count> Case::*points) {
+  std::vector<compare::Vec3f> all;
+  all.reserve(count * cases.size());
+  for (const Case& c : cases) all.insert(all.end(), (c.*points).begin(), (c.*points).end());
+  return all;
+}
+
+/// Where a probe leaves the sums.
+struct ForceArrays {
+  Vec* force;
+  Symmetric3* block;
+
+  OGC_HD void store(int i, const ForceAndBlock& sum) const {
+    force[i] = sum.force;
+    block[i] = sum.block;
+  }
+};
+
+template <class Backend>
+ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, std::size_t n) {
+  return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
+}
+
+struct ProbeMembrane {
+  SweepView view;
+  ForceArrays out;
+
+  OGC_HD void operator()(int i) const {
+    ForceAndBlock sum;
+    add_membrane_incidence(view, view.membrane[i], view.materials[i], view.old[3 * i], sum);
+    out.store(i, sum);
+  }
+};
+
+template <class Backend>
+compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in) {
+  ProbeMemory<Backend> memory(backend);
+  compare::ForceOut out;
+  const int n = static_cast<int>(in.cases.size());
+  RestState rest;
+  const std::vector<int> colours(3 * in.cases.size(), 0);
+  std::vector<MembraneIncidence> incidences;
+  for (int i = 0; i < n; ++i) {
+    const compare::MembraneCase& c = in.cases[static_cast<std::size_t>(i)];
+    const auto &b = c.gradient[0], &d = c.gradient[1];
+    rest.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0, {{-b[0] - d[0], -b[1] - d[1]}, {b[0], b[1]}, {d[0], d[1]}}, c.area});
+    rest.materials.push_back({c.lame_lambda, c.lame_mu, c.damping, 0});
+    incidences.push_back(detail::membrane_incidence(rest, i, 0, colours));
+  }
+  const std::vector<Symmetric2> no_strain(in.cases.size());
+  typename Backend::template Buffer<Symmetric2> strain_start;
+  strain_start.upload(no_strain.data(), no_strain.size());
+  SweepView view;
+  view.membrane = memory.template in<MembraneIncidence>(incidences);
+  view.materials = memory.template in<SurfaceMaterial>(rest.materials);
+  view.strain_start = strain_start.data();
+  view.old = memory.template in<Vec>(points_of(in.cases, &compare::MembraneCase::corner));
+  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::MembraneCase::start));
+  backend.for_each(n, BeginTriangle{memory.template in<TriangleRest>(rest.triangles), start, strain_start.data()});
+  backend.for_each(n, ProbeMembrane{view, force_arrays(memory, out, in.cases.size())});
+  memory.fetch();
+  return out;
+}
+
+struct ProbeBending {
+  SweepView view;
+  const int* own;
+  ForceArrays out;
+
+  OGC_HD void operator()(int i) const {
+    ForceAndBlock sum;
+    add_hinge_incidence(view, view.hinges[i], view.materials[i], view.old[own[i]], sum);
+    out.store(i, sum);
+  }
+};
+
+template <class Backend>
+compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) {
+  ProbeMemory<Backend> memory(backend);
+  compare::ForceOut out;
+  const int n = static_cast<int>(in.cases.size());
+  RestState rest;
+  const std::vector<int> colours(4 * in.cases.size(), 0);
+  std::vector<HingeIncidence> incidences;
+  std::vector<int> own;
+  for (int i = 0; i < n; ++i) {
+    const compare::BendingCase& c = in.cases[static_cast<std::size_t>(i)];
+    rest.hinges.push_back({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, 0, c.rest_angle, c.stiffness});
+    rest.materials.push_back({0, 0, 0, c.damping});
+    incidences.push_back(detail::hinge_incidence(rest, i, c.own, colours));
+    own.push_back(4 * i + c.own);
+  }
+  const std::vector<float> no_angle(in.cases.size());
+  typename Backend::template Buffer<float> angle_start;
+  angle_start.upload(no_angle.data(), no_angle.size());
+  SweepView view;
+  view.hinges = memory.template in<HingeIncidence>(incidences);
+  view.materials = memory.template in<SurfaceMaterial>(rest.materials);
+  view.angle_start = angle_start.data();
+  view.old = memory.template in<Vec>(points_of(in.cases, &compare::BendingCase::vertex));
+  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::BendingCase::start));
+  backend.for_each(n, BeginHinge{memory.template in<HingeRest>(rest.hinges), start, angle_start.data()});
+  backend.for_each(n, ProbeBending{view, memory.template in<int>(own), force_arrays(memory, out, in.cases.size())});
+  memory.fetch();
+  return out;
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,100 @@
+#include "fast/kernels/control.hpp"
+
+#include "tests/catch.hpp"
+
+using namespace ogc;
+using namespace ogc::fast;
+
+namespace {
+
+StepControl running() {
+  StepControl c;
+  c.active = 1;
+  BeginStep{&c}(0);
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("another round of the guess needs enough cut vertices and a round left", "[unit]") {
+  ControlSettings settings;
+  settings.cut_threshold = 3;
+  settings.guess_rounds = 2;
+  StepControl c = running();
+  CHECK(c.guess == 1);
+  c.cut = 3;
+  EndRound{&c, settings}(0);
+  CHECK(c.guess == 1);
+  CHECK(c.cut == 0);
+  c.cut = 3;
+  EndRound{&c, settings}(0);
+  CHECK(c.guess == 0);  // no round left
+  c = running();
+  c.cut = 2;
+  EndRound{&c, settings}(0);
+  CHECK(c.guess == 0);  // too few
+}
+
+TEST_CASE("an iteration asks for a detection at the threshold or when it is due, and says how many were cut", "[unit]") {
+  ControlSettings settings;
+  settings.cut_threshold = 5;
+  StepControl c = running();
+  const int overflow = 0;
+  const auto iterate = [&](int cut) {
+    c.cut = cut;
+    EndIteration{&c, settings}(0);
+    const int asked = c.detect;
+    if (asked != 0) EndDetection{&c, &overflow}(0);
+    return asked;
+  };
+  CHECK(iterate(4) == 0);
+  CHECK(c.cut_last == 4);
+  CHECK(iterate(5) == 1);
+  CHECK(c.detect == 0);
+  settings.redetect_every = 2;
+  CHECK(iterate(0) == 0);
+  CHECK(iterate(0) == 1);
+  CHECK(c.detections == 2);
+  CHECK(c.iterations == 4);
+}
+
+TEST_CASE("a list that was too small, a violation or a number that is not finite stops the step and all that follow", "[unit]") {
+  const int overflow = 1, none = 0;
+  StepControl c = running();
+  EndDetection{&c, &overflow}(0);
+  CHECK(c.status == compare::step_list_grew);
+  CHECK(c.active == 0);
+  CHECK(c.guess == 0);
+  BeginStep{&c}(0);
+  CHECK(c.attempted == 0);
+  CHECK(c.guess == 0);
+  c = running();
+  c.count_violation();
+  EndDetection{&c, &none}(0);
+  CHECK(c.status == compare::step_bound_violated);
+  c = running();
+  c.cut = 1000;
+  c.count_not_finite();
+  EndIteration{&c, ControlSettings{}}(0);
+  CHECK(c.status == compare::step_not_finite);
+  CHECK(c.detect == 0);
+}
+
+TEST_CASE("the query radius is the contact radius plus the largest move, up to its cap", "[unit]") {
+  ControlSettings settings;
+  settings.contact_radius = 0.005f;
+  settings.largest_query_radius = 0.02f;
+  StepControl c = running();
+  c.largest_move = float_bits(0.001f);
+  ChooseQueryRadius{&c, settings}(0);
+  CHECK(c.query_radius == 0.005f + 0.001f);
+  c.largest_move = float_bits(1.0f);
+  ChooseQueryRadius{&c, settings}(0);
+  CHECK(c.query_radius == 0.02f);
+}
+
+TEST_CASE("bits of non-negative floats have their order", "[property]") {
+  const float ascending[] = {0, 1e-40f, 1e-20f, 0.5f, 1, 3, 1e30f};
+  for (int i = 0; i + 1 < 7; ++i) CHECK(float_bits(ascending[i]) < float_bits(ascending[i + 1]));
+  CHECK(float_from_bits(float_bits(0.1f)) == 0.1f);
+}
