@@ -1,0 +1,209 @@
+// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than g++, and of two inline copies of one
+// function the linker keeps one, so an inline function with a capturing lambda must not stand in a header that both compile.
+#include "fast/stages/colouring.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <queue>
+
+namespace ogc::fast {
+
+compare::CompressedRows conflict_graph(const RestState& rest) {
+  std::vector<std::vector<int>> neighbours(rest.mobility.size());
+  const auto connect = [&](const int* vertices, int n) {
+    for (int a = 0; a < n; ++a) {
+      for (int b = 0; b < n; ++b) {
+        const auto va = static_cast<std::size_t>(vertices[a]), vb = static_cast<std::size_t>(vertices[b]);
+        if (a != b && rest.mobility[va] == Mobility::free && rest.mobility[vb] == Mobility::free) neighbours[va].push_back(vertices[b]);
+      }
+    }
+  };
+  for (const TriangleRest& triangle : rest.triangles) connect(triangle.corner, 3);
+  for (const HingeRest& hinge : rest.hinges) connect(hinge.vertex, 4);
+  compare::CompressedRows rows;
+  for (auto& row : neighbours) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    rows.items.insert(rows.items.end(), row.begin(), row.end());
+    rows.offsets.push_back(static_cast<compare::Index>(rows.items.size()));
+  }
+  return rows;
+}
+
+namespace {
+
+constexpr int uncoloured = -1;
+
+// The smallest colour that no neighbour has.
+int smallest_free_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, std::size_t v, std::vector<int>& seen, int stamp) {
+  for (const int u : graph[v]) {
+    const int c = colour[static_cast<std::size_t>(u)];
+    if (c == uncoloured) continue;
+    if (c >= static_cast<int>(seen.size())) seen.resize(static_cast<std::size_t>(c) + 1, -1);
+    seen[static_cast<std::size_t>(c)] = stamp;
+  }
+  int c = 0;
+  while (c < static_cast<int>(seen.size()) && seen[static_cast<std::size_t>(c)] == stamp) ++c;
+  return c;
+}
+
+// Greedy in the given order; returns the number of colours.
+int colour_in_order(const compare::CompressedRows& graph, const std::vector<int>& order, std::vector<int>& colour) {
+  std::fill(colour.begin(), colour.end(), uncoloured);
+  std::vector<int> seen;
+  int count = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto v = static_cast<std::size_t>(order[i]);
+    colour[v] = smallest_free_colour(graph, colour, v, seen, static_cast<int>(i));
+    count = std::max(count, colour[v] + 1);
+  }
+  return count;
+}
+
+// DSATUR: next is the vertex whose neighbours show most colours, then most neighbours, then the lowest number.
+std::vector<int> saturation_order(const compare::CompressedRows& graph, const std::vector<int>& vertices, std::vector<int>& colour) {
+  using Entry = std::array<int, 3>;
+  std::vector<std::uint64_t> shown(colour.size(), 0);
+  std::priority_queue<Entry> queue;
+  for (const int v : vertices) queue.push({0, static_cast<int>(graph[static_cast<std::size_t>(v)].size()), -v});
+  std::fill(colour.begin(), colour.end(), uncoloured);
+  std::vector<int> order, seen;
+  while (!queue.empty()) {
+    const auto [saturation, degree, minus_v] = queue.top();
+    queue.pop();
+    const auto v = static_cast<std::size_t>(-minus_v);
+    if (colour[v] != uncoloured || saturation != __builtin_popcountll(shown[v])) continue;
+    colour[v] = smallest_free_colour(graph, colour, v, seen, static_cast<int>(order.size()));
+    order.push_back(static_cast<int>(v));
+    for (const int u : graph[v]) {
+      const auto n = static_cast<std::size_t>(u);
+      const std::uint64_t bit = std::uint64_t{1} << std::min(colour[v], 63);
+      if (colour[n] != uncoloured || (shown[n] & bit) != 0) continue;
+      shown[n] |= bit;
+      queue.push({__builtin_popcountll(shown[n]), static_cast<int>(graph[n].size()), -u});
+    }
+  }
+  return order;
+}
+
+// The vertices class by class: classes reversed on even passes, smallest first on odd ones. Greedy in such an order never needs a colour more.
+std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vector<int>& colour, int count, int pass) {
+  std::vector<int> size(static_cast<std::size_t>(count), 0), rank(size.size());
+  for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
+  std::iota(rank.begin(), rank.end(), 0);
+  if (pass % 2 == 0) {
+    std::reverse(rank.begin(), rank.end());
+  } else {
+    std::stable_sort(rank.begin(), rank.end(), [&](int a, int b) { return size[static_cast<std::size_t>(a)] > size[static_cast<std::size_t>(b)]; });
+  }
+  std::vector<int> place(rank.size());
+  for (std::size_t i = 0; i < rank.size(); ++i) place[static_cast<std::size_t>(rank[i])] = static_cast<int>(i);
+  std::vector<int> order = vertices;
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return place[static_cast<std::size_t>(colour[static_cast<std::size_t>(a)])] < place[static_cast<std::size_t>(colour[static_cast<std::size_t>(b)])];
+  });
+  return order;
+}
+
+// A colour other than `own` and `banned` that no neighbour of v has, or -1.
+int other_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, int v, int count, int own, int banned) {
+  std::uint64_t taken = 0;
+  for (const int u : graph[static_cast<std::size_t>(v)]) taken |= std::uint64_t{1} << std::min(colour[static_cast<std::size_t>(u)], 63);
+  for (int c = 0; c < std::min(count, 63); ++c) {
+    if (c != own && c != banned && (taken >> c & 1) == 0) return c;
+  }
+  return -1;
+}
+
+// Gives v the colour c if each neighbour that has it finds another one; undone where one does not.
+bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v, int c, int count, int banned) {
+  std::vector<int> moved;
+  for (const int u : graph[static_cast<std::size_t>(v)]) {
+    if (colour[static_cast<std::size_t>(u)] != c) continue;
+    const int other = other_colour(graph, colour, u, count, c, banned);
+    if (other < 0) {
+      for (const int m : moved) colour[static_cast<std::size_t>(m)] = c;
+      return false;
+    }
+    colour[static_cast<std::size_t>(u)] = other;
+    moved.push_back(u);
+  }
+  colour[static_cast<std::size_t>(v)] = c;
+  return true;
+}
+
+// Empties the last class into the others where a move of direct neighbours makes room; true where nothing of it is left.
+bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
+  const int last = count - 1;
+  bool empty = true;
+  for (const int v : vertices) {
+    int& own = colour[static_cast<std::size_t>(v)];
+    if (own != last) continue;
+    for (int c = 0; c < last && own == last; ++c) eject(graph, colour, v, c, count, last);
+    empty = empty && own != last;
+  }
+  return empty;
+}
+
+// Moves vertices from classes above the mean to the smallest class that no neighbour has, where that is smaller than their own.
+void balance(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
+  std::vector<int> size(static_cast<std::size_t>(count), 0);
+  for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
+  std::vector<int> taken(size.size(), -1);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto v = static_cast<std::size_t>(vertices[i]);
+    for (const int u : graph[v]) taken[static_cast<std::size_t>(colour[static_cast<std::size_t>(u)])] = static_cast<int>(i);
+    int best = colour[v];
+    for (int c = 0; c < count; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      if (taken[k] != static_cast<int>(i) && size[k] + (c == colour[v] ? 0 : 1) < size[static_cast<std::size_t>(best)]) best = c;
+    }
+    --size[static_cast<std::size_t>(colour[v])];
+    colour[v] = best;
+    ++size[static_cast<std::size_t>(best)];
+  }
+}
+
+// From a greedy colouring in `order`: passes by class, and after each an attempt to empty the last class, which greedy leaves smallest.
+int improve(const compare::CompressedRows& graph, std::vector<int> order, int passes, std::vector<int>& colour) {
+  int count = colour_in_order(graph, order, colour);
+  for (int pass = 0; pass < passes; ++pass) {
+    order = order_by_class(order, colour, count, pass);
+    count = colour_in_order(graph, order, colour);
+    while (count > 1 && dissolve_last_class(graph, order, count, colour)) --count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Colouring colour_vertices(const RestState& rest) {
+  constexpr double visits = 2e7;  // of neighbours: about a second of start time at most
+  const compare::CompressedRows graph = conflict_graph(rest);
+  std::vector<int> vertices;
+  for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
+    if (rest.mobility[v] == Mobility::free) vertices.push_back(static_cast<int>(v));
+  }
+  const int passes = static_cast<int>(std::clamp(visits / (1.0 + static_cast<double>(graph.items.size())), 4.0, 100.0));
+  Colouring result;
+  std::vector<int> colour(rest.mobility.size(), uncoloured);
+  for (const std::vector<int>& order : {vertices, saturation_order(graph, vertices, colour)}) {
+    const int count = improve(graph, order, passes, colour);
+    if (!result.colour.empty() && count >= result.count) continue;
+    result.colour = colour;
+    result.count = count;
+  }
+  for (int pass = 0; pass < 2; ++pass) balance(graph, vertices, result.count, result.colour);
+  result.order = vertices;
+  std::stable_sort(result.order.begin(), result.order.end(),
+                   [&](int a, int b) { return result.colour[static_cast<std::size_t>(a)] < result.colour[static_cast<std::size_t>(b)]; });
+  for (int c = 0; c < result.count; ++c) {
+    const auto above = [&](int v) { return result.colour[static_cast<std::size_t>(v)] > c; };
+    result.begin.push_back(static_cast<int>(std::find_if(result.order.begin(), result.order.end(), above) - result.order.begin()));
+  }
+  return result;
+}
+
+}  // namespace ogc::fast

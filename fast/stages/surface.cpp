@@ -1,0 +1,103 @@
+// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than g++, and of two inline copies of one
+// function the linker keeps one, so an inline function with a capturing lambda must not stand in a header that both compile.
+#include "fast/stages/surface.hpp"
+
+#include <algorithm>
+
+namespace ogc::fast {
+namespace {
+
+class SeedFinder {
+ public:
+  SeedFinder(const compare::Topology& topology, const std::vector<int>& groups) : topology_(topology), groups_(groups) {}
+
+  EdgeSeeds of_edge(int e) const {
+    EdgeSeeds seeds{{-1, -1}};
+    const auto take = [&](std::span<const compare::Index> candidates) {
+      for (const int v : candidates) {
+        if (seeds.vertex[0] >= 0 && seeds.vertex[1] >= 0) return;
+        if (v != seeds.vertex[0] && has_pair(e, v)) seeds.vertex[seeds.vertex[0] < 0 ? 0 : 1] = v;
+      }
+    };
+    take(topology_.edge_opposite[static_cast<std::size_t>(e)]);
+    for (const int end : edge(e)) take(topology_.vertex_neighbours[static_cast<std::size_t>(end)]);
+    return seeds;
+  }
+
+  FacetSeeds of_facet(const Facet& facet) const {
+    FacetSeeds seeds{{-1, -1, -1}};
+    for (int k = 0; k < 3; ++k) {
+      for (const int v : topology_.edge_opposite[static_cast<std::size_t>(facet.edge[k])]) {
+        if (is_pair(v, facet.corner)) seeds.vertex[k] = v;
+      }
+    }
+    return seeds;
+  }
+
+  VertexSeeds of_vertex(int v) const {
+    VertexSeeds seeds{{-1, -1}};
+    for (const int t : topology_.vertex_triangles[static_cast<std::size_t>(v)]) {
+      for (const int e : topology_.triangle_edges[static_cast<std::size_t>(t)]) {
+        if (contains(edge(e), v) || !has_facet_pair(v, e)) continue;
+        if (seeds.edge[0] >= 0) return {{seeds.edge[0], e}};
+        seeds.edge[0] = e;
+      }
+    }
+    return seeds;
+  }
+
+ private:
+  const compare::Edge& edge(int e) const { return topology_.edges[static_cast<std::size_t>(e)]; }
+
+  template <class Vertices>
+  static bool contains(const Vertices& vertices, int v) {
+    return std::find(std::begin(vertices), std::end(vertices), v) != std::end(vertices);
+  }
+
+  /// v and the face do not touch, and not all of them are in one group.
+  template <class Vertices>
+  bool is_pair(int v, const Vertices& face) const {
+    const auto group = [this](int i) { return groups_[static_cast<std::size_t>(i)]; };
+    return !contains(face, v) && !(group(v) >= 0 && std::all_of(std::begin(face), std::end(face), [&](int i) { return group(i) == group(v); }));
+  }
+
+  /// Some edge at v forms a pair with e.
+  bool has_pair(int e, int v) const {
+    const auto& neighbours = topology_.vertex_neighbours[static_cast<std::size_t>(v)];
+    return !contains(edge(e), v) && std::any_of(neighbours.begin(), neighbours.end(), [&](int w) {
+      return !contains(edge(e), w) && (is_pair(v, edge(e)) || is_pair(w, edge(e)));
+    });
+  }
+
+  /// Some triangle at e forms a pair with v.
+  bool has_facet_pair(int v, int e) const {
+    const auto triangles = topology_.edge_triangles[static_cast<std::size_t>(e)];
+    return std::any_of(triangles.begin(), triangles.end(), [&](int t) { return is_pair(v, topology_.triangles[static_cast<std::size_t>(t)]); });
+  }
+
+  const compare::Topology& topology_;
+  const std::vector<int>& groups_;
+};
+
+}  // namespace
+
+Facet facet_of(const compare::Topology& topology, std::size_t t) {
+  Facet facet{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    facet.corner[k] = topology.triangles[t][k];
+    facet.edge[k] = topology.triangle_edges[t][k];
+    if (topology.triangles[t][k] > topology.triangles[t][(k + 1) % 3]) facet.descending |= 1U << k;
+  }
+  return facet;
+}
+
+Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const std::vector<Facet>& facets) {
+  const SeedFinder finder(topology, groups);
+  Seeds seeds;
+  for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e) seeds.edges.push_back(finder.of_edge(e));
+  for (const Facet& facet : facets) seeds.facets.push_back(finder.of_facet(facet));
+  for (int v = 0; v < topology.vertex_count; ++v) seeds.vertices.push_back(finder.of_vertex(v));
+  return seeds;
+}
+
+}  // namespace ogc::fast
