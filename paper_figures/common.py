@@ -11,7 +11,7 @@ CLAIMS = Path(__file__).parent / "claims"
 
 
 def main(scene, frames, camera):
-    """Draws the figure of one run of `scene`; `frames` are shares of the run's length."""
+    """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last of them."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
@@ -24,7 +24,7 @@ def main(scene, frames, camera):
         last = int(run.column("step")[-1])
         claims = load_claims(CLAIMS / f"{scene}.json", run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
-        draw(run, [round(share * last) for share in frames], camera, claims, out)
+        draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out)
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")
     print(out)

@@ -5,4 +5,4 @@ from paper_figures.common import main
 CAMERA = ((0.5, 0.9, 1.6), (0, 0, 0), (0, 1, 0))
 
 if __name__ == "__main__":
-    main("twist", frames=(0, 1 / 3, 2 / 3, 1), camera=CAMERA)
+    main("twist", frames=(0, 3200, 6400, 9600), camera=CAMERA)

@@ -25,7 +25,7 @@ def picture(bodies, camera, size=(640, 480)):
     for points, triangles, front, back in bodies:
         faces = np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel()
         mesh = pv.PolyData(np.asarray(points, dtype=float), faces)
-        plotter.add_mesh(mesh, color=front, smooth_shading=True, specular=0.1, backface_params={"color": back}, split_sharp_edges=False)
+        plotter.add_mesh(mesh, color=front, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, backface_params={"color": back})
     plotter.enable_anti_aliasing("ssaa")
     plotter.camera_position = [tuple(camera[0]), tuple(camera[1]), tuple(camera[2])]
     image = plotter.screenshot(return_img=True)

@@ -20,7 +20,7 @@ def load_claims(path, backend):
 
 def bodies_of(run, frame):
     """Bodies as `render.picture` wants them, with the frame's positions; fixed bodies grey."""
-    fronts, backs = ["#0072B2", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#56B4E9"]
+    fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
     result, cloth = [], 0
     for body in run.bodies():
         first, count = body["first_vertex"], body["vertex_count"]

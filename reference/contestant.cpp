@@ -1,6 +1,8 @@
 // The stages of the reference under the judge's names.
 #include "reference/contestant.hpp"
 
+#include "reference/energies/bending.hpp"
+#include "reference/energies/membrane.hpp"
 #include "reference/geometry/activation.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/closest_face.hpp"
@@ -12,7 +14,10 @@
 namespace ogc::reference {
 
 compare::Authority authority() {
-  return {"reference", closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate};
+  compare::Authority authority{"reference", closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate, {}, {}};
+  authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
+  authority.bending = [](const compare::BendingIn& in) { return bending(in); };
+  return authority;
 }
 
 }  // namespace ogc::reference

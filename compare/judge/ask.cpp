@@ -77,6 +77,14 @@ TruncateIn truncate_question(Cases cases) {
   return in;
 }
 
+/// In of a force stage: its cases as they are.
+template <class In, class Case>
+In force_question(Cases cases, std::vector<Case> In::*questions) {
+  In in;
+  for (const TestCase& test : cases) (in.*questions).push_back(std::get<Case>(test.data));
+  return in;
+}
+
 DetectIn detect_question(const TestCase& test) {
   const auto& c = std::get<MeshCase>(test.data);
   return {c.topology.get(), c.rigid_groups, c.positions, c.contact_radius, c.query_radius};
@@ -99,6 +107,14 @@ void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, c
   else judge_detect_edge_edge(test, asker.truth(in, authority.detect_edge_edge), asker.answer(in, contestant.detect_edge_edge), tally);
 }
 
+void ask_force(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+  const auto put = [&](const auto& in, const auto& truth, const auto& answer) { judge_force(cases, asker.truth(in, truth), asker.answer(in, answer), tally); };
+  switch (stage) {
+    case Stage::membrane: return put(force_question(cases, &MembraneIn::cases), authority.membrane, contestant.membrane);
+    default: return put(force_question(cases, &BendingIn::cases), authority.bending, contestant.bending);
+  }
+}
+
 }  // namespace
 
 void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, std::mutex& contestant_turn, Tally& tally) {
@@ -106,6 +122,8 @@ void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority
   Asker asker(contestant_turn, tally);
   if (is_mesh_stage(stage)) {
     for (const TestCase& test : cases) ask_mesh(stage, test, contestant, authority, asker, tally);
+  } else if (is_force_stage(stage)) {
+    ask_force(stage, cases, contestant, authority, asker, tally);
   } else if (stage == Stage::closest_face) {
     const ClosestFaceIn in = face_question(cases);
     judge_closest_face(cases, in, asker.truth(in, authority.closest_face), asker.answer(in, contestant.closest_face), tally);

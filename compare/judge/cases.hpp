@@ -9,6 +9,8 @@
 
 #include "compare/judge/stage.hpp"
 #include "compare/problem/mesh.hpp"
+#include "compare/stages/bending.hpp"
+#include "compare/stages/membrane.hpp"
 
 namespace ogc::compare {
 
@@ -58,7 +60,7 @@ struct TruncateCase {
   float bound = 0;
 };
 
-using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase>;
+using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase, MembraneCase, BendingCase>;
 
 struct TestCase {
   CaseName name;

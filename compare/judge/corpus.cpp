@@ -1,61 +1,15 @@
 #include "compare/judge/corpus.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 
-#include <nlohmann/json.hpp>
-
+#include "compare/judge/corpus_forces.hpp"
+#include "compare/judge/numbers_json.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string hexadecimal(float x) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%a", static_cast<double>(x));
-  return buffer;
-}
-
-float number(const Json& json) {
-  const std::string text = json.get<std::string>();
-  char* end = nullptr;
-  const float x = std::strtof(text.c_str(), &end);
-  if (text.empty() || *end != '\0') throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
-  return x;
-}
-
-Json to_json(const Vec3f& p) { return {hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z)}; }
-Vec3f to_point(const Json& json) { return {number(json.at(0)), number(json.at(1)), number(json.at(2))}; }
-
-template <class Points>
-Json points_to_json(const Points& points) {
-  Json json = Json::array();
-  for (const Vec3f& p : points) json.push_back(to_json(p));
-  return json;
-}
-
-template <std::size_t n>
-std::array<Vec3f, n> to_points(const Json& json) {
-  std::array<Vec3f, n> points;
-  for (std::size_t i = 0; i < n; ++i) points[i] = to_point(json.at(i));
-  return points;
-}
-
-Json numbers_to_json(const std::vector<float>& numbers) {
-  Json json = Json::array();
-  for (const float x : numbers) json.push_back(hexadecimal(x));
-  return json;
-}
-
-std::vector<float> to_numbers(const Json& json) {
-  std::vector<float> numbers;
-  for (const Json& x : json) numbers.push_back(number(x));
-  return numbers;
-}
 
 Json topology_to_json(const Topology& topology) {
   Json loose = Json::array();
@@ -87,6 +41,10 @@ struct ToJson {
   Json operator()(const TruncateCase& c) const {
     return {{"previous", to_json(c.previous)}, {"position", to_json(c.position)}, {"bound", hexadecimal(c.bound)}};
   }
+  template <class ForceCase>
+  Json operator()(const ForceCase& c) const {
+    return force_case_to_json(c);
+  }
 };
 
 MeshCase to_mesh_case(const Json& data) {
@@ -114,7 +72,9 @@ CaseData to_data(Stage stage, const Json& data) {
     case Stage::bound: return to_bound_case(data);
     case Stage::activation: return ActivationCase{number(data.at("distance")), number(data.at("contact_radius")), number(data.at("stiffness"))};
     case Stage::truncate: return TruncateCase{to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
-    default: return to_mesh_case(data);
+    case Stage::detect_vertex_facet:
+    case Stage::detect_edge_edge: return to_mesh_case(data);
+    default: return to_force_case(stage, data);
   }
 }
 

@@ -56,6 +56,16 @@ CaseData cloth(Random& random) {
   return finish(random, builder, {random.between(0.05, 0.3), 0});
 }
 
+/// Three to five wavy sheets of 900 to 3,600 vertices each: deep trees, long lists.
+CaseData large(Random& random) {
+  MeshBuilder builder;
+  const int layers = 3 + random.below(3), side = 30 + random.below(31);
+  const double gap = random.magnitude(-1, 0.2);
+  for (int layer = 0; layer < layers; ++layer) builder.grid(side - 1, side - 1, {random.unit(), random.unit(), layer * gap}, {1, 0, 0}, {0, 1, 0});
+  for (Vec3& p : builder.points) p.z += 0.4 * std::sin(0.6 * p.x) * std::cos(0.4 * p.y);
+  return finish(random, builder, {random.between(0.05, 0.3), random.between(0.2, 1)});
+}
+
 /// A soup on small integers: ties, touching, intersecting, coplanar and collapsed triangles.
 CaseData lattice(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(18));
@@ -170,10 +180,11 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-constexpr std::array<Generator, 12> table{{{"soup", 20, true, soup},
+constexpr std::array<Generator, 13> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
-                                           {"lattice", 10, false, lattice},
+                                           {"large", 10, true, large, 100000},
+                                           {"lattice", 15, false, lattice},
                                            {"ladder.sheets", 8, false, sheets},
                                            {"ladder.fold", 7, false, fold},
                                            {"ladder.stack", 7, false, stack},

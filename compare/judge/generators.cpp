@@ -7,7 +7,9 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr Generator real_states{"states", 50, true, nullptr};
+// Detection decides within r alone. The pair stages decide wherever they are asked, and in a regular sheet every vertex lies on the planes of its
+// neighbours: there grey decisions say nothing of the kernel or of the state.
+constexpr Generator real_states{"states", 50, true, nullptr}, pairs_of_real_states{"states", 50, false, nullptr};
 
 }  // namespace
 
@@ -18,12 +20,14 @@ std::span<const Generator> generators(Stage stage) {
     case Stage::bound: return bound_generators();
     case Stage::activation: return activation_generators();
     case Stage::truncate: return truncate_generators();
+    case Stage::membrane: return membrane_generators();
+    case Stage::bending: return bending_generators();
     default: return detect_generators();
   }
 }
 
 const Generator& find_generator(Stage stage, std::string_view name) {
-  if (name == real_states.name) return real_states;
+  if (name == real_states.name) return is_mesh_stage(stage) ? real_states : pairs_of_real_states;
   std::string known;
   for (const Generator& generator : generators(stage)) {
     if (generator.name == name) return generator;

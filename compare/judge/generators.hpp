@@ -18,6 +18,7 @@ struct Generator {
   double share;   ///< of a stage's cases, relative to the other rows
   bool generic;   ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
   CaseData (*make)(Random&);
+  std::uint64_t least = 0;  ///< left out of a run of fewer cases than this, of which one of its meshes would be too large a part
 };
 
 /// The generators of a stage, without `states`.
@@ -39,5 +40,7 @@ std::span<const Generator> detect_generators();
 std::span<const Generator> bound_generators();
 std::span<const Generator> activation_generators();
 std::span<const Generator> truncate_generators();
+std::span<const Generator> membrane_generators();
+std::span<const Generator> bending_generators();
 
 }  // namespace ogc::compare

@@ -17,7 +17,7 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr std::uint64_t mesh_batch = 16;
+constexpr std::uint64_t mesh_batch = 4;
 
 /// The run of one generator: batches of consecutive indices until `cases` are counted.
 class GeneratorRun {
@@ -99,6 +99,7 @@ class GeneratorRun {
 std::vector<Generator> chosen(Stage stage, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
+  std::erase_if(rows, [&](const Generator& row) { return row.least > options.cases; });
   if (options.states && options.states->has(stage)) rows.push_back(find_generator(stage, "states"));
   return rows;
 }
@@ -115,6 +116,8 @@ bool can_judge(Stage stage, const Contestant& contestant, const Authority& autho
     case Stage::detect_edge_edge: return contestant.detect_edge_edge && authority.detect_edge_edge;
     case Stage::bound: return contestant.bound && authority.bound;
     case Stage::activation: return contestant.activation && authority.activation;
+    case Stage::membrane: return contestant.membrane && authority.membrane;
+    case Stage::bending: return contestant.bending && authority.bending;
     default: return contestant.truncate && authority.truncate;
   }
 }

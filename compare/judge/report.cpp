@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -115,9 +116,13 @@ std::string report_table(std::span<const StageReport> reports) {
 
 std::string report_mismatches(const StageReport& report, std::size_t limit) {
   std::string text;
-  const auto& listed = report.tally.mismatches;
-  const std::size_t shown = std::min(limit, listed.size());
-  for (std::size_t i = 0; i < shown; ++i) text += print_problem(listed[i].name) + "\n  " + listed[i].message + "\n";
+  std::size_t shown = 0;
+  std::map<std::string, std::size_t> by_generator;
+  for (const Mismatch& item : report.tally.mismatches) {
+    if (++by_generator[item.name.generator] > limit) continue;
+    text += print_problem(item.name) + "\n  " + item.message + "\n";
+    ++shown;
+  }
   if (report.tally.mismatched > shown) text += "… and " + std::to_string(report.tally.mismatched - shown) + " more\n";
   return text;
 }

@@ -17,7 +17,7 @@ nlohmann::ordered_json report_json(const StageReport& report);
 /// One row a metric: stage, cases, mismatches, grey share, median, 99.9 %, maximum and tolerance in the metric's unit, cases per second, worst case.
 std::string report_table(std::span<const StageReport> reports);
 
-/// The listed mismatches, one line each: problem string, message. `limit` a stage, then a count.
+/// The listed mismatches, problem string and message, at most `limit` a generator, then the count of all others.
 std::string report_mismatches(const StageReport& report, std::size_t limit);
 
 }  // namespace ogc::compare

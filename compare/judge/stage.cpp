@@ -4,7 +4,8 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> names{"closest_face", "closest_points", "detect_vertex_facet", "detect_edge_edge", "bound", "activation", "truncate"};
+constexpr std::array<std::string_view, all_stages.size()> names{"closest_face", "closest_points", "detect_vertex_facet", "detect_edge_edge", "bound",
+                                                                "activation",   "truncate",       "membrane",            "bending"};
 
 }  // namespace
 
@@ -17,5 +18,7 @@ std::optional<Stage> find_stage(std::string_view name) {
 }
 
 bool is_mesh_stage(Stage stage) { return stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge || stage == Stage::bound; }
+
+bool is_force_stage(Stage stage) { return stage == Stage::membrane || stage == Stage::bending; }
 
 }  // namespace ogc::compare

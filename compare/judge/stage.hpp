@@ -8,10 +8,10 @@
 
 namespace ogc::compare {
 
-enum class Stage : std::uint8_t { closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate };
+enum class Stage : std::uint8_t { closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate, membrane, bending };
 
-inline constexpr std::array<Stage, 7> all_stages{Stage::closest_face,     Stage::closest_points, Stage::detect_vertex_facet, Stage::detect_edge_edge,
-                                                 Stage::bound, Stage::activation,     Stage::truncate};
+inline constexpr std::array<Stage, 9> all_stages{Stage::closest_face, Stage::closest_points, Stage::detect_vertex_facet, Stage::detect_edge_edge, Stage::bound,
+                                                 Stage::activation,   Stage::truncate,       Stage::membrane,            Stage::bending};
 
 /// "closest_face" …
 std::string_view stage_name(Stage stage);
@@ -21,5 +21,8 @@ std::optional<Stage> find_stage(std::string_view name);
 
 /// Whether a case of the stage is a whole mesh, whose vertices (or edges) are counted one by one.
 bool is_mesh_stage(Stage stage);
+
+/// Whether the answer is the force and block of a vertex.
+bool is_force_stage(Stage stage);
 
 }  // namespace ogc::compare

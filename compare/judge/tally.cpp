@@ -41,6 +41,8 @@ constexpr std::array<MetricInfo, 1> bound_metrics{{{"bound", "u b", bound_below_
 constexpr std::array<MetricInfo, 3> activation_metrics{
     {{"energy", "u scale", activation_tolerance}, {"slope", "u scale", activation_tolerance}, {"curvature", "u scale", activation_tolerance}}};
 constexpr std::array<MetricInfo, 1> truncate_metrics{{{"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
+constexpr std::array<MetricInfo, 2> membrane_metrics{{{"force", "u cond", membrane_force_tolerance}, {"block", "u cond", membrane_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> bending_metrics{{{"force", "u cond", bending_force_tolerance}, {"block", "u cond", bending_block_tolerance}}};
 
 }  // namespace
 
@@ -77,6 +79,8 @@ std::span<const MetricInfo> metrics(Stage stage) {
     case Stage::detect_edge_edge: return edge_metrics;
     case Stage::bound: return bound_metrics;
     case Stage::activation: return activation_metrics;
+    case Stage::membrane: return membrane_metrics;
+    case Stage::bending: return bending_metrics;
     default: return truncate_metrics;
   }
 }
@@ -110,8 +114,7 @@ void Tally::error(std::size_t metric, double value, const std::function<std::str
 
 void Tally::mismatch(std::string message) {
   ++mismatched;
-  ++row_->mismatches;
-  if (mismatches.size() < listed) mismatches.push_back({current_, std::move(message)});
+  if (++row_->mismatches <= listed) mismatches.push_back({current_, std::move(message)});
 }
 
 void Tally::add(const Tally& other) {
@@ -119,9 +122,11 @@ void Tally::add(const Tally& other) {
     if (metrics[i].errors.count() == 0 || other.metrics[i].errors.maximum() > metrics[i].errors.maximum()) metrics[i].worst = other.metrics[i].worst;
     metrics[i].errors.add(other.metrics[i].errors);
   }
-  for (const auto& [name, row] : other.generators) accumulate(generators[name], row);
+  std::map<std::string, std::uint64_t> kept;
+  for (const auto& [name, row] : generators) kept[name] = std::min(row.mismatches, listed);
   for (const Mismatch& item : other.mismatches)
-    if (mismatches.size() < listed) mismatches.push_back(item);
+    if (++kept[item.name.generator] <= listed) mismatches.push_back(item);
+  for (const auto& [name, row] : other.generators) accumulate(generators[name], row);
   mismatched += other.mismatched;
   contestant_seconds += other.contestant_seconds;
   authority_seconds += other.authority_seconds;

@@ -68,10 +68,10 @@ class Tally {
   Stage stage;
   std::vector<MetricTally> metrics;
   std::map<std::string, GeneratorTally> generators;
-  std::vector<Mismatch> mismatches;       ///< the first of them, at most `listed`
+  std::vector<Mismatch> mismatches;       ///< the first of each generator, at most `listed`
   std::uint64_t mismatched = 0;           ///< all of them
   double contestant_seconds = 0, authority_seconds = 0;
-  static constexpr std::size_t listed = 100;
+  static constexpr std::uint64_t listed = 20;
 
   GeneratorTally total() const;
   /// Sums over the generic generators.

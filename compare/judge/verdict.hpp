@@ -21,6 +21,9 @@ void judge_activation(Cases cases, const ActivationTruth& truth, const Activatio
 /// The stored position must obey the bound exactly, decided by the judge itself.
 void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out, Tally& tally);
 
+/// Force and block must lie within the tolerances of one and the same accepted answer.
+void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tally& tally);
+
 /// Sets must be equal outside the grey decisions; smallest distances never above the exact ones.
 void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTruth& truth, const DetectVertexFacetOut& out, Tally& tally);
 void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& truth, const DetectEdgeEdgeOut& out, Tally& tally);

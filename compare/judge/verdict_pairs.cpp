@@ -1,8 +1,8 @@
 // Verdicts of closest_face and closest_points. The scale Σ|δ| is that of design.md §2: the moduli of all coordinates relative to the case's first vertex.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
 namespace ogc::compare {
@@ -12,15 +12,6 @@ namespace {
 double modulus(const Vec3f& p, const Vec3f& from) {
   return std::abs(double{p.x} - from.x) + std::abs(double{p.y} - from.y) + std::abs(double{p.z} - from.z);
 }
-
-std::string text(const char* format, double a, double b) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
-
-/// 0 where both are 0; otherwise the error in units of u · scale.
-double in_units(double error, double scale) { return error == 0 ? 0 : error / (unit_roundoff * scale); }
 
 bool right_length(std::size_t n, std::initializer_list<std::size_t> lengths, Tally& tally) {
   for (const std::size_t length : lengths) {

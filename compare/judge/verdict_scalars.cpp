@@ -2,22 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "compare/judge/exact_sum.hpp"
+#include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
 namespace ogc::compare {
 
 namespace {
-
-std::string text(const char* format, double a, double b) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
-
-double in_units(double error, double scale) { return error == 0 ? 0 : error / (unit_roundoff * scale); }
 
 /// ‖x − p‖ ≤ b, exactly: x² − 2xp + p² by coordinate, products of two floats being exact in double.
 bool obeys(const Vec3f& x, const Vec3f& p, float b) {

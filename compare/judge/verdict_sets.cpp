@@ -10,19 +10,13 @@
 // A missing contact that nothing replaces is named as a gap in the covering: there a vertex could pass unseen.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
 namespace ogc::compare {
 
 namespace {
-
-std::string text(const char* format, double a, double b) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
 
 std::string print(const Face& face) {
   constexpr const char* kinds[] = {"vertex ", "edge ", "triangle "};
@@ -139,7 +133,7 @@ void judge_smallest(const char* what, std::size_t i, float value, float exact, d
     return;
   }
   const double error = double{exact} - value;
-  tally.error(metric, error == 0 ? 0 : error / (unit_roundoff * scale),
+  tally.error(metric, in_units(error, scale),
               [&] { return std::string(what) + " " + std::to_string(i) + text(": %.9g, exact %.9g", value, exact); });
 }
 

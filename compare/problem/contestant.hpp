@@ -10,11 +10,13 @@
 
 #include "compare/problem/scene.hpp"
 #include "compare/stages/activation.hpp"
+#include "compare/stages/bending.hpp"
 #include "compare/stages/bound.hpp"
 #include "compare/stages/closest_face.hpp"
 #include "compare/stages/closest_points.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/membrane.hpp"
 #include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
@@ -86,6 +88,8 @@ struct Contestant {
   std::function<BoundOut(const BoundIn&)> bound;
   std::function<ActivationOut(const ActivationIn&)> activation;
   std::function<TruncateOut(const TruncateIn&)> truncate;
+  std::function<ForceOut(const MembraneIn&)> membrane;
+  std::function<ForceOut(const BendingIn&)> bending;
   std::function<std::unique_ptr<Simulation>(const Scene&, const SimulationOptions&)> start;
 };
 
@@ -99,6 +103,8 @@ struct Authority {
   std::function<BoundTruth(const BoundIn&)> bound;
   std::function<ActivationTruth(const ActivationIn&)> activation;
   std::function<TruncateTruth(const TruncateIn&)> truncate;
+  std::function<ForceTruth(const MembraneIn&)> membrane;
+  std::function<ForceTruth(const BendingIn&)> bending;
 };
 
 }  // namespace ogc::compare

@@ -31,6 +31,7 @@ OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const R
 ///
 /// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32 roundings of 1/θ and S/θ², and the
 /// foot's error moves the distance by θ times as much: under 2⁻⁴⁷ S/θ. At θ < 2⁻²³ two edges are nowhere nearer than an end by more than θ ‖shorter‖.
+/// Below θ = 2⁻⁸ the distance is that of a point of the one edge from the other, never that of the lines: those can meet where the edges end.
 OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a), n = cross(e, f);
   const double ee = squared(e), ff = squared(f), nn = squared(n), whole = mul(ee, ff);
@@ -43,8 +44,9 @@ OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   const double ef = dot(e, f).value, we = dot(w, e).value, wf = dot(w, f).value;
   const double s = sub(mul(we, ff), mul(ef, wf)), t = sub(mul(we, ef), mul(ee, wf));
   if (!(s > 0 && s < nn && t > 0 && t < nn)) return {smallest_end_distance(w, e, f), slack};
-  const double apart = divide(modulus(dot(w, n).value), square_root(nn));
-  return {skew ? apart : smaller(apart, smallest_end_distance(w, e, f)), slack};
+  if (skew) return {divide(modulus(dot(w, n).value), square_root(nn)), slack};
+  const double of_point = square_root(squared_to_segment(Rounded{divide(s, nn)} * e - w, f));
+  return {smaller(of_point, smallest_end_distance(w, e, f)), slack};
 }
 
 /// The faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or zero-length edges) the first in order.

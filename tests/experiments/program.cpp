@@ -26,13 +26,13 @@ TEST_CASE("every subcommand teaches: --help goes to standard output, shows an ex
   }
 }
 
-TEST_CASE("--help of run lists every setting with its unit", "[unit]") {
+TEST_CASE("the help of run lists every setting with its unit", "[unit]") {
   const ProgramResult result = run_ogc("run --help");
   CHECK(contains(result.out, {"unit", "range", "default"}));
   for (const compare::SettingInfo& setting : compare::setting_table()) CHECK(contains(result.out, {"\n  " + std::string(setting.name) + " "}));
 }
 
-TEST_CASE("--version names version, commit, compiler, CUDA and both backends", "[unit]") {
+TEST_CASE("ogc --version names version, commit, compiler, CUDA and both backends", "[unit]") {
   const ProgramResult result = run_ogc("--version");
   CHECK(result.status == 0);
   CHECK(contains(result.out, {"OGC Testbed ", "commit ", "compiler ", "CUDA ", "cpu: usable", "cuda: "}));

@@ -107,7 +107,7 @@ TEST_CASE("a scene file runs like the built-in scene that it was written from", 
   CHECK(file.at("final_hash") == run("cloth_on_sphere --scale smoke" + options + (folder / "b").string()).at("final_hash"));
 }
 
-TEST_CASE("--set reaches the run and its folder", "[unit]") {
+TEST_CASE("the option --set reaches the run and its folder", "[unit]") {
   const TemporaryFolder folder;
   run("cloth_on_sphere --scale smoke --steps 2 --audit off --set iterations=3 --set friction_velocity=0.02 --out " + (folder / "run").string());
   const compare::RunReader reader(folder / "run");
@@ -116,7 +116,7 @@ TEST_CASE("--set reaches the run and its folder", "[unit]") {
   CHECK(reader.scene().settings.friction_velocity == 0.02f);
 }
 
-TEST_CASE("--profile adds the times of the stages to steps.csv", "[unit]") {
+TEST_CASE("the option --profile adds the times of the stages to steps.csv", "[unit]") {
   const TemporaryFolder folder;
   run("cloth_on_sphere --scale smoke --steps 2 --audit off --profile --out " + (folder / "run").string());
   CHECK(!compare::RunReader(folder / "run").stage_names().empty());

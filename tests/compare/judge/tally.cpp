@@ -57,3 +57,16 @@ TEST_CASE("grey decisions of the generic generators are limited, those of the la
   REQUIRE_FALSE(tally.grey_within_limit());
   REQUIRE(tally.grey_share() == Approx(5e-5));
 }
+
+TEST_CASE("a generator that fails everywhere hides no other", "[unit]") {
+  Tally a(Stage::bound);
+  for (const char* generator : {"soup", "few"}) {
+    Tally b(Stage::bound);
+    b.begin({Stage::bound, generator, 1, 1, ""});
+    for (std::uint64_t i = 0; i < 3 * Tally::listed; ++i) b.mismatch("wrong");
+    a.add(b);
+    a.add(b);
+  }
+  REQUIRE(a.mismatched == 12 * Tally::listed);
+  REQUIRE(a.mismatches.size() == 2 * Tally::listed);
+}

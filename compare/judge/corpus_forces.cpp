@@ -1,0 +1,92 @@
+// Each case names its members once, for both ways.
+#include "compare/judge/corpus_forces.hpp"
+
+#include <concepts>
+
+namespace ogc::compare {
+
+namespace {
+
+template <class Case, class Visit>
+  requires std::same_as<std::remove_const_t<Case>, MembraneCase>
+void visit_members(Case& c, Visit visit) {
+  visit("corner", c.corner);
+  visit("start", c.start);
+  visit("gradient_1", c.gradient[0]);
+  visit("gradient_2", c.gradient[1]);
+  visit("area", c.area);
+  visit("lame_lambda", c.lame_lambda);
+  visit("lame_mu", c.lame_mu);
+  visit("damping", c.damping);
+}
+
+template <class Case, class Visit>
+  requires std::same_as<std::remove_const_t<Case>, BendingCase>
+void visit_members(Case& c, Visit visit) {
+  visit("vertex", c.vertex);
+  visit("start", c.start);
+  visit("stiffness", c.stiffness);
+  visit("rest_angle", c.rest_angle);
+  visit("damping", c.damping);
+  visit("own", c.own);
+}
+
+struct Writer {
+  Json json;
+  void operator()(const char* name, float x) { json[name] = hexadecimal(x); }
+  void operator()(const char* name, std::int32_t x) { json[name] = x; }
+  template <std::size_t n>
+  void operator()(const char* name, const std::array<Vec3f, n>& points) {
+    json[name] = points_to_json(points);
+  }
+  template <std::size_t n>
+  void operator()(const char* name, const std::array<float, n>& numbers) {
+    json[name] = numbers_to_json({numbers.begin(), numbers.end()});
+  }
+};
+
+struct Reader {
+  const Json& json;
+  void operator()(const char* name, float& x) const { x = number(json.at(name)); }
+  void operator()(const char* name, std::int32_t& x) const {
+    x = json.at(name).get<std::int32_t>();
+    if (x < 0 || x > 3) throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
+  }
+  template <std::size_t n>
+  void operator()(const char* name, std::array<Vec3f, n>& points) const {
+    points = to_points<n>(json.at(name));
+  }
+  template <std::size_t n>
+  void operator()(const char* name, std::array<float, n>& numbers) const {
+    for (std::size_t i = 0; i < n; ++i) numbers[i] = number(json.at(name).at(i));
+  }
+};
+
+template <class Case>
+Json written(const Case& c) {
+  Writer writer;
+  visit_members(c, [&](const char* name, const auto& member) { writer(name, member); });
+  return writer.json;
+}
+
+template <class Case>
+Case read(const Json& data) {
+  Case c;
+  const Reader reader{data};
+  visit_members(c, [&](const char* name, auto& member) { reader(name, member); });
+  return c;
+}
+
+}  // namespace
+
+Json force_case_to_json(const MembraneCase& c) { return written(c); }
+Json force_case_to_json(const BendingCase& c) { return written(c); }
+
+CaseData to_force_case(Stage stage, const Json& data) {
+  switch (stage) {
+    case Stage::membrane: return read<MembraneCase>(data);
+    default: return read<BendingCase>(data);
+  }
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,205 @@
+// Cases of membrane and bending: a rest shape, a deformation of it, a material. Ladders lead to the rest shape (where strains cancel), to collapse, to the sign
+// of the stress along the corner's gradient, and to the fold by ±π.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "compare/judge/generators.hpp"
+#include "compare/judge/placement.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+/// A triangle in the rest plane and what the stage reads of it.
+struct RestCorners {
+  std::array<Vec3, 3> corner;
+  double size;  ///< about the length of an edge
+};
+
+RestCorners rest_corners(Random& random, bool lattice) {
+  const double size = lattice ? std::ldexp(1.0, random.below(9) - 8) : random.magnitude(-3, 0);
+  if (lattice) return {{{{0, 0, 0}, {size, 0, 0}, {0, size, 0}}}, size};
+  const Vec3 b{size * random.between(0.5, 1.5), 0, 0}, c{size * random.between(-0.5, 1.5), size * random.between(0.3, 1.5), 0};
+  return {{{{0, 0, 0}, b, c}}, size};
+}
+
+float single(double x) { return static_cast<float>(x); }
+
+/// ∇N₁, ∇N₂ and the area of corners (0, 0), (b, 0), (c, h).
+void set_rest(MembraneCase& question, const RestCorners& rest) {
+  const double b = rest.corner[1].x, c = rest.corner[2].x, h = rest.corner[2].y;
+  question.gradient = {{{single(1 / b), single(-c / (b * h))}, {0, single(1 / h)}}};
+  question.area = single(b * h / 2);
+}
+
+void set_material(Random& random, MembraneCase& question) {
+  question.lame_lambda = random.one_in(8) ? 0 : single(random.magnitude(-1, 5));
+  question.lame_mu = single(random.magnitude(-1, 5));
+  question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
+}
+
+/// `deform` moves the corners of the rest shape; the start lies near the result in half of the cases, at rest otherwise. The same placement for both.
+template <class Deform>
+CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
+  MembraneCase question;
+  const RestCorners rest = rest_corners(random, lattice);
+  set_rest(question, rest);
+  set_material(random, question);
+  std::array<Vec3, 6> points;
+  for (std::size_t k = 0; k < 3; ++k) points[k] = deform(rest.corner[k]);
+  const bool near = random.one_in(2);
+  const double step = rest.size * random.magnitude(-5, -1);
+  for (std::size_t k = 0; k < 3; ++k) points[3 + k] = near ? sum(points[k], scaled(in_box(random, -1, 1), step)) : rest.corner[k];
+  permute(random, points);
+  if (!lattice) rotate(random, points);
+  for (std::size_t k = 0; k < 3; ++k) {
+    question.corner[k] = placement::single(points[k]);
+    question.start[k] = placement::single(points[3 + k]);
+  }
+  return question;
+}
+
+Vec3 stretched(const Vec3& p, double xx, double xy, double yy) { return {xx * p.x + xy * p.y, yy * p.y, 0}; }
+
+CaseData membrane_uniform(Random& random) {
+  const double xx = random.between(0.3, 3), xy = random.between(-1, 1), yy = random.between(0.3, 3);
+  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); });
+}
+
+CaseData membrane_lattice(Random& random) {
+  const double xx = 0.25 * (1 + random.below(8)), xy = 0.25 * (random.below(5) - 2), yy = 0.25 * random.below(9);
+  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
+}
+
+/// F → I: every term of the strain cancels.
+CaseData membrane_rest(Random& random) {
+  const double xx = 1 + random.rung(), xy = random.rung(), yy = 1 + random.rung();
+  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); });
+}
+
+/// A deformed triangle without area, down to a point.
+CaseData membrane_collapse(Random& random) {
+  const double xx = random.one_in(2) ? random.between(0.3, 2) : random.rung(), xy = random.one_in(4) ? 0.0 : random.between(-1, 1), yy = random.rung();
+  const bool lattice = random.one_in(2);
+  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, lattice);
+}
+
+/// The stress along the corner's gradient goes through 0: a stretch one way against a compression the other way.
+CaseData membrane_sign(Random& random) {
+  const double xx = random.between(0.5, 1), along = 1 + random.rung();
+  const double yy = std::sqrt(std::max(0.0, 2 - xx * xx)) * along;
+  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, 0, yy); });
+}
+
+constexpr std::array<Generator, 5> membrane_table{{{"uniform", 40, true, membrane_uniform},
+                                                   {"lattice", 15, false, membrane_lattice},
+                                                   {"ladder.rest", 20, false, membrane_rest},
+                                                   {"ladder.collapse", 10, false, membrane_collapse},
+                                                   {"ladder.sign", 15, false, membrane_sign}}};
+
+/// x0, x1, o0, o1 with the edge along x: o0 in the upper half of the xy plane, o1 in the lower one turned by `angle` about the edge.
+struct HingeShape {
+  double size = 1, foot_a = 0.5, foot_b = 0.5, height_a = 1, height_b = 1, angle = 0;
+  std::array<Vec3, 4> points() const {
+    const double y = -std::cos(angle) * height_b * size, z = std::sin(angle) * height_b * size;
+    return {{{0, 0, 0}, {size, 0, 0}, {foot_a * size, height_a * size, 0}, {foot_b * size, y, z}}};
+  }
+};
+
+HingeShape hinge_shape(Random& random) {
+  HingeShape shape;
+  shape.size = random.magnitude(-3, 0);
+  shape.foot_a = random.between(-0.5, 1.5);
+  shape.foot_b = random.between(-0.5, 1.5);
+  shape.height_a = random.between(0.3, 1.5);
+  shape.height_b = random.between(0.3, 1.5);
+  return shape;
+}
+
+/// The two shapes of a hinge, now and at the start, at the same place.
+CaseData bending_case(Random& random, const HingeShape& now, const HingeShape& start, bool turned = true) {
+  BendingCase question;
+  question.stiffness = single(random.magnitude(-8, -2));
+  question.rest_angle = random.one_in(2) ? 0 : single(random.between(-2.5, 2.5));
+  question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
+  question.own = random.below(4);
+  std::array<Vec3, 8> points;
+  for (std::size_t k = 0; k < 4; ++k) {
+    points[k] = now.points()[k];
+    points[4 + k] = start.points()[k];
+  }
+  permute(random, points);
+  if (turned) rotate(random, points);
+  for (std::size_t k = 0; k < 4; ++k) {
+    question.vertex[k] = placement::single(points[k]);
+    question.start[k] = placement::single(points[4 + k]);
+  }
+  return question;
+}
+
+HingeShape with_angle(HingeShape shape, double angle) {
+  shape.angle = angle;
+  return shape;
+}
+
+CaseData bending_uniform(Random& random) {
+  const HingeShape shape = hinge_shape(random);
+  const double angle = random.between(-3, 3);
+  return bending_case(random, with_angle(shape, angle), with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
+}
+
+/// Right angles and flat hinges without a rounding.
+CaseData bending_lattice(Random& random) {
+  HingeShape shape;
+  shape.size = std::ldexp(1.0, random.below(9) - 8);
+  shape.foot_a = 0.25 * (random.below(9) - 2);
+  shape.foot_b = 0.25 * (random.below(9) - 2);
+  shape.height_a = 0.25 * (1 + random.below(6));
+  shape.height_b = 0.25 * (1 + random.below(6));
+  BendingCase question = std::get<BendingCase>(bending_case(random, shape, shape, false));
+  const int quarter = random.below(4);
+  const float h = single(shape.height_b * shape.size);
+  constexpr std::array<std::array<float, 2>, 4> turns{{{-1, 0}, {0, 1}, {0, -1}, {1, 0}}};
+  question.vertex = {{{0, 0, 0}, {single(shape.size), 0, 0}, {single(shape.foot_a * shape.size), single(shape.height_a * shape.size), 0},
+                      {single(shape.foot_b * shape.size), turns[quarter][0] * h, turns[quarter][1] * h}}};
+  return question;
+}
+
+/// θ → 0.
+CaseData bending_flat(Random& random) {
+  const HingeShape shape = hinge_shape(random);
+  return bending_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()), random.one_in(2));
+}
+
+/// θ → ±π, where the angle jumps.
+CaseData bending_fold(Random& random) {
+  const HingeShape shape = hinge_shape(random);
+  const double angle = std::numbers::pi + random.rung(), before = random.one_in(2) ? angle : random.between(-3, 3);
+  return bending_case(random, with_angle(shape, angle), with_angle(shape, before), random.one_in(2));
+}
+
+/// A triangle, or both, tends to a line.
+CaseData bending_needle(Random& random) {
+  HingeShape shape = hinge_shape(random);
+  shape.height_a = std::abs(random.rung());
+  if (random.one_in(4)) shape.height_b = std::abs(random.rung());
+  const double angle = random.between(-3, 3);
+  return bending_case(random, with_angle(shape, angle), with_angle(shape, angle), random.one_in(2));
+}
+
+constexpr std::array<Generator, 5> bending_table{{{"uniform", 40, true, bending_uniform},
+                                                  {"lattice", 15, false, bending_lattice},
+                                                  {"ladder.flat", 20, false, bending_flat},
+                                                  {"ladder.fold", 15, false, bending_fold},
+                                                  {"ladder.needle", 10, false, bending_needle}}};
+
+}  // namespace
+
+std::span<const Generator> membrane_generators() { return membrane_table; }
+std::span<const Generator> bending_generators() { return bending_table; }
+
+}  // namespace ogc::compare

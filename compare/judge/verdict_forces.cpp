@@ -1,0 +1,67 @@
+// Verdict of the stages that answer with a force and a block.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "compare/judge/verdict.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+/// Errors of one answer against one accepted answer, in units of u · scale.
+struct ForceErrors {
+  double force = 0, block = 0;
+};
+
+double in_units(double error, double scale) { return error == 0 ? 0 : error / (unit_roundoff * scale); }
+
+ForceErrors errors_of(const Vec3f& force, const std::array<float, 6>& block, const ForceAnswer& exact) {
+  double squared = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double error = block[k] - exact.block[k];
+    squared += error * error;
+  }
+  const double off = std::hypot(force.x - exact.force.x, force.y - exact.force.y, force.z - exact.force.z);
+  return {in_units(off, exact.force_scale), in_units(std::sqrt(squared), exact.block_scale)};
+}
+
+std::string text(const char* what, double a, double b) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, "%s %.9g, exact %.9g", what, a, b);
+  return buffer;
+}
+
+/// The accepted answer whose worse error, as a share of its tolerance, is least.
+const ForceAnswer& nearest(const std::vector<ForceAnswer>& accepted, const Vec3f& force, const std::array<float, 6>& block, std::span<const MetricInfo> infos) {
+  const auto share = [&](const ForceAnswer& exact) {
+    const ForceErrors errors = errors_of(force, block, exact);
+    return std::max(errors.force / infos[0].tolerance, errors.block / infos[1].tolerance);
+  };
+  return *std::min_element(accepted.begin(), accepted.end(), [&](const ForceAnswer& a, const ForceAnswer& b) { return share(a) < share(b); });
+}
+
+}  // namespace
+
+void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tally& tally) {
+  tally.begin(cases[0].name);
+  if (out.force.size() != cases.size() || out.block.size() != cases.size()) {
+    tally.mismatch("an array of the answer does not have one entry for each case");
+    return;
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto& accepted = truth.accepted[i];
+    tally.begin(cases[i].name);
+    tally.count(1, 1, accepted.size() > 1);
+    const Vec3f& force = out.force[i];
+    const ForceAnswer& exact = nearest(accepted, force, out.block[i], metrics(tally.stage));
+    const ForceErrors errors = errors_of(force, out.block[i], exact);
+    tally.error(0, errors.force, [&] { return text("modulus", std::hypot(force.x, force.y, force.z), std::hypot(exact.force.x, exact.force.y, exact.force.z)); });
+    tally.error(1, errors.block, [&] {
+      const auto& b = out.block[i];
+      return text("trace", double{b[0]} + b[3] + b[5], exact.block[0] + exact.block[3] + exact.block[5]);
+    });
+  }
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,31 @@
+// Stage bending: force and block of one vertex of one hinge, damping included (method.md §4, scenes.md).
+#pragma once
+
+#include "compare/stages/force.hpp"
+
+namespace ogc::compare {
+
+/// E = c/2 (θ − θ₀)² + k c/2 (θ − θᵗ)². θ in [−π, π] is the angle from the normal (x1 − x0) × (o0 − x0) to the normal (o1 − x0) × (x1 − x0), positive about x1 − x0;
+/// 0 where flat. Block: c (1 + k) ∇θ ∇θᵀ. Where a triangle or the edge has collapsed there is no angle: force and block are 0.
+struct BendingCase {
+  std::array<Vec3f, 4> vertex;      ///< x0, x1, o0, o1 [m]
+  std::array<Vec3f, 4> start;       ///< likewise at the start of the step, for θᵗ
+  float stiffness = 0;              ///< c [J]
+  float rest_angle = 0;             ///< θ₀ [rad]
+  float damping = 0;                ///< k = k_d/h [1]
+  std::int32_t own = 0;             ///< which vertex is asked about, 0 … 3
+};
+
+struct BendingIn {
+  std::vector<BendingCase> cases;
+};
+
+/// In units of u · scale. A difference (1), a normal (a product and a difference, twice where it is squared), its square (3), the edge's length (4), a
+/// foot (4), a quotient (2), two such products and their sum (3), the angle (4 u of at most π, against a scale of at least 1: 12), moment and force (4).
+inline constexpr double bending_force_tolerance = 36;
+/// The gradient's 20, twice, a factor (2) and an outer product (2).
+inline constexpr double bending_block_tolerance = 44;
+/// A hinge is grey where its angle, now or at the start, lies within this many units of u · scale of ±π: the answers with 2π more or less are accepted.
+inline constexpr double bending_grey = 16;
+
+}  // namespace ogc::compare

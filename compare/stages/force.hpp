@@ -1,0 +1,33 @@
+// What the energies of a sweep share: the answer for one vertex of one stencil, and how it is judged. In each of these stages a question is one stencil
+// with the vertex that is asked about; the reference gives the energy's derivative and the block of method.md §4.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+#include "compare/stages/numbers.hpp"
+
+namespace ogc::compare {
+
+/// By case: force −∂E/∂x [N] and the symmetric 3×3 block of the sweep, xx, xy, xz, yy, yz, zz [N/m], both of the vertex asked about.
+struct ForceOut {
+  std::vector<Vec3f> force;
+  std::vector<std::array<float, 6>> block;
+};
+
+/// One acceptable answer, and the units of its errors: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil, where coordinates are vectors relative to one
+/// vertex. It is what a relative change u of each input does to the answer, so no formula that reads single-precision differences can do much better.
+struct ForceAnswer {
+  Vec3 force;
+  std::array<double, 6> block{};
+  double force_scale = 0, block_scale = 0;
+};
+
+/// accepted[i][0] is the exact answer of case i; more than one where the case is grey: an answer on the other side of a jump.
+struct ForceTruth {
+  std::vector<std::vector<ForceAnswer>> accepted;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,14 @@
+// Stage bending: the energy of one hinge (scenes.md; method.md §4).
+#pragma once
+
+#include "compare/stages/bending.hpp"
+
+namespace ogc::reference {
+
+/// The exact answer, then those with an angle near ±π on the other side of the cut.
+std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question);
+
+/// All cases, in parallel over them.
+compare::ForceTruth bending(const compare::BendingIn& in);
+
+}  // namespace ogc::reference

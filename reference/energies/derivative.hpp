@@ -1,0 +1,113 @@
+// Forward differentiation. A number carries its derivatives by N directions; the type nests, which gives second derivatives and, with the inputs of a
+// question as the innermost directions, the condition of every derivative. No derivative of an energy is written by hand in this room.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+namespace ogc::reference {
+
+template <class T, std::size_t N>
+struct Derivative {
+  T value{};
+  std::array<T, N> slope{};
+
+  Derivative() = default;
+  Derivative(const T& constant) : value(constant) {}
+  Derivative(double constant)
+    requires(!std::is_same_v<T, double>)
+      : value(constant) {}
+  /// The variable of direction `direction`.
+  Derivative(const T& at, std::size_t direction) : value(at) { slope[direction] = T(1.0); }
+
+  friend Derivative operator+(Derivative a, const Derivative& b) {
+    a.value = a.value + b.value;
+    for (std::size_t i = 0; i < N; ++i) a.slope[i] = a.slope[i] + b.slope[i];
+    return a;
+  }
+  friend Derivative operator-(Derivative a, const Derivative& b) {
+    a.value = a.value - b.value;
+    for (std::size_t i = 0; i < N; ++i) a.slope[i] = a.slope[i] - b.slope[i];
+    return a;
+  }
+  friend Derivative operator*(const Derivative& a, const Derivative& b) {
+    Derivative c(T(a.value * b.value));
+    for (std::size_t i = 0; i < N; ++i) c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
+    return c;
+  }
+  friend Derivative operator/(const Derivative& a, const Derivative& b) {
+    Derivative c(T(a.value / b.value));
+    for (std::size_t i = 0; i < N; ++i) c.slope[i] = (a.slope[i] - c.value * b.slope[i]) / b.value;
+    return c;
+  }
+  friend Derivative operator-(const Derivative& a) { return Derivative() - a; }
+};
+
+/// The number without its derivatives.
+inline double plain(double x) { return x; }
+template <class T, std::size_t N>
+double plain(const Derivative<T, N>& x) {
+  return plain(x.value);
+}
+
+/// f(x) from its value and slope there.
+template <class T, std::size_t N>
+Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>& x) {
+  Derivative<T, N> result(value);
+  for (std::size_t i = 0; i < N; ++i) result.slope[i] = slope * x.slope[i];
+  return result;
+}
+
+/// At 0 the derivative is taken as 0: energies meet the root only where it is multiplied by a quantity that vanishes there too.
+template <class T, std::size_t N>
+Derivative<T, N> sqrt(const Derivative<T, N>& x) {
+  using std::sqrt;
+  if (plain(x) == 0) return {};
+  const T root = sqrt(x.value);
+  return chained(root, T(T(0.5) / root), x);
+}
+
+template <class T, std::size_t N>
+Derivative<T, N> log(const Derivative<T, N>& x) {
+  using std::log;
+  return chained(T(log(x.value)), T(T(1.0) / x.value), x);
+}
+
+/// The angle of (x, y); not both 0.
+template <class T, std::size_t N>
+Derivative<T, N> atan2(const Derivative<T, N>& y, const Derivative<T, N>& x) {
+  using std::atan2;
+  const T squared = x.value * x.value + y.value * y.value;
+  Derivative<T, N> angle(T(atan2(y.value, x.value)));
+  for (std::size_t i = 0; i < N; ++i) angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
+  return angle;
+}
+
+/// Three coordinates of any number type.
+template <class T>
+using Triple = std::array<T, 3>;
+
+template <class T>
+Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class T>
+Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class T>
+Triple<T> operator*(const T& s, const Triple<T>& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+template <class T>
+T dot(const Triple<T>& a, const Triple<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class T>
+Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,53 @@
+// The inputs of a stencil as innermost directions of differentiation, so that each derivative comes with its condition: the unit in which the judge
+// counts errors (compare/stages/force.hpp).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compare/stages/force.hpp"
+#include "reference/energies/derivative.hpp"
+
+namespace ogc::reference {
+
+/// A number that knows how it reacts to each input.
+using Input = Derivative<double, 28>;
+/// By the coordinates of the vertex asked about.
+using ByVertex = Derivative<Input, 3>;
+
+/// Collects the inputs of one stencil.
+class Inputs {
+ public:
+  /// p − from as one input. Exact: differences of single-precision numbers of one size have no rounding in double.
+  Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
+  Input number(double value);
+  /// Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, for an answer f of several numbers (Euclidean norms).
+  double condition(std::span<const Input> answer) const;
+
+ private:
+  struct Group {
+    std::size_t first, count;
+    double size;
+  };
+  std::vector<Group> groups_;
+  std::size_t used_ = 0;
+};
+
+/// A point that does not move with the vertex asked about.
+Triple<ByVertex> fixed(const Triple<Input>& point);
+/// The vertex asked about, at the origin of the relative coordinates.
+Triple<ByVertex> own_vertex();
+
+/// The block of a sweep, lower triangle left out.
+using Block = std::array<Input, 6>;
+/// block += weight · ∂a/∂x ∂b/∂xᵀ, made symmetric.
+void add_outer(Block& block, const Input& weight, const ByVertex& a, const ByVertex& b);
+void add_identity(Block& block, const Input& weight);
+
+/// The answer of an energy and its block.
+compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
+
+/// max(0, x) that keeps x's derivatives: the unit of the errors must hold on both sides of the corner.
+Input positive_part(const Input& x);
+
+}  // namespace ogc::reference
