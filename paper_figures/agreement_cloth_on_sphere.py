@@ -46,10 +46,14 @@ def draw(pairs, out):
     axes.legend(fontsize=7)
     figure.savefig(out)
     plt.close(figure)
+    for number, (first, second) in enumerate(pairs):
+        table = np.column_stack(differences(first, second))
+        np.savetxt(out.with_name(f"{out.stem}_{number}.csv"), table, delimiter=",", comments="", fmt=["%d", "%.9g", "%.9g"],
+                   header="step [1],largest [m],root_mean_square [m]")
 
 
 def label(run):
-    return run.manifest["backend"]
+    return f"{run.folder.name} ({run.manifest['backend']})"
 
 
 def main():

@@ -18,7 +18,9 @@ def picture(bodies, camera, size=(640, 480)):
     Front and back of a sheet have different colours, so that folds can be told; ambient occlusion makes contacts readable.
     """
     import pyvista as pv
+    from vtkmodules.vtkCommonCore import vtkLogger
 
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # without a display VTK warns that it found none, and goes on
     pv.OFF_SCREEN = True
     plotter = pv.Plotter(off_screen=True, window_size=list(size))
     plotter.set_background("white")
