@@ -183,7 +183,8 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "Differential test of the fast stages against the exact reference");
   command->add_option("STAGE", options->stages,
-                      "closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate, membrane, bending; none: all that both sides have");
+                      "closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate, membrane, bending; none: all that both "
+                      "sides have");
   command->add_option("--backend", options->backend, "cpu or cuda")->capture_default_str();
   command->add_option("--cases", options->cases, "Cases a stage; for meshes a case is a vertex or an edge")->capture_default_str()->check(CLI::PositiveNumber);
   command->add_option("--seed", options->seed, "Of the generators")->capture_default_str();

@@ -37,8 +37,13 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# Sets $python to an interpreter with what plots need, as far as it can be had.
+# Sets $python, and OGC_PYTHON for the build, to an interpreter with what plots need, as far as it can be had.
 prepare_python() {
+  find_python "$1" || return 1
+  export OGC_PYTHON=$python
+}
+
+find_python() {
   local root=$1 wanted stamp
   wanted=$(cat "$root/plots/requirements.txt" | cksum)
   stamp=$root/.venv/requirements.cksum

@@ -78,7 +78,7 @@ ABOVE_ITS_FOLDER = "compare/problem/contestant.hpp"
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
-SKIPPED_FOLDERS = {".git", "build", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
+SKIPPED_FOLDERS = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
 
 
 class House:

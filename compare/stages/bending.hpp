@@ -6,7 +6,9 @@
 namespace ogc::compare {
 
 /// E = c/2 (θ − θ₀)² + k c/2 (θ − θᵗ)². θ in [−π, π] is the angle from the normal (x1 − x0) × (o0 − x0) to the normal (o1 − x0) × (x1 − x0), positive about x1 − x0;
-/// 0 where flat. Block: c (1 + k) ∇θ ∇θᵀ. Where a triangle or the edge has collapsed there is no angle: force and block are 0.
+/// 0 where flat. Block: c (1 + k) ∇θ ∇θᵀ. Where a triangle or the edge has collapsed there is no angle: force and block are 0, and θᵗ counts as 0.
+/// A normal of length ‖e‖‖s‖ h beside an edge e and a side s is known to u/h, so between h = 0 and h = 2⁻¹⁶ its direction, and with it the answer, is
+/// mostly rounding: such hinges are no legal question.
 struct BendingCase {
   std::array<Vec3f, 4> vertex;      ///< x0, x1, o0, o1 [m]
   std::array<Vec3f, 4> start;       ///< likewise at the start of the step, for θᵗ

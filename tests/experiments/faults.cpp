@@ -30,6 +30,18 @@ Vec3f stored(const Vec3& exact, const Vec3f& previous, float bound) {
 
 std::vector<float> rounded(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
+ForceOut rounded(const ForceTruth& truth) {
+  ForceOut out;
+  for (const auto& accepted : truth.accepted) {
+    const ForceAnswer& exact = accepted[0];
+    out.force.push_back({static_cast<float>(exact.force.x), static_cast<float>(exact.force.y), static_cast<float>(exact.force.z)});
+    std::array<float, 6> block{};
+    for (std::size_t k = 0; k < block.size(); ++k) block[k] = static_cast<float>(exact.block[k]);
+    out.block.push_back(block);
+  }
+  return out;
+}
+
 }  // namespace
 
 Contestant exact_contestant(const Authority& authority) {
@@ -51,12 +63,14 @@ Contestant exact_contestant(const Authority& authority) {
       if (truth.exceeded[i]) out.position[i] = stored(truth.position[i], in.previous[i], in.bound[i]);
     return out;
   };
+  exact.membrane = [authority](const MembraneIn& in) { return rounded(authority.membrane(in)); };
+  exact.bending = [authority](const BendingIn& in) { return rounded(authority.bending(in)); };
   return exact;
 }
 
 std::vector<Fault> faults() {
   std::vector<Fault> all = pair_faults();
-  for (const auto& more : {set_faults(), scalar_faults()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {set_faults(), scalar_faults(), force_faults()}) all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

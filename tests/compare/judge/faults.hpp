@@ -24,9 +24,10 @@ struct Fault {
 /// All of them, at least one a stage.
 std::vector<Fault> faults();
 
-/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp.
+/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp, faults_forces.cpp.
 std::vector<Fault> pair_faults();
 std::vector<Fault> set_faults();
 std::vector<Fault> scalar_faults();
+std::vector<Fault> force_faults();
 
 }  // namespace ogc::tests

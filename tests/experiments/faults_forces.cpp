@@ -1,0 +1,59 @@
+// Faults of membrane and bending.
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+/// The right answer to a question that is changed first.
+template <class In, class Change>
+Fault asked_wrongly(const std::string& name, Stage stage, std::function<ForceOut(const In&)> Contestant::*which, Change change) {
+  return {name, stage, [which, change](Contestant& contestant, const Authority&) {
+            contestant.*which = [right = contestant.*which, change](const In& in) {
+              In other = in;
+              for (auto& question : other.cases) change(question);
+              return right(other);
+            };
+          }};
+}
+
+/// The right answer, spoiled case by case.
+template <class In, class Spoil>
+Fault spoiled(const std::string& name, Stage stage, std::function<ForceOut(const In&)> Contestant::*which, Spoil spoil) {
+  return {name, stage, [which, spoil](Contestant& contestant, const Authority&) {
+            contestant.*which = [right = contestant.*which, spoil](const In& in) {
+              ForceOut out = right(in);
+              for (std::size_t i = 0; i < out.force.size(); ++i) spoil(in.cases[i], out.force[i], out.block[i]);
+              return out;
+            };
+          }};
+}
+
+void shorten(Vec3f& force) { force = {0.999f * force.x, 0.999f * force.y, 0.999f * force.z}; }
+
+}  // namespace
+
+std::vector<Fault> force_faults() {
+  return {
+      asked_wrongly<MembraneIn>("membrane: damping forgotten", Stage::membrane, &Contestant::membrane, [](MembraneCase& c) { c.damping = 0; }),
+      asked_wrongly<MembraneIn>("membrane: gradients of two corners exchanged", Stage::membrane, &Contestant::membrane,
+                                [](MembraneCase& c) { std::swap(c.gradient[0], c.gradient[1]); }),
+      spoiled<MembraneIn>("membrane: block overwritten by its diagonal", Stage::membrane, &Contestant::membrane,
+                          [](const MembraneCase&, Vec3f&, std::array<float, 6>& block) { block[1] = block[2] = block[4] = 0; }),
+      spoiled<MembraneIn>("membrane: force 0.1 % too small", Stage::membrane, &Contestant::membrane,
+                          [](const MembraneCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
+      asked_wrongly<BendingIn>("bending: rest angle of the other sign", Stage::bending, &Contestant::bending, [](BendingCase& c) { c.rest_angle = -c.rest_angle; }),
+      asked_wrongly<BendingIn>("bending: opposite vertices exchanged", Stage::bending, &Contestant::bending,
+                               [](BendingCase& c) { std::swap(c.vertex[2], c.vertex[3]); }),
+      spoiled<BendingIn>("bending: half the stiffness in the block", Stage::bending, &Contestant::bending,
+                         [](const BendingCase&, Vec3f&, std::array<float, 6>& block) {
+                           for (float& b : block) b *= 0.5f;
+                         }),
+      spoiled<BendingIn>("bending: force 0.1 % too small", Stage::bending, &Contestant::bending,
+                         [](const BendingCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
+  };
+}
+
+}  // namespace ogc::tests
