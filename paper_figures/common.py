@@ -15,6 +15,7 @@ def main(scene, frames, camera):
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
+    parser.add_argument("--profiled", help="run folder of the same scene, made with --profile, for the times by stage")
     arguments = parser.parse_args()
     try:
         run = Run(arguments.run)
@@ -24,7 +25,8 @@ def main(scene, frames, camera):
         last = int(run.column("step")[-1])
         claims = load_claims(CLAIMS / f"{scene}.json", run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
-        draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out)
+        draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out,
+             Run(arguments.profiled) if arguments.profiled else None)
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")
     print(out)

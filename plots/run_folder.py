@@ -35,8 +35,6 @@ class Run:
         self.manifest = json.loads(manifest.read_text())
         self.steps, self.units = _read_steps(self.folder / "steps.csv")
         self.frames = sorted((self.folder / "frames").glob("frame_*.h5"))
-        if not self.frames:
-            raise RunError(f"{self.folder} has no finished frame yet (status: {self.status})")
 
     @property
     def status(self):
@@ -74,6 +72,8 @@ class Run:
 
     def frame_at_step(self, step):
         """The stored frame nearest to `step`."""
+        if not self.frames:
+            raise RunError(f"{self.folder} has no finished frame yet (status: {self.status})")
         numbers = [int(path.stem.removeprefix("frame_")) for path in self.frames]
         return self.frame(self.frames[int(np.argmin([abs(n - step) for n in numbers]))])
 

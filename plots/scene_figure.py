@@ -33,18 +33,19 @@ def bodies_of(run, frame):
     return result
 
 
-def draw_time(axes, run, claims):
-    steps, stages = run.column("step"), run.stage_columns()
+def draw_time(axes, run, claims, profiled):
+    """Time a step of `run`; behind it, where `profiled` was profiled, its times by stage (with a synchronisation after each stage, so their sum is larger)."""
+    stages = profiled.stage_columns()
     if stages:
-        axes.stackplot(steps, list(stages.values()), labels=list(stages), colors=style.COLOURS, alpha=0.85)
-    else:
-        axes.plot(steps, run.column("wall"), label="step")
+        axes.stackplot(profiled.column("step"), list(stages.values()), labels=[f"profiled: {name.replace('_', ' ')}" for name in stages],
+                       colors=style.COLOURS[1:], alpha=0.7)
+    axes.plot(run.column("step"), run.column("wall"), label="step")
     for quantity, dash in (("step_ms_average", "--"), ("step_ms_maximum", ":")):
         if quantity in claims:
             value, machine = claims[quantity]
             axes.axhline(value, color="black", linestyle=dash, linewidth=0.8, label=f"paper, {quantity.split('_')[-1]}: {value:g} ms ({machine})")
     axes.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=6.5, ncols=2)
 
 
 def draw_detections(axes, run):
@@ -93,13 +94,16 @@ def headline(run):
             f"worst {wall.max():.3g} ms a step; {kept}; commit {m['commit'][:10]}{' (dirty)' if m.get('dirty') else ''}")
 
 
-def draw(run, frames, camera, claims, out):
-    """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or failed its audit."""
+def draw(run, frames, camera, claims, out, profiled=None):
+    """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or failed its audit.
+
+    `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None.
+    """
     run.require_finished()
     plt = style.use()
     figure = plt.figure(figsize=(11, 8.2))
     grid = figure.add_gridspec(3, 4, height_ratios=[1, 1, 0.95])
-    draw_time(figure.add_subplot(grid[0, :2]), run, claims)
+    draw_time(figure.add_subplot(grid[0, :2]), run, claims, profiled or run)
     draw_detections(figure.add_subplot(grid[0, 2:]), run)
     draw_contacts(figure.add_subplot(grid[1, :2]), run)
     draw_distance(figure.add_subplot(grid[1, 2:]), run)
