@@ -14,7 +14,15 @@
 namespace ogc::reference {
 
 compare::Authority authority() {
-  compare::Authority authority{"reference", closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate, {}, {}};
+  compare::Authority authority;
+  authority.name = "reference";
+  authority.closest_face = closest_face;
+  authority.closest_points = closest_points;
+  authority.detect_vertex_facet = detect_vertex_facet;
+  authority.detect_edge_edge = detect_edge_edge;
+  authority.bound = bound;
+  authority.activation = activation;
+  authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
   authority.bending = [](const compare::BendingIn& in) { return bending(in); };
   return authority;

@@ -11,12 +11,18 @@
 #include "compare/problem/scene.hpp"
 #include "compare/stages/activation.hpp"
 #include "compare/stages/bending.hpp"
+#include "compare/stages/block.hpp"
 #include "compare/stages/bound.hpp"
 #include "compare/stages/closest_face.hpp"
 #include "compare/stages/closest_points.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/friction_force.hpp"
+#include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/rest_state.hpp"
+#include "compare/stages/step.hpp"
+#include "compare/stages/sweep.hpp"
 #include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
@@ -90,6 +96,13 @@ struct Contestant {
   std::function<TruncateOut(const TruncateIn&)> truncate;
   std::function<ForceOut(const MembraneIn&)> membrane;
   std::function<ForceOut(const BendingIn&)> bending;
+  std::function<ForceOut(const ContactForceIn&)> contact_force;
+  std::function<ForceOut(const FrictionForceIn&)> friction_force;
+  std::function<BlockOut(const BlockIn&)> block;
+  std::function<RestStateOut(const RestStateIn&)> rest_state;
+  std::function<InitialGuessOut(const InitialGuessIn&)> initial_guess;
+  std::function<SweepOut(const SweepIn&)> sweep;
+  std::function<StepOut(const StepIn&)> step;
   std::function<std::unique_ptr<Simulation>(const Scene&, const SimulationOptions&)> start;
 };
 
@@ -105,6 +118,14 @@ struct Authority {
   std::function<TruncateTruth(const TruncateIn&)> truncate;
   std::function<ForceTruth(const MembraneIn&)> membrane;
   std::function<ForceTruth(const BendingIn&)> bending;
+  std::function<ForceTruth(const ContactForceIn&)> contact_force;
+  std::function<ForceTruth(const FrictionForceIn&)> friction_force;
+  std::function<BlockTruth(const BlockIn&)> block;
+  std::function<RestStateTruth(const RestStateIn&)> rest_state;
+  std::function<InitialGuessTruth(const InitialGuessIn&)> initial_guess;
+  /// Of sweep and step the truth follows the answer (compare/stages/sweep.hpp, step.hpp).
+  std::function<SweepTruth(const SweepIn&, const SweepOut&)> sweep;
+  std::function<StepTruth(const StepIn&, const StepOut&)> step;
 };
 
 }  // namespace ogc::compare

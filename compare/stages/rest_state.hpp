@@ -1,0 +1,57 @@
+// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths, materials of bodies that meet (scenes.md,
+// method.md §2, §4). Its Out is part of sweep's In: both sides then sweep with the very same single-precision numbers.
+#pragma once
+
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+#include "compare/stages/numbers.hpp"
+
+namespace ogc::compare {
+
+struct RestTriangle {
+  Triangle corner{};                               ///< in the order of the mesh
+  Index body = -1;
+  float area = 0;                                  ///< A [m²]
+  std::array<std::array<float, 2>, 2> gradient{};  ///< ∇N₁, ∇N₂ [1/m] in the frame whose first axis points from corner 0 to corner 1, corner 2 above it
+};
+
+struct RestHinge {
+  std::array<Index, 4> vertex{};  ///< x0 < x1 of the edge, then Hinge::opposite
+  Index body = -1;
+  float rest_angle = 0;           ///< θ₀ [rad], as θ of compare/stages/bending.hpp
+  float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
+};
+
+/// Two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
+struct MeetingMaterial {
+  float stiffness = 0, friction = 0;
+};
+
+/// Scene: rounded (`round_to_single`) and valid; topology: `build_topology(scene)`.
+struct RestStateIn {
+  const Scene* scene = nullptr;
+  const Topology* topology = nullptr;
+};
+
+/// Triangles and hinges in the order of the topology, without those of fixed bodies and of models `none`.
+struct RestStateOut {
+  std::vector<float> mass;                 ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
+  std::vector<RestTriangle> triangles;
+  std::vector<RestHinge> hinges;
+  std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
+  std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
+};
+
+/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one vertex. `gradient` units are of ∇N₁, ∇N₂.
+struct RestStateTruth {
+  RestStateOut exact;  ///< correctly rounded
+  std::vector<double> mass, mass_scale;
+  std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
+  std::vector<std::array<std::array<double, 2>, 2>> gradient;
+  std::vector<std::array<double, 2>> gradient_scale;
+  std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;  ///< where |θ₀| is within its error of π either sign is accepted
+  std::vector<double> meeting_stiffness, meeting_friction;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,50 @@
+// Stage step: Algorithm 3 with the guess loop of method.md §5. Every part of a step is a stage with a contract of its own; what is left is the order in which
+// they follow one another, so the answer is a trace, and the judge asks about each event what its stage asks.
+#pragma once
+
+#include <vector>
+
+#include "compare/stages/sweep.hpp"
+
+namespace ogc::compare {
+
+enum class StepEventKind : std::uint8_t {
+  detection,  ///< X_prev ← x; contact sets, bounds
+  guess,      ///< a round of the guess loop
+  sweep,      ///< one iteration
+};
+
+struct StepEvent {
+  StepEventKind kind = StepEventKind::detection;
+  std::vector<Vec3f> position;  ///< x after the event [m]
+  Index cut = 0;                ///< guess, sweep: how many vertices were cut
+  // detection alone
+  DetectVertexFacetOut vertex_facet;
+  DetectEdgeEdgeOut edge_edge;
+  std::vector<float> bound;     ///< b_v [m]
+};
+
+/// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.
+struct StepIn {
+  const Scene* scene = nullptr;
+  const Topology* topology = nullptr;
+};
+
+struct StepOut {
+  std::vector<Index> colour;        ///< of the sweeps
+  float query_radius = 0;           ///< r_q [m]
+  std::vector<Vec3f> target;        ///< y [m]
+  std::vector<StepEvent> events;
+  std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
+};
+
+/// What follows from the answer's own positions and counts.
+struct StepTruth {
+  double query_radius = 0, query_radius_scale = 0;  ///< min(r + max ‖y − xᵗ‖, cap), in double
+  std::vector<Vec3f> prescribed_target;             ///< by vertex; only where prescribed
+  std::vector<StepEventKind> events;                ///< as Algorithm 3 orders them, given each event's count of cut vertices
+  std::vector<Vec3> velocity;                       ///< [m/s]
+  std::vector<double> velocity_scale;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,45 @@
+// Stage sweep: one iteration of Algorithm 4, all energies inside, colour by colour, each new position truncated before it is written (method.md §5, §7).
+//
+// Answers are judged vertex by vertex: the truth about a vertex is the update from what the answer itself holds at vertices of lower colour and from the
+// old positions elsewhere. Whoever gets each update right so gets the sweep right, by induction over the colours, and no error is carried on and hidden
+// in a tolerance: the vertex that is named is the one that is wrong.
+#pragma once
+
+#include <span>
+
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/rest_state.hpp"
+
+namespace ogc::compare {
+
+/// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, contact and friction as in the stages of these names. Prescribed
+/// vertices (`is_prescribed`) go to y, truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at
+/// its old one; own position: old. Prescribed vertices come first.
+struct SweepIn {
+  const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
+  const Topology* topology = nullptr;
+  const RestStateOut* rest = nullptr;
+  std::span<const Index> colour;       ///< by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil share one
+  std::span<const Vec3f> old, start, target, previous;  ///< x, xᵗ, y, X_prev [m]; contacts were found at X_prev
+  std::span<const float> bound;                         ///< b_v [m]
+  std::span<const VertexFacetContact> vertex_facet;     ///< canonical order
+  std::span<const EdgeEdgeContact> edge_edge;
+};
+
+struct SweepOut {
+  std::vector<Vec3f> position;  ///< [m]; each obeys its bound exactly
+  Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay beyond its bound
+};
+
+/// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m]: the error of f and H within the tolerances
+/// of their stages through H⁻¹, of the solve, of the truncation, of storing. `grey`: a contact of the vertex has more than one accepted answer, or the cut is
+/// in doubt; their spread is part of `accepted`.
+struct SweepTruth {
+  std::vector<Vec3> position;
+  std::vector<double> accepted;
+  std::vector<std::uint8_t> grey;
+  Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
+};
+
+}  // namespace ogc::compare
