@@ -7,8 +7,7 @@ namespace ogc::compare {
 
 /// E = c/2 (θ − θ₀)² + k c/2 (θ − θᵗ)². θ in [−π, π] is the angle from the normal (x1 − x0) × (o0 − x0) to the normal (o1 − x0) × (x1 − x0), positive about x1 − x0;
 /// 0 where flat. Block: c (1 + k) ∇θ ∇θᵀ. Where a triangle or the edge has collapsed there is no angle: force and block are 0, and θᵗ counts as 0.
-/// A normal of length ‖e‖‖s‖ h beside an edge e and a side s is known to u/h, so between h = 0 and h = 2⁻¹⁶ its direction, and with it the answer, is
-/// mostly rounding: such hinges are no legal question.
+/// A triangle nearly collapsed (bending_needle) has a normal that is mostly rounding: there it may count as collapsed, now as at the start.
 struct BendingCase {
   std::array<Vec3f, 4> vertex;      ///< x0, x1, o0, o1 [m]
   std::array<Vec3f, 4> start;       ///< likewise at the start of the step, for θᵗ
@@ -29,5 +28,8 @@ inline constexpr double bending_force_tolerance = 36;
 inline constexpr double bending_block_tolerance = 44;
 /// A hinge is grey where its angle, now or at the start, lies within this many units of u · scale of ±π: the answers with 2π more or less are accepted.
 inline constexpr double bending_grey = 16;
+/// A triangle may count as collapsed where the sine between the edge and a side, at either end, is below this many u. Formed from rounded differences the
+/// normal has an error of 4 u; a kernel that takes an eighth for the limit changes over at 32 u, give or take that error, and twice that leaves it room.
+inline constexpr double bending_needle = 64;
 
 }  // namespace ogc::compare

@@ -18,7 +18,8 @@ struct ForceOut {
 };
 
 /// One acceptable answer, and the units of its errors: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil, where coordinates are vectors relative to one
-/// vertex. It is what a relative change u of each input does to the answer, so no formula that reads single-precision differences can do much better.
+/// vertex (of a hinge: to the one that makes it largest, as a formula reads them relative to a vertex of its choice). It is what a relative change u of
+/// each input does to the answer, so no formula that reads single-precision differences can do much better.
 struct ForceAnswer {
   Vec3 force;
   std::array<double, 6> block{};

@@ -1,7 +1,8 @@
 // Discrete hinge: c/2 (θ − θ₀)², c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (scenes.md), damping c k_d/(2h) (θ − θᵗ)², seen from one vertex. The block is Gauss–Newton's.
 // With e = x1 − x0, a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
 //
-//          o0             θ = atan2(−‖e‖ n_a·b, n_a·n_b): the sine as a volume, because the cross product of two nearly equal normals cancels
+//          o0             θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b): the sine as a volume, because the cross product of two nearly equal normals cancels, and of
+//                         b's part across e alone: along e the errors of two needles would multiply
 //         /  \            ∂θ/∂o0 = −‖e‖ n_a/‖n_a‖²,  ∂θ/∂o1 = −‖e‖ n_b/‖n_b‖²
 //       x0 ── x1          ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1,  s_a = a·e/‖e‖² (where o0's foot lies on the edge); ∂θ/∂x1 with s instead of 1 − s
 //         \  /
@@ -35,10 +36,11 @@ struct HingeShape {
   bool defined = false;                ///< false where a triangle or the edge collapsed
 };
 
-/// A triangle has collapsed where its doubled area is below the rounding error of its own cross product, 4 u ‖e‖‖a‖ (two products and a difference in
-/// each of three components): its normal is noise, so the hinge exerts no force and the membrane alone opens it again.
+/// The cross product of two rounded differences has an error of up to 4 u ‖e‖‖a‖ (two differences, two products). A triangle has collapsed where its doubled
+/// area is below eight times that: its normal is known to no better than an eighth, and its square, by which gradients are divided, to no better than a
+/// quarter. The hinge then exerts no force, and the membrane alone opens it again.
 OGC_HD inline bool hinge_side_collapsed(float normal_squared, float length_squared, float side_squared) {
-  constexpr float relative = 16 * 0x1p-48f;  // (4 u)²
+  constexpr float relative = 1024 * 0x1p-48f;  // (8 · 4 u)²
   return !(normal_squared > relative * length_squared * side_squared);
 }
 
@@ -50,10 +52,11 @@ OGC_HD inline HingeShape hinge_shape(const Vec& edge, const Vec& a, const Vec& b
   const float squared_a = dot(shape.normal_a, shape.normal_a), squared_b = dot(shape.normal_b, shape.normal_b);
   if (hinge_side_collapsed(squared_a, shape.length_squared, dot(a, a)) || hinge_side_collapsed(squared_b, shape.length_squared, dot(b, b))) return shape;
   shape.defined = true;
-  const float length = sqrtf(shape.length_squared);
-  shape.angle = arctangent2(-length * dot(shape.normal_a, b), dot(shape.normal_a, shape.normal_b));
+  const float length = sqrtf(shape.length_squared), along = dot(b, edge);
+  const Vec across = b - (along / shape.length_squared) * edge;
+  shape.angle = arctangent2(-length * dot(shape.normal_a, across), dot(shape.normal_a, shape.normal_b));
   shape.beyond_a = shape.length_squared - dot(a, edge);
-  shape.beyond_b = shape.length_squared - dot(b, edge);
+  shape.beyond_b = shape.length_squared - along;
   shape.divisor_a = length * squared_a;
   shape.divisor_b = length * squared_b;
   return shape;

@@ -1,6 +1,8 @@
 #include "reference/energies/bending.hpp"
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "reference/energies/inputs.hpp"
 #include "reference/energies/parallel.hpp"
@@ -16,32 +18,46 @@ bool is_zero(const Triple<T>& a) {
   return plain(a[0]) == 0 && plain(a[1]) == 0 && plain(a[2]) == 0;
 }
 
+template <class T>
+double plain_length(const Triple<T>& a) {
+  return std::hypot(plain(a[0]), plain(a[1]), plain(a[2]));
+}
+
 /// The two normals and the edge between them.
 template <class T>
 struct Fold {
+  Hinge<T> x;
   Triple<T> edge, first, second;
-  explicit Fold(const Hinge<T>& x) : edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
+  explicit Fold(const Hinge<T>& at) : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
   bool collapsed() const { return is_zero(first) || is_zero(second); }
+  bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
+  /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.
+  bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
+    const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
+    return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;
+  }
   /// From the first normal to the second, about the edge.
   T angle() const { return atan2(dot(cross(first, second), edge) / sqrt(dot(edge, edge)), dot(first, second)); }
 };
 
-Hinge<Input> start_of(const compare::BendingCase& q, Inputs& inputs) {
-  return {Triple<Input>{}, inputs.vector(q.start[1], q.start[0]), inputs.vector(q.start[2], q.start[0]), inputs.vector(q.start[3], q.start[0])};
-}
-
 Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
-  Hinge<ByVertex> x;
   const auto own = static_cast<std::size_t>(q.own);
-  for (std::size_t k = 0; k < 4; ++k) x[k] = k == own ? own_vertex() : fixed(inputs.vector(q.vertex[k], q.vertex[own]));
+  const Hinge<Input> relative = inputs.stencil(q.vertex, own);
+  Hinge<ByVertex> x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = k == own ? own_vertex() : fixed(relative[k]);
   return x;
 }
 
-/// 2π towards the other side where the angle cannot be told from ±π; 0 elsewhere.
-double turn(const Inputs& inputs, const Input& angle) {
-  const double doubt = compare::bending_grey * compare::unit_roundoff * inputs.condition({&angle, 1});
-  if (std::abs(angle.value) + doubt < std::numbers::pi) return 0;
-  return angle.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi;
+const Input& at_vertex(const ByVertex& x) { return x.value; }
+const Input& at_vertex(const Input& x) { return x; }
+
+/// The angle, and where it cannot be told from ±π also the one on the other side.
+template <class T>
+std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
+  const Input& value = at_vertex(angle);
+  const double doubt = compare::bending_grey * compare::unit_roundoff * inputs.condition({&value, 1});
+  if (std::abs(value.value) + doubt < std::numbers::pi) return {angle};
+  return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
 struct Material {
@@ -61,16 +77,17 @@ compare::ForceAnswer answer_at(const Inputs& inputs, const Material& m, const By
 std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question) {
   Inputs inputs;
   const Fold<ByVertex> now(now_of(question, inputs));
-  const Fold<Input> before(start_of(question, inputs));
+  const Fold<Input> before(inputs.stencil(question.start, 0));
   const Material material{inputs.number(question.stiffness), inputs.number(question.rest_angle), inputs.number(question.damping)};
   if (now.collapsed()) return {compare::ForceAnswer{}};
-  const ByVertex angle = now.angle();
-  const Input start = question.damping > 0 && !before.collapsed() ? before.angle() : Input(0.0);
-  const double turned = turn(inputs, angle.value), turned_start = turn(inputs, start);
-  std::vector<compare::ForceAnswer> answers{answer_at(inputs, material, angle, start)};
-  if (turned != 0) answers.push_back(answer_at(inputs, material, angle + ByVertex(turned), start));
-  if (turned_start != 0) answers.push_back(answer_at(inputs, material, angle, start + Input(turned_start)));
-  if (turned != 0 && turned_start != 0) answers.push_back(answer_at(inputs, material, angle + ByVertex(turned), start + Input(turned_start)));
+  const bool damped = question.damping > 0;
+  const std::vector<ByVertex> angles = with_turn(inputs, now.angle());
+  std::vector<Input> starts = damped && !before.collapsed() ? with_turn(inputs, before.angle()) : std::vector{Input(0.0)};
+  if (damped && !before.collapsed() && before.may_count_as_collapsed()) starts.push_back(Input(0.0));
+  std::vector<compare::ForceAnswer> answers;
+  for (const ByVertex& angle : angles)
+    for (const Input& start : starts) answers.push_back(answer_at(inputs, material, angle, start));
+  if (now.may_count_as_collapsed()) answers.push_back({});
   return answers;
 }
 

@@ -1,10 +1,12 @@
 #include "reference/energies/inputs.hpp"
 
+#include <algorithm>
+
 namespace ogc::reference {
 
 Triple<Input> Inputs::vector(const compare::Vec3f& p, const compare::Vec3f& from) {
   const std::array<double, 3> relative{double{p.x} - from.x, double{p.y} - from.y, double{p.z} - from.z};
-  groups_.push_back({used_, 3, std::hypot(relative[0], relative[1], relative[2])});
+  groups_.push_back({used_, 3, std::hypot(relative[0], relative[1], relative[2]), relative});
   Triple<Input> point;
   for (std::size_t k = 0; k < 3; ++k) point[k] = Input(relative[k], used_++);
   return point;
@@ -15,9 +17,57 @@ Input Inputs::number(double value) {
   return Input(value, used_++);
 }
 
+namespace {
+
+/// ∂f/∂q for a vector q: one row for each number of f.
+using Rows = std::vector<std::array<double, 3>>;
+
+Rows rows_of(std::span<const Input> answer, std::size_t first) {
+  Rows rows;
+  for (const Input& x : answer) rows.push_back({x.slope[first], x.slope[first + 1], x.slope[first + 2]});
+  return rows;
+}
+
+double norm(const Rows& rows) {
+  double squared = 0;
+  for (const auto& row : rows) squared += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+  return std::sqrt(squared);
+}
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+}  // namespace
+
+double Inputs::stencil_condition(std::span<const Input> answer, const Range& stencil) const {
+  // The point at the origin first: moving it alone is moving all others the other way.
+  std::vector<std::array<double, 3>> points(1);
+  std::vector<double> norms(1);
+  Rows origin(answer.size());
+  for (std::size_t g = stencil.begin; g < stencil.end; ++g) {
+    const Rows rows = rows_of(answer, groups_[g].first);
+    points.push_back(groups_[g].at);
+    norms.push_back(norm(rows));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) origin[i][k] += rows[i][k];
+  }
+  norms[0] = norm(origin);
+  double largest = 0;
+  for (const auto& base : points) {
+    double sum = 0;
+    for (std::size_t j = 0; j < points.size(); ++j) sum += norms[j] * distance(points[j], base);
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 double Inputs::condition(std::span<const Input> answer) const {
   double sum = 0;
-  for (const Group& group : groups_) {
+  std::size_t next = 0;
+  for (const Range& stencil : stencils_) sum += stencil_condition(answer, stencil);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    while (next < stencils_.size() && g >= stencils_[next].end) ++next;
+    if (next < stencils_.size() && g >= stencils_[next].begin) continue;
+    const Group& group = groups_[g];
     double squared = 0;
     for (const Input& x : answer)
       for (std::size_t i = 0; i < group.count; ++i) squared += x.slope[group.first + i] * x.slope[group.first + i];

@@ -21,6 +21,16 @@ class Inputs {
   /// p − from as one input. Exact: differences of single-precision numbers of one size have no rounding in double.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
   Input number(double value);
+  /// All points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences from any one of them: the condition is the
+  /// largest over these choices.
+  template <std::size_t N>
+  std::array<Triple<Input>, N> stencil(const std::array<compare::Vec3f, N>& points, std::size_t origin) {
+    std::array<Triple<Input>, N> relative;
+    stencils_.push_back({groups_.size(), groups_.size() + N - 1});
+    for (std::size_t k = 0; k < N; ++k)
+      if (k != origin) relative[k] = vector(points[k], points[origin]);
+    return relative;
+  }
   /// Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, for an answer f of several numbers (Euclidean norms).
   double condition(std::span<const Input> answer) const;
 
@@ -28,8 +38,14 @@ class Inputs {
   struct Group {
     std::size_t first, count;
     double size;
+    std::array<double, 3> at{};  ///< of a vector
   };
+  struct Range {
+    std::size_t begin, end;
+  };
+  double stencil_condition(std::span<const Input> answer, const Range& stencil) const;
   std::vector<Group> groups_;
+  std::vector<Range> stencils_;
   std::size_t used_ = 0;
 };
 

@@ -1,0 +1,138 @@
+// The hinge of the reference against differences of its energy, against mechanics, and where its angle jumps or ceases to be.
+#include "reference/energies/bending.hpp"
+
+#include <numbers>
+
+#include "tests/catch.hpp"
+#include "tests/reference/energies/stencils.hpp"
+
+using namespace ogc;
+using namespace ogc::tests;
+using compare::BendingCase;
+
+namespace {
+
+/// The angle from the unit vectors across the edge, not from normals: 0 where flat, positive about x1 − x0.
+double angle(const std::array<Point, 4>& x) {
+  Point edge = minus(x[1], x[0]);
+  const double length = norm(edge);
+  for (double& e : edge) e /= length;
+  const auto across = [&](const Point& p) {
+    Point a = minus(p, x[0]);
+    const double along = inner(a, edge);
+    for (std::size_t k = 0; k < 3; ++k) a[k] -= along * edge[k];
+    return a;
+  };
+  const Point a = across(x[2]), b = across(x[3]);
+  const Point continued{-b[0], -b[1], -b[2]};
+  return std::atan2(inner(outer(a, continued), edge), inner(a, continued));
+}
+
+std::array<Point, 4> points(const std::array<compare::Vec3f, 4>& x) { return {point(x[0]), point(x[1]), point(x[2]), point(x[3])}; }
+
+BendingCase random_case(Draw& draw) {
+  BendingCase c;
+  const auto shape = [&] {
+    std::array<compare::Vec3f, 4> x{draw.in_box(0.2), draw.in_box(0.2), draw.in_box(0.3), draw.in_box(0.3)};
+    x[1].x += 1;
+    x[2].y += 1;
+    x[3].y -= 1;
+    return x;
+  };
+  c.vertex = shape();
+  c.start = shape();
+  c.stiffness = draw.single(0.5, 2);
+  c.rest_angle = draw.single(-1, 1);
+  c.damping = draw.single(0, 2);
+  return c;
+}
+
+double energy(const Point& own, const BendingCase& c) {
+  std::array<Point, 4> x = points(c.vertex);
+  x[static_cast<std::size_t>(c.own)] = own;
+  const double now = angle(x), bent = now - c.rest_angle, moved = now - angle(points(c.start));
+  return c.stiffness / 2 * (bent * bent + c.damping * moved * moved);
+}
+
+}  // namespace
+
+TEST_CASE("the reference's hinge force is minus the slope of the energy at each of its vertices", "[property]") {
+  Draw draw(1);
+  for (int i = 0; i < 300; ++i) {
+    BendingCase c = random_case(draw);
+    c.own = i % 4;
+    const auto answers = reference::bending(c);
+    REQUIRE(answers.size() == 1);
+    const Point fallen = slope([&](const Point& x) { return energy(x, c); }, point(c.vertex[static_cast<std::size_t>(c.own)]), 1e-5);
+    // Energies of some 10 J, third derivatives below 10⁴ at heights above 0.4 m: 10⁻¹⁰/6 · 10⁴, and 10 · 2⁻⁵³/10⁻⁵ by rounding.
+    CHECK(std::abs(answers[0].force.x + fallen[0]) < 1e-6);
+    CHECK(std::abs(answers[0].force.y + fallen[1]) < 1e-6);
+    CHECK(std::abs(answers[0].force.z + fallen[2]) < 1e-6);
+  }
+}
+
+TEST_CASE("the reference's hinge exerts no net force and no net torque", "[property]") {
+  Draw draw(2);
+  for (int i = 0; i < 300; ++i) {
+    BendingCase c = random_case(draw);
+    Point force{}, torque{};
+    double scale = 0;
+    for (c.own = 0; c.own < 4; ++c.own) {
+      const compare::ForceAnswer answer = reference::bending(c)[0];
+      const Point f{answer.force.x, answer.force.y, answer.force.z}, turn = outer(point(c.vertex[static_cast<std::size_t>(c.own)]), f);
+      for (std::size_t k = 0; k < 3; ++k) {
+        force[k] += f[k];
+        torque[k] += turn[k];
+      }
+      scale += answer.force_scale;
+    }
+    // The angle is a function of the four points alone: in double nothing but its rounding remains, some tens of 2⁻⁵³ on arms shorter than 2 m.
+    CHECK(norm(force) < 1e-14 * scale);
+    CHECK(norm(torque) < 1e-14 * scale);
+  }
+}
+
+TEST_CASE("the reference's hinge block is positive semidefinite, and the force vanishes at the rest angle", "[property]") {
+  Draw draw(3);
+  for (int i = 0; i < 200; ++i) {
+    BendingCase c = random_case(draw);
+    c.own = i % 4;
+    const compare::ForceAnswer answer = reference::bending(c)[0];
+    CHECK(smallest_quadratic(answer.block, draw) >= -1e-12 * answer.block_scale);
+    c.rest_angle = static_cast<float>(angle(points(c.vertex)));
+    c.damping = 0;
+    const compare::ForceAnswer rest = reference::bending(c)[0];
+    // θ₀ is the angle up to its rounding to single: one unit of a condition that holds θ₀ itself.
+    CHECK(norm({rest.force.x, rest.force.y, rest.force.z}) <= 2 * compare::unit_roundoff * rest.force_scale);
+  }
+}
+
+TEST_CASE("a hinge folded by π may answer from either side, and a collapsed one answers nothing", "[property]") {
+  BendingCase c;
+  c.vertex = {{{0, 0, 0}, {1, 0, 0}, {0.5f, 1, 0}, {0.25f, 1, 0}}};
+  c.start = c.vertex;
+  c.stiffness = 1;
+  c.own = 2;
+  const auto folded = reference::bending(c);
+  REQUIRE(folded.size() == 2);
+  CHECK(folded[0].force.z == Approx(-folded[1].force.z));
+  CHECK(std::abs(folded[0].force.z) == Approx(std::numbers::pi));
+  c.vertex[3] = {0.25f, 0, 0};
+  const auto collapsed = reference::bending(c);
+  REQUIRE(collapsed.size() == 1);
+  CHECK(collapsed[0].force == compare::Vec3{});
+}
+
+TEST_CASE("a hinge with a needle may count as collapsed, and a sound one may not", "[property]") {
+  BendingCase c;
+  c.vertex = {{{0, 0, 0}, {1, 0, 0}, {0.5f, 1, 0}, {0.5f, -0.5f, 0.5f}}};
+  c.start = c.vertex;
+  c.stiffness = 1;
+  c.own = 3;
+  REQUIRE(reference::bending(c).size() == 1);
+  c.vertex[2].y = 0x1p-20f;  // sine 32 u at either end
+  const auto needle = reference::bending(c);
+  REQUIRE(needle.size() == 2);
+  CHECK(norm({needle[0].force.x, needle[0].force.y, needle[0].force.z}) > 0.5);
+  CHECK(needle[1].force == compare::Vec3{});
+}
