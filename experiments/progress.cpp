@@ -34,7 +34,9 @@ std::string Progress::time_left(std::int64_t current) const {
 
 void Progress::show(std::int64_t current, const std::string& detail) {
   const Clock::time_point now = Clock::now();
-  if (current != last_ && shown_ != Clock::time_point{} && now - shown_ < (terminal_ ? redraw_interval : line_interval)) return;
+  if (complete_) return;
+  complete_ = current == last_;
+  if (!complete_ && shown_ != Clock::time_point{} && now - shown_ < (terminal_ ? redraw_interval : line_interval)) return;
   shown_ = now;
   const std::string text =
       unit_ + " " + std::to_string(current) + "/" + std::to_string(last_) + (detail.empty() ? "" : ", " + detail) + time_left(current);

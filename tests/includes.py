@@ -78,7 +78,8 @@ ABOVE_ITS_FOLDER = "compare/problem/contestant.hpp"
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
-SKIPPED_FOLDERS = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
+# `.git` is a file in a linked worktree.
+SKIPPED = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
 
 
 class House:
@@ -96,7 +97,7 @@ class House:
     def files(self):
         for path in self.root.rglob("*"):
             parts = path.relative_to(self.root).parts
-            if path.is_file() and not SKIPPED_FOLDERS.intersection(parts[:-1]) and not parts[0].startswith("build"):
+            if path.is_file() and not SKIPPED.intersection(parts) and not parts[0].startswith("build"):
                 yield path
 
     def report(self, file, line, message):

@@ -27,25 +27,9 @@ std::array<Vec3, 3> canonical(Random& random) {
   return {Vec3{}, Vec3{length, 0, 0}, Vec3{random.between(-0.7, 1.7) * length, random.between(0.1, 1.5), 0}};
 }
 
-CaseData uniform(Random& random) {
-  std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = in_box(random, 0, 1);
-  return finish(points);
-}
-
-CaseData bits(Random& random) {
-  std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = {random.sign() * random.pattern(), random.sign() * random.pattern(), random.sign() * random.pattern()};
-  return finish(points);
-}
-
-CaseData lattice(Random& random) {
-  constexpr std::array<double, 6> scales{1, 1, 0x1p10, 0x1p-10, 0x1p18, 0x1p-18};
-  const double scale = random.pick(std::span<const double>(scales));
-  std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = scaled(on_lattice(random, 3), scale);
-  return finish(points);
-}
+CaseData uniform(Random& random) { return finish(points_in_box(random)); }
+CaseData bits(Random& random) { return finish(points_of_bits(random)); }
+CaseData lattice(Random& random) { return finish(points_on_lattice(random, 3)); }
 
 /// Between the blocks of corner a and of edge ab.
 CaseData corner_plane(Random& random) {

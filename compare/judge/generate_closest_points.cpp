@@ -29,25 +29,9 @@ CaseData placed(Random& random, std::array<Vec3, 4> points) {
 
 double height(Random& random) { return random.one_in(3) ? random.rung() : random.sign() * random.magnitude(-3, 0); }
 
-CaseData uniform(Random& random) {
-  std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = in_box(random, 0, 1);
-  return finish(points);
-}
-
-CaseData bits(Random& random) {
-  std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = {random.sign() * random.pattern(), random.sign() * random.pattern(), random.sign() * random.pattern()};
-  return finish(points);
-}
-
-CaseData lattice(Random& random) {
-  constexpr std::array<double, 6> scales{1, 1, 0x1p10, 0x1p-10, 0x1p18, 0x1p-18};
-  const double scale = random.pick(std::span<const double>(scales));
-  std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = scaled(on_lattice(random, 2), scale);
-  return finish(points);
-}
+CaseData uniform(Random& random) { return finish(points_in_box(random)); }
+CaseData bits(Random& random) { return finish(points_of_bits(random)); }
+CaseData lattice(Random& random) { return finish(points_on_lattice(random, 2)); }
 
 /// Two edges that cross (seen from above) at an angle of `sine`, anywhere in both interiors.
 std::array<Vec3, 4> crossing(Random& random, double sine, double z) {

@@ -27,6 +27,26 @@ Vec3 on_lattice(Random& random, int extent) {
   return {x, y, z};
 }
 
+std::array<Vec3, 4> points_in_box(Random& random) {
+  std::array<Vec3, 4> points;
+  for (Vec3& p : points) p = in_box(random, 0, 1);
+  return points;
+}
+
+std::array<Vec3, 4> points_of_bits(Random& random) {
+  std::array<Vec3, 4> points;
+  for (Vec3& p : points) p = {random.sign() * random.pattern(), random.sign() * random.pattern(), random.sign() * random.pattern()};
+  return points;
+}
+
+std::array<Vec3, 4> points_on_lattice(Random& random, int extent) {
+  constexpr std::array<double, 6> scales{1, 1, 0x1p10, 0x1p-10, 0x1p18, 0x1p-18};
+  const double scale = random.pick(std::span<const double>(scales));
+  std::array<Vec3, 4> points;
+  for (Vec3& p : points) p = scaled(on_lattice(random, extent), scale);
+  return points;
+}
+
 void permute(Random& random, std::span<Vec3> points) {
   const int order = random.below(6);
   const double sx = random.sign(), sy = random.sign(), sz = random.sign();

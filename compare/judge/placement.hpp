@@ -2,6 +2,7 @@
 // symmetries first (signed permutations and powers of two keep every bit), in half of the cases a rotation, whose rounding is one more rung.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -18,6 +19,10 @@ inline Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cas
 Vec3 in_box(Random& random, double low, double high);
 /// Small integers, halves or quarters, so that exact ties are common.
 Vec3 on_lattice(Random& random, int extent);
+/// Four points, as both pair stages have them: in the unit box; of any bits; on a lattice that is scaled exactly or by 2^±10, 2^±18.
+std::array<Vec3, 4> points_in_box(Random& random);
+std::array<Vec3, 4> points_of_bits(Random& random);
+std::array<Vec3, 4> points_on_lattice(Random& random, int extent);
 /// The same one of the 48 symmetries of the cube for all points.
 void permute(Random& random, std::span<Vec3> points);
 /// The same rotation by a random axis and angle, then a shift within the unit box.

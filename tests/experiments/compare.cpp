@@ -118,6 +118,14 @@ TEST_CASE("ogc compare judges stages and writes a report", "[agreement]") {
   REQUIRE(std::filesystem::exists(folder / "report" / "report.txt"));
 }
 
+TEST_CASE("ogc compare reports the end of a stage once", "[agreement]") {
+  const tests::ProgramResult result = tests::run_ogc("compare truncate --cases 50000");
+  const std::string end = "50000/50000";
+  const std::size_t first = result.err.find(end);
+  REQUIRE(first != std::string::npos);
+  REQUIRE(result.err.find(end, first + 1) == std::string::npos);
+}
+
 TEST_CASE("ogc compare takes a problem string, a batch file and a saved case", "[agreement]") {
   const tests::TemporaryFolder folder;
   const std::string problem = "stage=truncate gen=ladder.bound seed=7 index=12";
