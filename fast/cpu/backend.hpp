@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include "fast/kernels/search.hpp"
 #include "fast/kernels/team.hpp"
 
 namespace ogc::fast {
@@ -83,6 +84,11 @@ class CpuBackend {
   template <int W, class F>
   void for_each_team(int n, F f) {
     for_each(n, [&f](int i) { f(i, SerialTeam<W>{}); });
+  }
+
+  template <class First, class Second>
+  void search(const Searches<First>& first, const Searches<Second>& second) {
+    for_each(first.count + second.count, SearchAlone<First, Second>{first, second});
   }
 
   void exclusive_scan(const int* in, int* out, int n) {

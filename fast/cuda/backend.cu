@@ -2,14 +2,10 @@
 
 #include <utility>
 
-#include "compare/problem/error.hpp"
 #include "fast/cuda/cuda.hpp"
 
 namespace ogc::fast {
 namespace {
-
-// Blocks a multiprocessor can hold at once (2048 threads), twice: enough to keep it busy, few enough that a long count-limited loop costs little.
-constexpr int blocks_per_multiprocessor = 2 * 2048 / cuda_block_size;
 
 __global__ void set_condition(cudaGraphConditionalHandle handle, const int* flag) { cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u); }
 

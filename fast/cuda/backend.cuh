@@ -17,14 +17,18 @@
 
 #include <cuda_runtime.h>
 
+#include "compare/problem/error.hpp"
 #include "fast/cuda/buffer.cuh"
 #include "fast/cuda/check.cuh"
 #include "fast/cuda/collectives.cuh"
+#include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
 
 namespace ogc::fast {
 
 inline constexpr int cuda_block_size = 128;
+/// Blocks a multiprocessor can hold at once (2048 threads), twice: enough to keep it busy, few enough that a long count-limited loop costs little.
+inline constexpr int blocks_per_multiprocessor = 2 * 2048 / cuda_block_size;
 
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
@@ -96,6 +100,14 @@ class CudaBackend {
     check_launch(typeid(F));
   }
 
+  template <class First, class Second>
+  void search(const Searches<First>& first, const Searches<Second>& second) {
+    require_searchable(first.tree);
+    require_searchable(second.tree);
+    launch_searches(current_, first, search_group(first.count), second, search_group(second.count));
+    check_launch(typeid(SearchAlone<First, Second>));
+  }
+
   void exclusive_scan(const int* in, int* out, int n) { fast::exclusive_scan(current_, scratch_, in, out, n); }
   void sort_pairs(std::uint64_t* keys, int* values, int n) { fast::sort_pairs(current_, scratch_, keys, values, n); }
 
@@ -136,6 +148,14 @@ class CudaBackend {
  private:
   int blocks(std::int64_t threads) const {
     return static_cast<int>(std::min<std::int64_t>((threads + cuda_block_size - 1) / cuda_block_size, most_blocks_));
+  }
+  static void require_searchable(const TreeView& tree) {
+    if (tree.count > largest_searched_count) throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
+  }
+  /// Searches a warp: few while the device is not full (32 warps a multiprocessor), so that each is short; more spare it rounds that do not fill a warp.
+  int search_group(int searches) const {
+    const std::int64_t warps = most_blocks_ * 32 / blocks_per_multiprocessor;
+    return static_cast<int>(std::clamp<std::int64_t>((searches + warps - 1) / warps, 1, largest_group));
   }
   static void check_launch(const std::type_info& functor) {
     const cudaError_t error = cudaGetLastError();

@@ -50,4 +50,9 @@ OGC_HD inline void atomic_min(float* target, float value) {
 #endif
 }
 
+/// As atomic_min, for values that seldom lower the target: looks first.
+OGC_HD inline void lower(float* target, float value) {
+  if (value < atomic_load(target)) atomic_min(target, value);
+}
+
 }  // namespace ogc::fast

@@ -6,15 +6,16 @@
 
 namespace ogc::fast {
 
-/// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the larger of both counts.
+/// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the largest of the counts.
 struct ResetDistances {
   const float* query_radius;
   const int* overflow;
-  int edge_count, triangle_count;
-  float *d_min_edge, *d_min_triangle;
+  int vertex_count, edge_count, triangle_count;
+  float *d_min_vertex, *d_min_edge, *d_min_triangle;
 
   OGC_HD void operator()(int i) const {
     if (*overflow != 0) return;
+    if (i < vertex_count) d_min_vertex[i] = *query_radius;
     if (i < edge_count) d_min_edge[i] = *query_radius;
     if (i < triangle_count) d_min_triangle[i] = *query_radius;
   }

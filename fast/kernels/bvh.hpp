@@ -206,26 +206,23 @@ struct Reach {
   }
 };
 
-/// Boxes and reaches of all primitives and their lanes one level up; index: leaves of the facets' tree, then those of the edges' tree.
-struct RefitLeaves {
+/// Boxes and gap limits of the reaches of all primitives, and those limits of the vertices; index: places of the facets, of the edges, vertices.
+struct RefitPrimitives {
   Reach reach;
   TreeView facets, edges;
-  int facet_leaves;
+  float* vertex_limit;
 
   OGC_HD void operator()(int i) const {
-    const bool is_facet = i < facet_leaves;
-    const TreeView& tree = is_facet ? facets : edges;
-    const int leaf = is_facet ? i : i - facet_leaves;
-    Quad& quad = tree.node(0, leaf);
-    for (int lane = 0; lane < 4 && 4 * leaf + lane < tree.count; ++lane) {
-      const int primitive = tree.order[4 * leaf + lane];
-      if (is_facet) {
-        quad.set(lane, facet_box(primitive), gap_limit(reach.of_facet(primitive)));
-      } else {
-        quad.set(lane, edge_box(primitive), gap_limit(reach.of_edge(primitive)));
-      }
+    const int edge_place = i - facets.count, v = edge_place - edges.count;
+    if (edge_place < 0) {
+      const int t = facets.order[i];
+      facets.node(0, i / 4).set(i % 4, facet_box(t), gap_limit(reach.of_facet(t)));
+    } else if (v < 0) {
+      const int e = edges.order[edge_place];
+      edges.node(0, edge_place / 4).set(edge_place % 4, edge_box(e), gap_limit(reach.of_edge(e)));
+    } else {
+      vertex_limit[v] = gap_limit(reach.of_vertex(v));
     }
-    tree.node(1, leaf / 4).set(leaf % 4, quad.whole(), quad.whole_reach());
   }
 
  private:
@@ -245,7 +242,7 @@ struct RefitLeaves {
 /// Nodes of one level; one, with empty lanes, where there are no primitives.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
-/// Given the lanes of level `level` − 1, those of `level` and of the one above: two levels a launch. Index as in RefitLeaves, by nodes of `level`.
+/// Given the lanes of level `level` − 1, those of `level` and of the one above: two levels a launch. Index: nodes of `level`, facets' tree first.
 struct RefitInner {
   TreeView facets, edges;
   int level, facet_nodes;

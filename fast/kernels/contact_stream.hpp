@@ -68,14 +68,17 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// for_each over vertex_count + 1. A detection that failed leaves the old stream, which is whole: the sweeps that follow are not committed.
+/// for_each over slots. A detection that failed leaves the old stream, which is whole: the sweeps that follow are not committed.
 struct CopyContactRows {
   const int* incidence_offsets;
-  int* rows;
+  const SweepVertex* vertices;
+  ContactRow* rows;
   const StepControl* control;
 
-  OGC_HD void operator()(int v) const {
-    if (control->active != 0) rows[v] = incidence_offsets[v];
+  OGC_HD void operator()(int slot) const {
+    if (control->active == 0) return;
+    const int v = vertices[slot].vertex, begin = incidence_offsets[v];
+    rows[slot] = {begin, incidence_offsets[v + 1] - begin};
   }
 };
 

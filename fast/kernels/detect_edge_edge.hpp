@@ -1,53 +1,67 @@
-// Algorithm 2 for one edge, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both
-// partners take the distance. Pairs are skipped as in detect_vertex_facet.hpp.
+// Algorithm 2, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both partners take the distance.
+// Pairs are skipped, and those closer than r decided afterwards, as in detect_vertex_facet.hpp.
 #pragma once
 
 #include "fast/kernels/atomic.hpp"
 #include "fast/kernels/block.hpp"
-#include "fast/kernels/bvh.hpp"
-#include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/lists.hpp"
+#include "fast/kernels/search.hpp"
+#include "fast/kernels/separation.hpp"
 
 namespace ogc::fast {
 
+/// The searches of all edges in their tree; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
   const Vec* positions;
   TreeView tree;
   ListsView lists;
   float contact_radius;
-  const float* query_radius;
   float* d_min_edge;  ///< at most r_q before the launch
 
-  OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
-    const int e = tree.order[i];
+  OGC_HD bool is_off() const { return *lists.overflow != 0; }
+
+  OGC_HD Search begin(int i) const {
     const Quad& leaf = tree.node(0, i / 4);
-    float smallest = atomic_load(&d_min_edge[e]), limit = larger(gap_limit(contact_radius), leaf.reach[i % 4]);
-    for_each_near(tree, leaf.box(i % 4), i + 1, limit, [&](int place, float gap) { visit(e, tree.order[place], gap, smallest, limit); });
-    atomic_min(&d_min_edge[e], smallest);
+    return {leaf.box(i % 4), tree.order[i], i + 1, larger(gap_limit(contact_radius), leaf.reach[i % 4])};
+  }
+
+  OGC_HD bool is_pair(const Search& search, int place, float gap) const {
+    const int other = tree.order[place];
+    const EdgeEnds p = surface.edges[search.owner], q = surface.edges[other];
+    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.in_one_group(p, q)) return false;
+    const float own = smaller(search.limit, gap_limit(larger(contact_radius, atomic_load(&d_min_edge[search.owner]))));
+    const float limit = larger(own, smaller(tree.node(0, place / 4).reach[place % 4], gap_limit(atomic_load(&d_min_edge[other]))));
+    return !(gap > limit) && !is_beyond(separation(ends(p), ends(q)), limit);
+  }
+
+  OGC_HD float meet(const Search& search, int place, float gap) const {
+    const int e = search.owner, other = tree.order[place];
+    const int low = e < other ? e : other, high = e < other ? other : e;
+    const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
+    const float below = larger(d.below(), gap_below(gap));
+    lower(&d_min_edge[e], below);
+    lower(&d_min_edge[other], below);
+    if (sub(d.value, d.slack) < static_cast<double>(contact_radius)) lists.note({low, high});
+    return gap_limit(larger(contact_radius, below));
   }
 
  private:
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
+};
 
-  OGC_HD void visit(int e, int other, float gap, float& smallest, float& limit) const {
-    if (gap > limit && gap > gap_limit(atomic_load(&d_min_edge[other]))) return;
-    const int low = e < other ? e : other, high = e < other ? other : e;
+/// The contact of two edges, low < high, if there is one.
+struct CollectEdgeEdge {
+  SurfaceView surface;
+  const Vec* positions;
+  ListsView lists;
+  float contact_radius;
+
+  OGC_HD void operator()(int low, int high) const {
     const EdgeEnds p = surface.edges[low], q = surface.edges[high];
-    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.in_one_group(p, q)) return;
-    const Distance d = edge_edge_distance(ends(p), ends(q));
-    const float below = larger(d.below(), gap_below(gap));
-    smallest = smaller(smallest, below);
-    limit = smaller(limit, gap_limit(larger(contact_radius, smallest)));
-    if (below < atomic_load(&d_min_edge[other])) atomic_min(&d_min_edge[other], below);
-    if (sub(d.value, d.slack) < static_cast<double>(contact_radius)) collect(low, high, p, q, d);
-  }
-
-  OGC_HD void collect(int low, int high, const EdgeEnds& p, const EdgeEnds& q, const Distance& d) const {
-    const Ends first = ends(p), second = ends(q);
+    const Ends first{positions[p.a], positions[p.b]}, second{positions[q.a], positions[q.b]};
     const EdgePairFeatures on = closest_edge_features(first, second);
-    if (!is_within(first, second, on, d, contact_radius)) return;
+    if (!is_within(first, second, on, edge_edge_distance(first, second), contact_radius)) return;
     if (is_overlapping_parallel(first, second)) {
       append(surface.edge_face(low), surface.edge_face(high), low, high);
       return;
@@ -59,6 +73,7 @@ struct DetectEdgeEdge {
     append(is_first_inside ? surface.edge_face(low) : v, is_second_inside ? surface.edge_face(high) : w, low, high);
   }
 
+ private:
   /// The closest point on the other edge, inside it or its end w, lies in the block of v (Eq. 15).
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions) : in_vertex_block(positions[w], v, surface, positions);

@@ -1,53 +1,73 @@
-// Algorithm 1 for one vertex. Each pair's smallest distance also counts the gap of the boxes (never above the exact distance either): then a pair whose
-// gap reaches the minima found so far cannot lower them by one bit, and may be skipped whatever the order in which threads find each other's minima.
+// Algorithm 1. Each pair's smallest distance also counts the gap of the boxes (never above the exact distance either): then a pair whose gap reaches the
+// minima found so far cannot lower them by one bit, and may be skipped whatever the order in which searches find each other's minima.
+//
+// A search takes the smallest distances and notes each pair that may be closer than r; which of those are contacts, and of which face, is decided
+// afterwards by one thread a pair (collect_contacts.hpp): few pairs need it, and its exact predicates are most of the code.
 #pragma once
 
 #include "fast/kernels/atomic.hpp"
 #include "fast/kernels/block.hpp"
-#include "fast/kernels/bvh.hpp"
-#include "fast/kernels/closest_face.hpp"
 #include "fast/kernels/lists.hpp"
+#include "fast/kernels/search.hpp"
+#include "fast/kernels/separation.hpp"
 
 namespace ogc::fast {
 
+/// The searches of all vertices in the tree of the facets; a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
   const Vec* positions;
   TreeView tree;
   const int* vertex_order;
+  const float* vertex_limit;  ///< by vertex: gap limit of its reach
   ListsView lists;
   float contact_radius;
-  const float* query_radius;
-  float* d_min_vertex;    ///< at most r_q; only this kernel's thread of the vertex writes it
-  float* d_min_triangle;  ///< at most r_q before the launch
+  float* d_min_vertex;    ///< at most r_q before the launch
+  float* d_min_triangle;  ///< likewise
 
-  OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
+  OGC_HD bool is_off() const { return *lists.overflow != 0; }
+
+  OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = positions[v];
-    float smallest = *query_radius, limit = gap_limit(larger(contact_radius, Reach{surface, positions, query_radius}.of_vertex(v)));
-    for_each_near(tree, {x, x}, 0, limit, [&](int place, float gap) { visit(v, x, tree.order[place], gap, smallest, limit); });
-    d_min_vertex[v] = smallest;
+    return {{x, x}, v, 0, larger(gap_limit(contact_radius), vertex_limit[v])};
+  }
+
+  OGC_HD bool is_pair(const Search& search, int place, float gap) const {
+    const int v = search.owner, t = tree.order[place];
+    const Facet& facet = surface.facets[t];
+    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.in_one_group(v, facet)) return false;
+    const float limit = larger(search.limit, smaller(tree.node(0, place / 4).reach[place % 4], gap_limit(atomic_load(&d_min_triangle[t]))));
+    return !(gap > limit) && !is_beyond(separation(search.box.lower, corners(facet)), limit);
+  }
+
+  OGC_HD float meet(const Search& search, int place, float gap) const {
+    const int v = search.owner, t = tree.order[place];
+    const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
+    const float below = larger(d.below(), gap_below(gap));
+    lower(&d_min_vertex[v], below);
+    lower(&d_min_triangle[t], below);
+    if (sub(d.value, d.slack) < static_cast<double>(contact_radius)) lists.note({~v, t});
+    return gap_limit(larger(contact_radius, below));
   }
 
  private:
-  OGC_HD void visit(int v, const Vec& x, int t, float gap, float& smallest, float& limit) const {
-    if (gap > limit && gap > gap_limit(atomic_load(&d_min_triangle[t]))) return;
-    const Facet facet = surface.facets[t];
-    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.in_one_group(v, facet)) return;
-    const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
-    const Distance d = point_triangle_distance(x, corners);
-    const float below = larger(d.below(), gap_below(gap));
-    smallest = smaller(smallest, below);
-    limit = smaller(limit, gap_limit(larger(contact_radius, smallest)));
-    if (below < atomic_load(&d_min_triangle[t])) atomic_min(&d_min_triangle[t], below);
-    if (sub(d.value, d.slack) < static_cast<double>(contact_radius)) collect(v, x, t, facet, corners, d);
-  }
+  OGC_HD Corners corners(const Facet& t) const { return {positions[t.corner[0]], positions[t.corner[1]], positions[t.corner[2]]}; }
+};
 
-  /// Each triangle around a shared face reports it; the lists keep one.
-  OGC_HD void collect(int v, const Vec& x, int t, const Facet& facet, const Corners& corners, const Distance& d) const {
+/// The contact of a vertex and a facet, if there is one. Each triangle around a shared face reports it; the lists keep one.
+struct CollectVertexFacet {
+  SurfaceView surface;
+  const Vec* positions;
+  ListsView lists;
+  float contact_radius;
+
+  OGC_HD void operator()(int v, int t) const {
+    const Facet facet = surface.facets[t];
+    const Vec x = positions[v];
+    const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
     const TriangleFeature feature = closest_feature(x, corners, facet.descending);
-    if (!is_within(x, corners, feature, d, contact_radius)) return;
+    if (!is_within(x, corners, feature, point_triangle_distance(x, corners), contact_radius)) return;
     if (feature == TriangleFeature::interior) {
       lists.append({v, surface.triangle_face(t), 0, 0});
     } else if (feature <= TriangleFeature::corner_2) {

@@ -2,8 +2,9 @@
 // first face; inside a bucket a short segment is sorted, which costs far less than sorting all.
 //
 // Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order buckets, and in a bucket the
-// sorted seconds, have the canonical order of compare/stages. When the cursor has passed the capacity nothing of the detection is used: all kernels
-// but the queries stop at the overflow flag, and the cursor says how much room the same detection needs.
+// sorted seconds, have the canonical order of compare/stages. The searches note pairs that may be contacts: half as many again as the contacts where r is
+// shorter than the edges, far more where it is longer. Where a list has no room nothing of the detection is used: all later kernels stop at the overflow
+// flag, and the counts, which go on, say how much room the same detection needs.
 #pragma once
 
 #include "fast/contact_view.hpp"
@@ -11,6 +12,11 @@
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
+
+/// A pair closer than r, or too nearly so for a rounded distance to tell: edges first < second, or vertex ~first and facet `second`.
+struct NotedPair {
+  int first, second;
+};
 
 /// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, 0 for vertex–facet.
 struct RawContact {
@@ -24,12 +30,14 @@ struct RawContact {
 OGC_HD inline bool operator<(const Incidence& a, const Incidence& b) { return a.code < b.code; }
 
 struct ListsView {
+  NotedPair* noted = nullptr;
+  int noted_capacity = 0;
+  int* noted_count = nullptr;       ///< also those that found no room
   RawContact* raw = nullptr;        ///< as appended
   RawContact* sorted = nullptr;     ///< by bucket
   int capacity = 0;                 ///< of raw, sorted and both record arrays; incidences have four times as much
   int* cursor = nullptr;            ///< contacts appended, also those that found no room
   int* overflow = nullptr;          ///< sticky
-  int* needed = nullptr;            ///< capacity that would have sufficed
   int buckets = 0;
   int* raw_counts = nullptr;        ///< by bucket
   int* raw_offsets = nullptr;       ///< buckets + 1
@@ -44,6 +52,11 @@ struct ListsView {
   int* incidence_offsets = nullptr;  ///< vertices + 1
   int* incidence_filled = nullptr;   ///< by vertex
   Incidence* incidences = nullptr;
+
+  OGC_HD void note(const NotedPair& pair) const {
+    const int place = atomic_add(noted_count, 1);
+    if (place < noted_capacity) noted[place] = pair;
+  }
 
   OGC_HD void append(const RawContact& contact) const {
     const int place = atomic_add(cursor, 1);
@@ -91,20 +104,19 @@ struct PrepareLists {
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    if (i == 0) *lists.cursor = 0;
+    if (i == 0) *lists.noted_count = *lists.cursor = 0;
     if (i < lists.buckets) lists.raw_counts[i] = lists.raw_filled[i] = 0;
     if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
   }
 };
 
-/// After both queries, alone.
+/// After the contacts are collected, alone. Of pairs that found no room nobody knows which are contacts, so the contacts may want more in a second try.
 struct CheckCapacity {
   ListsView lists;
 
   OGC_HD void operator()(int) const {
-    if (*lists.overflow != 0 || *lists.cursor <= lists.capacity) return;
+    if (*lists.overflow != 0 || (*lists.noted_count <= lists.noted_capacity && *lists.cursor <= lists.capacity)) return;
     *lists.overflow = 1;
-    *lists.needed = *lists.cursor;
   }
 };
 
@@ -225,12 +237,36 @@ struct FillIncidences {
   }
 };
 
+/// Index over vertices.
 struct SortIncidences {
   ListsView lists;
 
   OGC_HD void operator()(int v) const {
     if (*lists.overflow != 0) return;
     sort_segment(lists.incidences + lists.incidence_offsets[v], lists.incidence_offsets[v + 1] - lists.incidence_offsets[v]);
+  }
+};
+
+/// The same result from rows in another array, index over all incidences: each counts those of its row that come before it. Rows are short, and no thread
+/// waits for the longest of them.
+struct RankIncidences {
+  ListsView lists;
+  const Incidence* unordered;
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    const Incidence own = unordered[i];
+    const int v = vertex_of(own), begin = lists.incidence_offsets[v], end = lists.incidence_offsets[v + 1];
+    int before = 0;
+    for (int k = begin; k < end; ++k) before += unordered[k] < own ? 1 : 0;
+    lists.incidences[begin + before] = own;
+  }
+
+ private:
+  OGC_HD int vertex_of(const Incidence& incidence) const {
+    const std::uint32_t record = (incidence.code & 0x7fffffffU) >> 2, role = incidence.code & 3U;
+    if (incidence.code >> 31 != 0) return role < 2 ? lists.edge_edge[record].first[role] : lists.edge_edge[record].second[role - 2];
+    return role == 0 ? lists.vertex_facet[record].vertex : lists.vertex_facet[record].corner[role - 1];
   }
 };
 

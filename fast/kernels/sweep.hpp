@@ -1,6 +1,5 @@
 // One vertex update of Algorithm 4: all energies of a vertex gathered from streams that hold, incidence by incidence, everything but positions, then a
-// 3×3 solve, then truncation, then the write. One stencil type after another, each padded to a multiple of W, so that the lanes of a team do the same
-// thing at the same time, and one reduction for all of them.
+// 3×3 solve, then truncation, then the write, and one reduction for all stencils.
 //
 // Two position buffers an iteration (method.md §7): a neighbour of lower colour is read from the fresh buffer, any other from the old one. Which of the
 // two is known when the streams are made, so it stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as
@@ -53,6 +52,11 @@ struct alignas(16) ContactIncidence {
   std::uint8_t own = 0;
 };
 
+/// The contacts of a vertex in the stream.
+struct ContactRow {
+  int begin = 0, count = 0;
+};
+
 /// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
@@ -61,7 +65,7 @@ struct SweepView {
   const SweepVertex* vertices = nullptr;
   const MembraneIncidence* membrane = nullptr;
   const HingeIncidence* hinges = nullptr;
-  const int* contact_rows = nullptr;  ///< by vertex, vertex_count + 1
+  const ContactRow* contact_rows = nullptr;  ///< by slot
   const ContactIncidence* contacts = nullptr;
   const SurfaceMaterial* materials = nullptr;
   const Symmetric2* strain_start = nullptr;  ///< Gᵗ by triangle
@@ -79,65 +83,122 @@ struct SweepView {
   OGC_HD Vec read(int index) const { return (index < 0 ? fresh : old)[decoded(index)]; }
 };
 
-OGC_HD inline void add_membrane_incidence(const SweepView& view, const MembraneIncidence& incidence, const SurfaceMaterial& material, const Vec& own,
-                                          ForceAndBlock& sum) {
-  const Vec to_b = view.read(incidence.index[0]) - own, to_c = view.read(incidence.index[1]) - own;
-  const Symmetric2 start = material.membrane_damping > 0 ? view.strain_start[incidence.triangle] : Symmetric2{};
-  add_membrane(incidence.stencil, material, to_b, to_c, start, sum);
+// What a stencil reads beside its incidence. Reading and adding are apart, so that an update can start all reads before it waits for the first: their
+// latency, not arithmetic, is what a vertex costs on a device.
+
+struct MembraneReads {
+  Vec b, c;
+  Symmetric2 strain_start{};
+};
+
+OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneIncidence& incidence, const SurfaceMaterial& material) {
+  MembraneReads reads{view.read(incidence.index[0]), view.read(incidence.index[1])};
+  if (material.membrane_damping > 0) reads.strain_start = view.strain_start[incidence.triangle];
+  return reads;
 }
 
-OGC_HD inline void add_hinge_incidence(const SweepView& view, const HingeIncidence& incidence, const SurfaceMaterial& material, const Vec& own,
+OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads, const SurfaceMaterial& material, const Vec& own,
+                                          ForceAndBlock& sum) {
+  add_membrane(incidence.stencil, material, reads.b - own, reads.c - own, reads.strain_start, sum);
+}
+
+struct HingeReads {
+  Vec p[3];
+  float angle_start = 0;
+};
+
+OGC_HD inline HingeReads read_hinge(const SweepView& view, const HingeIncidence& incidence, const SurfaceMaterial& material) {
+  HingeReads reads{{view.read(incidence.index[0]), view.read(incidence.index[1]), view.read(incidence.index[2])}};
+  if (material.bending_damping > 0) reads.angle_start = view.angle_start[decoded(incidence.hinge)];
+  return reads;
+}
+
+OGC_HD inline void add_hinge_incidence(const HingeIncidence& incidence, const HingeReads& reads, const SurfaceMaterial& material, const Vec& own,
                                        ForceAndBlock& sum) {
   const bool opposite = incidence.hinge < 0;
-  const Vec p0 = view.read(incidence.index[0]), p1 = view.read(incidence.index[1]), p2 = view.read(incidence.index[2]);
-  const Vec base = opposite ? p0 : own, end = opposite ? p1 : p0, side = opposite ? own : p1;
-  const HingeShape shape = hinge_shape(end - base, side - base, p2 - base);
+  const Vec base = opposite ? reads.p[0] : own, end = opposite ? reads.p[1] : reads.p[0], side = opposite ? own : reads.p[1];
+  const HingeShape shape = hinge_shape(end - base, side - base, reads.p[2] - base);
   if (!shape.defined) return;
-  const float angle_start = material.bending_damping > 0 ? view.angle_start[decoded(incidence.hinge)] : 0.0f;
-  add_hinge(incidence.stencil, material.bending_damping, shape.angle, angle_start, hinge_gradient(shape, opposite), sum);
+  add_hinge(incidence.stencil, material.bending_damping, shape.angle, reads.angle_start, hinge_gradient(shape, opposite), sum);
 }
 
-OGC_HD inline void add_contact_incidence(const SweepView& view, const ContactIncidence& incidence, ForceAndBlock& sum) {
-  Vec x[4];
-  for (int k = 0; k < 4; ++k) x[k] = view.read(incidence.index[k]);
-  const ContactWeights weights = contact_weights(incidence.kind, x);
-  const ContactShape shape = contact_shape(weighted_sum(weights, x), view.radius);
-  const float weight = weights.slot[incidence.own];
-  if (!shape.acts || weight == 0) return;
-  const float normal_force = add_contact(shape, weight, view.radius, incidence.stiffness, sum);
+/// Positions now and, with friction, at the start of the step.
+struct ContactReads {
+  Vec x[4], start[4];
+};
+
+OGC_HD inline ContactReads read_contact(const SweepView& view, const ContactIncidence& incidence) {
+  ContactReads reads;
+  for (int k = 0; k < 4; ++k) reads.x[k] = view.read(incidence.index[k]);
+  if (incidence.friction > 0) {
+    for (int k = 0; k < 4; ++k) reads.start[k] = view.start[decoded(incidence.index[k])];
+  }
+  return reads;
+}
+
+/// A contact at the positions that an update reads.
+struct ContactAt {
+  ContactWeights weights;
+  ContactShape shape;
+  float weight = 0;  ///< of the vertex itself
+
+  OGC_HD ContactAt(const ContactIncidence& incidence, const ContactReads& reads, float radius)
+      : weights(contact_weights(incidence.kind, reads.x)), shape(contact_shape(weighted_sum(weights, reads.x), radius)), weight(weights.slot[incidence.own]) {}
+  OGC_HD bool acts() const { return shape.acts && weight != 0; }
+};
+
+/// The friction of a contact that acts with the normal force λ.
+OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const ContactReads& reads, const ContactAt& at, float normal_force, float limit,
+                                        ForceAndBlock& sum) {
   if (!(incidence.friction > 0)) return;
   Vec moved[4];
-  for (int k = 0; k < 4; ++k) moved[k] = x[k] - view.start[decoded(incidence.index[k])];
-  const Vec relative = weights.slot[0] * moved[0] + weights.slot[1] * moved[1] + weights.slot[2] * moved[2] + weights.slot[3] * moved[3];
-  add_friction(shape.normal, relative, weight, incidence.friction, normal_force, view.friction_limit, sum);
+  for (int k = 0; k < 4; ++k) moved[k] = reads.x[k] - reads.start[k];
+  const float* w = at.weights.slot;
+  const Vec relative = w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2] + w[3] * moved[3];
+  add_friction(at.shape.normal, relative, at.weight, incidence.friction, normal_force, limit, sum);
 }
 
-/// The sum over all stencils of one vertex, inertia left out.
+OGC_HD inline void add_contact_incidence(const SweepView& view, const ContactIncidence& incidence, const ContactReads& reads, ForceAndBlock& sum) {
+  const ContactAt at(incidence, reads, view.radius);
+  if (!at.acts()) return;
+  const float normal_force = add_contact(at.shape, at.weight, view.radius, incidence.stiffness, sum);
+  add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, sum);
+}
+
+/// The sum over all stencils of one vertex, inertia left out. The k-th term is the k-th triangle, the k-th hinge and the k-th contact: whatever the team's
+/// width, its lanes do the same thing at the same time, and each has the reads of three stencils under way at once.
 template <class Team>
-OGC_HD ForceAndBlock gather(const SweepView& view, const SweepVertex& vertex, const Vec& own, const Team& team) {
-  constexpr int pad = Team::width - 1;
-  const int contact_begin = view.contact_rows[vertex.vertex], contact_count = view.contact_rows[vertex.vertex + 1] - contact_begin;
-  const int hinge_start = (vertex.membrane_count + pad) & ~pad, contact_start = hinge_start + ((vertex.hinge_count + pad) & ~pad);
+OGC_HD ForceAndBlock gather(const SweepView& view, const SweepVertex& vertex, const ContactRow& row, const Vec& own, const Team& team) {
   const SurfaceMaterial material = view.materials[vertex.body];
-  return team.template sum<ForceAndBlock>(contact_start + contact_count, [&](int k, ForceAndBlock& sum) {
-    if (k < hinge_start) {
-      if (k < vertex.membrane_count) add_membrane_incidence(view, view.membrane[vertex.membrane_begin + k], material, own, sum);
-    } else if (k < contact_start) {
-      if (k - hinge_start < vertex.hinge_count) add_hinge_incidence(view, view.hinges[vertex.hinge_begin + k - hinge_start], material, own, sum);
-    } else {
-      add_contact_incidence(view, view.contacts[contact_begin + k - contact_start], sum);
-    }
+  const int stencils = vertex.membrane_count > vertex.hinge_count ? vertex.membrane_count : vertex.hinge_count;
+  return team.template sum<ForceAndBlock>(stencils > row.count ? stencils : row.count, [&](int k, ForceAndBlock& sum) {
+    const bool has_membrane = k < vertex.membrane_count, has_hinge = k < vertex.hinge_count, has_contact = k < row.count;
+    MembraneIncidence membrane;
+    HingeIncidence hinge;
+    ContactIncidence contact;
+    if (has_membrane) membrane = view.membrane[vertex.membrane_begin + k];
+    if (has_hinge) hinge = view.hinges[vertex.hinge_begin + k];
+    if (has_contact) contact = view.contacts[row.begin + k];
+    MembraneReads of_membrane;
+    HingeReads of_hinge;
+    ContactReads of_contact;
+    if (has_membrane) of_membrane = read_membrane(view, membrane, material);
+    if (has_hinge) of_hinge = read_hinge(view, hinge, material);
+    if (has_contact) of_contact = read_contact(view, contact);
+    if (has_membrane) add_membrane_incidence(membrane, of_membrane, material, own, sum);
+    if (has_hinge) add_hinge_incidence(hinge, of_hinge, material, own, sum);
+    if (has_contact) add_contact_incidence(view, contact, of_contact, sum);
   });
 }
 
 /// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written: the vertex stays and the step fails.
-OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay) {
+OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const Vec& previous, float bound) {
   if (!is_finite(proposal)) {
     view.fresh[v] = stay;
     view.control->count_not_finite();
     return;
   }
-  const Truncated kept = truncate(view.previous[v], proposal, view.bound[v]);
+  const Truncated kept = truncate(previous, proposal, bound);
   view.fresh[v] = kept.position;
   if (kept.exceeded) view.control->count_cut();
 }
@@ -150,12 +211,15 @@ struct UpdateVertex {
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {
     const SweepVertex vertex = view.vertices[first_slot + i];
-    const Vec own = view.old[vertex.vertex];
-    ForceAndBlock total = gather(view, vertex, own, team);
+    const ContactRow row = view.contact_rows[first_slot + i];
+    const int v = vertex.vertex;
+    const Vec own = view.old[v], target = view.target[v], previous = view.previous[v];
+    const float bound = view.bound[v];
+    ForceAndBlock total = gather(view, vertex, row, own, team);
     if (!team.leader()) return;
-    add_inertia(vertex.inertia, own, view.target[vertex.vertex], total);
+    add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    write_truncated(view, vertex.vertex, own + change, own);
+    write_truncated(view, v, own + change, own, previous, bound);
   }
 };
 
@@ -166,7 +230,7 @@ struct UpdatePrescribed {
 
   OGC_HD void operator()(int i) const {
     const int v = prescribed[i];
-    write_truncated(view, v, view.target[v], view.old[v]);
+    write_truncated(view, v, view.target[v], view.old[v], view.previous[v], view.bound[v]);
   }
 };
 

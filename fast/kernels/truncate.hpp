@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
+#include "fast/kernels/vector.hpp"
 
 namespace ogc::fast {
 
@@ -11,13 +12,61 @@ struct Truncated {
   bool exceeded = false;
 };
 
+/// ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so the sum of three squares is at least (1 − u)⁵ of the
+/// exact one, and b² (1 − 16 u) in two roundings at most (1 + u)² (1 − 16 u) b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside
+/// 16 u b² where b² ≥ 2⁻¹⁰⁰. Contraction leaves roundings out and so cannot change what is certain. False where x is not finite.
+OGC_HD inline bool is_certainly_within_bound(const Vec& previous, const Vec& x, float bound) {
+  const Vec step = x - previous;
+  const float squared = bound * bound;
+  return squared >= 0x1p-100f && squared <= 0x1p100f && dot(step, step) < (1.0f - 16 * 0x1p-24f) * squared;
+}
+
+/// A sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not overlap.
+struct ExactTotal {
+  double part[8] = {};
+  int count = 0;
+
+  OGC_HD void grow(double value) {
+    for (int i = 0; i < count; ++i) {
+      const double s = add(value, part[i]), v = sub(s, value);
+      part[i] = add(sub(value, sub(s, v)), sub(part[i], v));
+      value = s;
+    }
+    part[count++] = value;
+  }
+  OGC_HD void grow_square(double a, double sign) {
+    const double p = mul(a, a), rest = fused(a, a, -p);
+    grow(sign * p), grow(sign * rest);
+  }
+  /// Of the largest component that is not 0.
+  OGC_HD bool is_positive() const {
+    for (int i = count - 1; i >= 0; --i)
+      if (part[i] != 0) return part[i] > 0;
+    return false;
+  }
+};
+
+/// ‖x − x_prev‖ ≤ b without rounding, for what two doubles cannot tell from the bound: true ties, and a coordinate of 10⁻²¹ beside one at the bound, which
+/// must not pass. A difference that does not fit into a double is beyond.
+OGC_HD inline bool is_exactly_within(const Vec& previous, const Vec& x, float bound) {
+  const Vector<Wide> step = difference<Wide>(x, previous);
+  if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
+  ExactTotal margin;
+  margin.grow_square(step.x.high, 1), margin.grow_square(step.y.high, 1), margin.grow_square(step.z.high, 1);
+  margin.grow_square(static_cast<double>(bound), -1);
+  return !margin.is_positive();
+}
+
 /// ‖x − x_prev‖ ≤ b, decided on the stored single-precision numbers without error. False where x is not finite.
 OGC_HD inline bool is_within_bound(const Vec& previous, const Vec& x, float bound) {
+  if (is_certainly_within_bound(previous, x, bound)) return true;
   const PointReach reach{x, previous, bound};
   const Filtered margin = reach.value<Filtered>();
   if (!(margin.scale < 0x1p1000)) return false;
-  const Sign sign = margin.sign();
-  return (sign.certain ? sign.value : reach.value<Wide>().sign().value) <= 0;
+  const Sign quick = margin.sign();
+  if (quick.certain) return quick.value <= 0;
+  const int sign = reach.value<Wide>().sign().value;
+  return sign < 0 || (sign == 0 && is_exactly_within(previous, x, bound));
 }
 
 /// The float nearest to p + s (x − p) that is no farther from p.

@@ -11,6 +11,7 @@
 //   for_each_team<W>(int n, F f)         // f(i, team): team.sum<Accumulator>(count, item) adds item(k, acc) for 0 ≤ k < count: item k goes to lane
 //                                        // k mod W, the lanes are added by a fixed tree (lane l += lane l + s, s = W/2 … 1): only W can change a bit
 //                                        // every lane gets the total; the lane where team.leader() holds writes it
+//   search(Searches first, Searches second)             // two kinds of searches (fast/kernels/search.hpp) side by side
 //   exclusive_scan(const int* in, int* out, int n)      // n + 1 outputs; out[n] is the total
 //   sort_pairs(std::uint64_t* keys, int* values, int n) // stable, ascending
 //   when(const int* flag, Body body)     // body() enqueues work that takes place only if *flag != 0 when its turn comes; not nested

@@ -1,4 +1,4 @@
-// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch for the leaves of both and one for every two levels;
+// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch for the primitives and one for every two levels;
 // a rebuild is a refit in the old order, whose roots give the extent, and one sort of the Morton keys of all three kinds together (a sort's time hardly
 // depends on its length on a device).
 #pragma once
@@ -24,6 +24,7 @@ class Bvh {
     std::iota(order.begin() + facets_at(), order.end(), 0);
     order_.upload(order.data(), total);
     keys_.resize(total);
+    vertex_limit_.resize(std::max<std::size_t>(1, static_cast<std::size_t>(surface.vertex_count)));
     no_radius_.resize(1);
     no_radius_.fill_zero();
     edges_ = allocate(surface.edge_count, edge_nodes_, order_.data() + edges_at());
@@ -33,12 +34,13 @@ class Bvh {
   const TreeView& facets() const { return facets_; }
   const TreeView& edges() const { return edges_; }
   const int* vertex_order() const { return order_.data(); }
+  const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
   /// Boxes at `positions` and reaches within *query_radius; the order stays.
   void refit(Backend& backend, const Vec* positions, const float* query_radius) {
-    const int facet_leaves = level_size(facets_.count, 0), edge_leaves = level_size(edges_.count, 0);
-    backend.for_each(facet_leaves + edge_leaves, RefitLeaves{{surface_, positions, query_radius}, facets_, edges_, facet_leaves});
-    for (int level = 2; level < std::max(facets_.levels, edges_.levels); level += 2) {
+    backend.for_each(facets_.count + edges_.count + surface_.vertex_count,
+                     RefitPrimitives{{surface_, positions, query_radius}, facets_, edges_, vertex_limit_.data()});
+    for (int level = 1; level < std::max(facets_.levels, edges_.levels); level += 2) {
       const int facet_nodes = level < facets_.levels ? level_size(facets_.count, level) : 0;
       const int edge_nodes = level < edges_.levels ? level_size(edges_.count, level) : 0;
       backend.for_each(facet_nodes + edge_nodes, RefitInner{facets_, edges_, level, facet_nodes});
@@ -81,7 +83,7 @@ class Bvh {
   TreeView facets_, edges_;
   Buffer<Quad> facet_nodes_, edge_nodes_;
   Buffer<int> order_;
-  Buffer<float> no_radius_;
+  Buffer<float> vertex_limit_, no_radius_;
   Buffer<std::uint64_t> keys_;
 };
 

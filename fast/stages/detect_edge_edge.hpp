@@ -1,13 +1,10 @@
-// Launch of Algorithm 2: one thread an edge, in tree order. Same needs as detect_vertex_facet.hpp.
+// Algorithm 2 as searches: one for each edge, in tree order. As in detect_vertex_facet.hpp.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
 
 namespace ogc::fast {
 
-template <class Backend>
-void detect_edge_edge(Backend& backend, const DetectEdgeEdge& kernel) {
-  backend.for_each(kernel.surface.edge_count, kernel);
-}
+inline Searches<DetectEdgeEdge> searches_of(const DetectEdgeEdge& query) { return {query.tree, query.surface.edge_count, query}; }
 
 }  // namespace ogc::fast

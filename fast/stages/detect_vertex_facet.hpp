@@ -1,14 +1,11 @@
-// Launch of Algorithm 1: one thread a vertex, in Morton order, so that neighbours walk the same nodes. Needs refitted trees, prepared lists and reset
-// minima (fast/stages/detection.hpp).
+// Algorithm 1 as searches: one for each vertex, in Morton order, so that neighbours walk the same nodes. Launched together with those of Algorithm 2, as
+// neither fills a device; needs refitted trees, prepared lists and reset minima (fast/stages/detection.hpp).
 #pragma once
 
 #include "fast/kernels/detect_vertex_facet.hpp"
 
 namespace ogc::fast {
 
-template <class Backend>
-void detect_vertex_facet(Backend& backend, const DetectVertexFacet& kernel) {
-  backend.for_each(kernel.surface.vertex_count, kernel);
-}
+inline Searches<DetectVertexFacet> searches_of(const DetectVertexFacet& query) { return {query.tree, query.surface.vertex_count, query}; }
 
 }  // namespace ogc::fast

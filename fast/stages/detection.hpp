@@ -51,17 +51,19 @@ class Detection {
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
-    float *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
+    float *d_vertex = d_min_vertex_.data(), *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
     backend_.for_each(std::max(lists.buckets, surface.triangle_count),
                       PrepareDetection{{lists, surface.vertex_count},
-                                       {query_radius, lists.overflow, surface.edge_count, surface.triangle_count, d_edge, d_triangle}});
+                                       {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex, d_edge,
+                                        d_triangle}});
     bvh_.refit(backend_, positions, query_radius);
-    detect_vertex_facet(backend_, {surface, positions, bvh_.facets(), bvh_.vertex_order(), lists, contact_radius, query_radius,
-                                   d_min_vertex_.data(), d_triangle});
-    detect_edge_edge(backend_, {surface, positions, bvh_.edges(), lists, contact_radius, query_radius, d_edge});
-    lists_.assemble(backend_);
+    const DetectVertexFacet vertex_facet{surface, positions, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, contact_radius, d_vertex,
+                                         d_triangle};
+    const DetectEdgeEdge edge_edge{surface, positions, bvh_.edges(), lists, contact_radius, d_edge};
+    backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
+    lists_.assemble(backend_, positions, contact_radius);
     compute_bounds(backend_, surface.vertex_count,
-                   {surface.vertex_edges, surface.vertex_triangles, d_min_vertex_.data(), d_edge, d_triangle, bound_relaxation, lists.overflow, bound_.data()});
+                   {surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow, bound_.data()});
   }
 
   /// Of the last complete detection; valid until grow() returns true.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "fast/kernels/collect_contacts.hpp"
 #include "fast/kernels/lists.hpp"
 
 namespace ogc::fast {
@@ -20,26 +21,29 @@ class Lists {
     for (Buffer<int>* offsets : {&raw_offsets_, &record_offsets_}) offsets->resize(buckets + 1);
     for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(vertices);
     incidence_offsets_.resize(vertices + 1);
-    resize(std::max(1, capacity));
+    resize(std::max(1, capacity), least_noted + 4 * capacity);
   }
 
   ListsView view() {
     int* status = status_.data();
-    return {raw_.data(),           sorted_.data(),         capacity_,          status,
-            status + 1,            status + 2,             buckets_,           raw_counts_.data(),
-            raw_offsets_.data(),   raw_filled_.data(),     record_counts_.data(), record_offsets_.data(),
-            status + 3,            vertex_facet_.data(),   vertex_facet_face_.data(), edge_edge_.data(),
-            incidence_counts_.data(), incidence_offsets_.data(), incidence_filled_.data(), incidences_.data()};
+    return {noted_.data(),         noted_capacity_,        status + 3,                raw_.data(),
+            sorted_.data(),        capacity_,              status,                    status + 1,
+            buckets_,              raw_counts_.data(),     raw_offsets_.data(),       raw_filled_.data(),
+            record_counts_.data(), record_offsets_.data(), status + 2,                vertex_facet_.data(),
+            vertex_facet_face_.data(), edge_edge_.data(),  incidence_counts_.data(),  incidence_offsets_.data(),
+            incidence_filled_.data(), incidences_.data()};
   }
 
   const int* vertex_facet_count() const { return record_offsets_.data() + surface_.vertex_count; }
-  const int* edge_edge_count() const { return status_.data() + 3; }
+  const int* edge_edge_count() const { return status_.data() + 2; }
   const int* overflow() const { return status_.data() + 1; }
   int capacity() const { return capacity_; }
 
-  /// After both queries: raw contacts to records and incidences.
-  void assemble(Backend& backend) {
+  /// After both searches: noted pairs to records and incidences.
+  void assemble(Backend& backend, const Vec* positions, float contact_radius) {
     const ListsView lists = view();
+    backend.for_each_counted(lists.noted_count, noted_capacity_,
+                             CollectContacts{{surface_, positions, lists, contact_radius}, {surface_, positions, lists, contact_radius}});
     backend.for_each(1, CheckCapacity{lists});
     backend.exclusive_scan(lists.raw_counts, lists.raw_offsets, buckets_);
     backend.for_each_counted(lists.cursor, capacity_, FillBuckets{lists});
@@ -47,17 +51,20 @@ class Lists {
     backend.exclusive_scan(lists.record_counts, lists.record_offsets, buckets_);
     backend.for_each(buckets_, WriteRecords{lists, surface_});
     backend.exclusive_scan(lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count);
-    backend.for_each_counted(lists.record_offsets + buckets_, capacity_, FillIncidences{lists, surface_});
-    backend.for_each(surface_.vertex_count, SortIncidences{lists});
+    ListsView unordered = lists;
+    unordered.incidences = unordered_incidences_.data();
+    backend.for_each_counted(lists.record_offsets + buckets_, capacity_, FillIncidences{unordered, surface_});
+    backend.for_each_counted(lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences{lists, unordered.incidences});
   }
 
-  /// Host only: where the flag is set, enlarges the lists to what was needed and half as much again, clears the flag and returns true. Sets are empty
-  /// until the next detection.
+  /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again, clears the flag and returns true.
+  /// Sets are empty until the next detection.
   bool grow() {
     int status[4];
     status_.download(status, 4);
     if (status[1] == 0) return false;
-    resize(status[2] + status[2] / 2);
+    const auto grown = [](int capacity, int count) { return count > capacity ? count + count / 2 : capacity; };
+    resize(grown(capacity_, status[0]), grown(noted_capacity_, status[3]));
     status_.fill_zero();
     return true;
   }
@@ -66,11 +73,15 @@ class Lists {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  void resize(int capacity) {
+  static constexpr int least_noted = 1 << 16;  // half a mebibyte
+
+  void resize(int capacity, int noted_capacity) {
     capacity_ = capacity;
+    noted_capacity_ = noted_capacity;
     const auto n = static_cast<std::size_t>(capacity);
+    noted_.resize(static_cast<std::size_t>(noted_capacity));
     raw_.resize(n), sorted_.resize(n), vertex_facet_.resize(n), vertex_facet_face_.resize(n), edge_edge_.resize(n);
-    incidences_.resize(4 * n);
+    unordered_incidences_.resize(4 * n), incidences_.resize(4 * n);
     for (Buffer<int>* counts : {&raw_counts_, &raw_offsets_, &raw_filled_, &record_counts_, &record_offsets_, &incidence_counts_, &incidence_offsets_,
                                 &incidence_filled_}) {
       counts->fill_zero();
@@ -78,14 +89,15 @@ class Lists {
   }
 
   SurfaceView surface_;
-  int buckets_, capacity_ = 0;
-  Buffer<int> status_;  ///< cursor, overflow, needed, edge–edge records
+  int buckets_, capacity_ = 0, noted_capacity_ = 0;
+  Buffer<int> status_;  ///< contacts appended, overflow, edge–edge records, noted pairs
+  Buffer<NotedPair> noted_;
   Buffer<RawContact> raw_, sorted_;
   Buffer<int> raw_counts_, raw_offsets_, raw_filled_, record_counts_, record_offsets_, vertex_facet_face_;
   Buffer<int> incidence_counts_, incidence_offsets_, incidence_filled_;
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
-  Buffer<Incidence> incidences_;
+  Buffer<Incidence> unordered_incidences_, incidences_;
 };
 
 }  // namespace ogc::fast

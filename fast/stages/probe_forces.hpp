@@ -43,7 +43,8 @@ struct ProbeMembrane {
 
   OGC_HD void operator()(int i) const {
     ForceAndBlock sum;
-    add_membrane_incidence(view, view.membrane[i], view.materials[i], view.old[3 * i], sum);
+    const SurfaceMaterial material = view.materials[i];
+    add_membrane_incidence(view.membrane[i], read_membrane(view, view.membrane[i], material), material, view.old[3 * i], sum);
     out.store(i, sum);
   }
 };
@@ -85,7 +86,8 @@ struct ProbeBending {
 
   OGC_HD void operator()(int i) const {
     ForceAndBlock sum;
-    add_hinge_incidence(view, view.hinges[i], view.materials[i], view.old[own[i]], sum);
+    const SurfaceMaterial material = view.materials[i];
+    add_hinge_incidence(view.hinges[i], read_hinge(view, view.hinges[i], material), material, view.old[own[i]], sum);
     out.store(i, sum);
   }
 };

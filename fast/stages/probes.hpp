@@ -12,8 +12,14 @@
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/truncate.hpp"
 #include "fast/stages/contact_engine.hpp"
+#include "fast/stages/probe_block.hpp"
+#include "fast/stages/probe_contacts.hpp"
 #include "fast/stages/probe_forces.hpp"
+#include "fast/stages/probe_guess.hpp"
 #include "fast/stages/probe_memory.hpp"
+#include "fast/stages/probe_step.hpp"
+#include "fast/stages/probe_sweep.hpp"
+#include "fast/stages/rest_state.hpp"
 
 namespace ogc::fast {
 
@@ -176,6 +182,13 @@ compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> 
   contestant.truncate = [backend](const compare::TruncateIn& in) { return probe_truncate(*backend, in); };
   contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
+  contestant.contact_force = [backend](const compare::ContactForceIn& in) { return probe_contact_force(*backend, in); };
+  contestant.friction_force = [backend](const compare::FrictionForceIn& in) { return probe_friction_force(*backend, in); };
+  contestant.block = [backend](const compare::BlockIn& in) { return probe_block(*backend, in); };
+  contestant.initial_guess = [backend](const compare::InitialGuessIn& in) { return probe_initial_guess(*backend, in); };
+  contestant.rest_state = [](const compare::RestStateIn& in) { return rest_state_out(in); };
+  contestant.sweep = [backend](const compare::SweepIn& in) { return probe_sweep(*backend, in); };
+  contestant.step = [](const compare::StepIn& in) { return probe_step<Backend>(in); };
   return contestant;
 }
 

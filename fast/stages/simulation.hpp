@@ -11,6 +11,7 @@
 
 #include "compare/problem/contestant.hpp"
 #include "fast/stages/step.hpp"
+#include "fast/stages/trace.hpp"
 
 namespace ogc::fast {
 
@@ -51,6 +52,23 @@ class ResidentSimulation : public compare::Simulation {
       }
     }
     return rows;
+  }
+
+  /// advance(1), told event by event: of a step that was repeated because a list grew, the last attempt. Needs SimulationOptions::profile; changes no bit.
+  compare::StepOut trace() {
+    StepTrace<Backend> trace(backend_, state_, detection_, topology_);
+    step_.observe(&trace);
+    advance(1);
+    step_.observe(nullptr);
+    compare::StepOut out;
+    out.colour = colouring_.colour;
+    out.rest = rest_state_out({&scene_, &topology_});
+    out.query_radius = query_radius_;
+    out.events = trace.take();
+    download(state_.target, out.target);
+    download(state_.start, out.position);
+    download(state_.velocity, out.velocity);
+    return out;
   }
 
   compare::Snapshot snapshot() override {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/stages/step.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/stages/detection.hpp"
@@ -72,21 +73,39 @@ struct StepState {
   Buffer<double> sums_guess, sums_end;
 };
 
+/// Follows a step from the host, part by part, whether or not the part took place (StepControl counts those that did). For traces (fast/stages/trace.hpp):
+/// it needs a clock that is on, because a recorded step has no host between its parts.
+class StepObserver {
+ public:
+  virtual ~StepObserver() = default;
+  virtual void begin() = 0;
+  /// `position`: where x is now, on the backend.
+  virtual void after(compare::StepEventKind part, const Vec* position) = 0;
+};
+
 template <class Backend>
 class Step {
  public:
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings)
       : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, sum_columns) {}
 
+  /// Null: nobody.
+  void observe(StepObserver* observer) { observer_ = observer; }
+
   /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows.
   void enqueue() {
+    if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(); });
     guess_loop();
     Vec* old = state_.first.data();
     Vec* fresh = state_.second.data();
     for (int i = 0; i < settings_.iterations; ++i) {
-      if (i > 0) clock_.time(StepStage::detection, [&] { backend_.when(flag(&StepControl::detect), [&] { detect_again(old); }); });
+      if (i > 0) {
+        clock_.time(StepStage::detection, [&] { backend_.when(flag(&StepControl::detect), [&] { detect_again(old); }); });
+        observe(compare::StepEventKind::detection, old);
+      }
       clock_.time(StepStage::sweep, [&] { iterate(old, fresh); });
+      observe(compare::StepEventKind::sweep, fresh);
       std::swap(old, fresh);
     }
     clock_.time(StepStage::metrics, [&] { finish(old); });
@@ -95,6 +114,9 @@ class Step {
  private:
   StepControl* control() { return state_.control.data(); }
   const int* flag(int StepControl::* member) { return &(control()->*member); }
+  void observe(compare::StepEventKind part, const Vec* position) {
+    if (observer_ != nullptr) observer_->after(part, position);
+  }
 
   void begin() {
     StepState<Backend>& s = state_;
@@ -136,7 +158,9 @@ class Step {
       const auto move = [&] { guess(round > 0); };
       if (clock_.on()) {
         clock_.time(StepStage::detection, [&] { backend_.when(again, find); });
+        observe(compare::StepEventKind::detection, state_.first.data());
         clock_.time(StepStage::initial_guess, [&] { backend_.when(again, move); });
+        observe(compare::StepEventKind::guess, state_.first.data());
       } else {
         backend_.when(again, [&] { find(), move(); });
       }
@@ -203,6 +227,7 @@ class Step {
   StageClock<Backend>& clock_;
   StepSettings settings_;
   Reduction<Backend> reduction_;
+  StepObserver* observer_ = nullptr;
 };
 
 }  // namespace ogc::fast

@@ -103,8 +103,8 @@ class Sweep {
     upload(body_, rest.body);
     upload(materials_, rest.materials);
     upload(contact_materials_, rest.contact);
-    upload(rest_squared_, rest_lengths_squared(topology, scene));
-    contact_rows_.resize(rest.mass.size() + 1);
+    upload(rest_squared_, rest.edge_length_squared);
+    contact_rows_.resize(streams.vertices.size());
     contact_rows_.fill_zero();
     tables_ = {body_.data(), contact_materials_.data(), static_cast<int>(rest.materials.size()), rest_squared_.data(), nullptr, !topology.triangles.empty()};
     vertex_count_ = static_cast<int>(rest.mass.size());
@@ -131,7 +131,7 @@ class Sweep {
 
   /// The contact stream of a detection at `detected`.
   void resolve_contacts(const ContactView& view, const Vec* detected, const StepControl* control) {
-    backend_.for_each(vertex_count_ + 1, CopyContactRows{view.incidence_offsets, contact_rows_.data(), control});
+    backend_.for_each(static_cast<int>(vertices_.size()), CopyContactRows{view.incidence_offsets, vertices_.data(), contact_rows_.data(), control});
     backend_.for_each_counted(view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
                               ResolveContact{view, tables(detected), colour_.data(), contacts_.data(), control});
   }
@@ -161,16 +161,6 @@ class Sweep {
     buffer.upload(items.data(), items.size());
   }
 
-  static std::vector<float> rest_lengths_squared(const compare::Topology& topology, const compare::Scene& scene) {
-    std::vector<float> squared;
-    for (const compare::Edge& edge : topology.edges) {
-      const RestVector e =
-          rest_difference(scene.rest_positions[static_cast<std::size_t>(edge[1])], scene.rest_positions[static_cast<std::size_t>(edge[0])]);
-      squared.push_back(static_cast<float>(rest_dot(e, e)));
-    }
-    return squared;
-  }
-
   void update(int count, const UpdateVertex& kernel) {
     switch (lanes_) {
       case 1: return backend_.template for_each_team<1>(count, kernel);
@@ -189,7 +179,8 @@ class Sweep {
   Buffer<MembraneIncidence> membrane_;
   Buffer<HingeIncidence> hinges_;
   Buffer<ContactIncidence> contacts_;
-  Buffer<int> contact_rows_, colour_, body_, prescribed_;
+  Buffer<ContactRow> contact_rows_;
+  Buffer<int> colour_, body_, prescribed_;
   Buffer<SurfaceMaterial> materials_;
   Buffer<ContactMaterial> contact_materials_;
   Buffer<float> rest_squared_;

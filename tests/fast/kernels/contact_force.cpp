@@ -1,5 +1,7 @@
 #include "fast/kernels/contact_force.hpp"
 
+#include <algorithm>
+
 #include "tests/catch.hpp"
 #include "tests/fast/numeric.hpp"
 
@@ -173,4 +175,28 @@ TEST_CASE("the mollifier is 0 for parallel edges, 1 from its limit on, and C1 th
   const double limit = std::sqrt(1e-3);
   CHECK(at(limit * std::sqrt(0.5)) == Approx(0.75));
   CHECK(at(0.999 * limit) == Approx(1).margin(1e-5));
+}
+
+TEST_CASE("a point far above a corner keeps its foot on the side where it is, though all distances agree", "[unit]") {
+  const float d = 0.0127f;
+  for (const float off : {1e-6f, 1e-5f, 1e-4f}) {
+    // The foot lies on the side from the third corner to the first, `off` from the third.
+    const Vec x[4] = {{off, 0, d}, {0.01f, 0, 0}, {-0.005f, 0.01f, 0}, {0, 0, 0}};
+    const ContactWeights w = contact_weights(ContactKind::point_triangle, x);
+    CHECK(-w.slot[1] == Approx(off / 0.01).margin(2 * u));  // the complement of a parameter near 1
+    CHECK(std::abs(w.slot[2]) <= 4 * u);
+  }
+}
+
+TEST_CASE("almost collinear edges one behind the other meet at the end that is nearer, whichever it is", "[unit]") {
+  // The second begins behind the first, seen along the first; seen along itself, the tilted one begins before the first ends.
+  const Vec x[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.1004f}};
+  const ContactWeights forward = contact_weights(ContactKind::segment_segment, x);
+  CHECK(forward.slot[1] == 1);
+  const double t = std::clamp(((1 - 1.00002) * 0.99998 + (0 - 0.1) * 0.0004) / (0.99998 * 0.99998), 0.0, 1.0);
+  CHECK(-forward.slot[3] == Approx(t).margin(1e-7));
+  const Vec tilted[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.0996f}};
+  const ContactWeights inside = contact_weights(ContactKind::segment_segment, tilted);
+  CHECK(inside.slot[1] == 1);
+  CHECK(-inside.slot[3] == Approx((-2e-5 * 0.99998 + 0.1 * 0.0004) / (0.99998 * 0.99998)).epsilon(0.01));
 }

@@ -57,6 +57,19 @@ TEST_CASE("truncate: hand cases", "[unit]") {
   CHECK_FALSE(truncate({1, 2, 3}, {1, 2, 3}, 0).exceeded);
 }
 
+TEST_CASE("truncate: a coordinate far too small for two doubles does not pass beside one at the bound", "[property]") {
+  const Vec previous{-0x1p-6f, 0x1p-5f, 0.0f};
+  const float bound = 0x1.97a3p-8f;
+  const Vec tie{previous.x - bound, previous.y, 0.0f};
+  REQUIRE(previous.x - tie.x == bound);
+  CHECK_FALSE(truncate(previous, tie, bound).exceeded);
+  for (const float speck : {0x1p-69f, -0x1.84b0f2p-69f, 0x1p-149f}) {
+    const Truncated kept = truncate(previous, {tie.x, tie.y, speck}, bound);
+    CHECK(kept.exceeded);
+    CHECK((kept.position.z == 0 || previous.x - kept.position.x < bound));
+  }
+}
+
 TEST_CASE("truncate: a position that is not finite goes back to the previous one", "[unit]") {
   for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
     const Truncated cut = truncate({1, 2, 3}, {0, bad, 0}, 1);

@@ -1,9 +1,11 @@
 #include "fast/stages/rest_state.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "compare/problem/error.hpp"
+#include "fast/kernels/rest_state.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/scenes.hpp"
 
@@ -77,4 +79,28 @@ TEST_CASE("models of kind none leave no stencils, and a moving vertex without ma
   CHECK(rest.hinges.empty());
   scene.bodies[0].material.density = 0;
   CHECK_THROWS_AS(build_rest_state(scene, compare::build_topology(scene)), compare::InputError);
+}
+
+TEST_CASE("a rest state put into an answer and taken out again is the same, bit for bit", "[property]") {
+  compare::Scene scene = test::empty_scene();
+  compare::Material soft;
+  soft.contact_stiffness = 10, soft.membrane_damping = 0.1, soft.bending_damping = 0.2;
+  test::add_sheet(scene, 5, 0.7, 0.1, false, soft);
+  test::add_sheet(scene, 3, 1, 0, true);
+  scene.motions.push_back({.name = "held", .vertices = {0, 3}});
+  const compare::Topology topology = compare::build_topology(scene);
+  const RestState rest = build_rest_state(scene, topology), again = rest_state_of({&scene, &topology}, rest_state_out({&scene, &topology}));
+  const auto same = [](const auto& a, const auto& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0; };
+  CHECK(same(rest.mass, again.mass));
+  CHECK(same(rest.mobility, again.mobility));
+  CHECK(same(rest.body, again.body));
+  CHECK(same(rest.triangles, again.triangles));
+  CHECK(same(rest.hinges, again.hinges));
+  CHECK(same(rest.edge_length_squared, again.edge_length_squared));
+  CHECK(same(rest.materials, again.materials));
+  CHECK(same(rest.contact, again.contact));
+  CHECK(rest.mobility[3] == Mobility::prescribed);
+  for (const TriangleRest& t : rest.triangles) {
+    for (int axis = 0; axis < 2; ++axis) CHECK(t.gradient[0][axis] == -(t.gradient[1][axis] + t.gradient[2][axis]));
+  }
 }

@@ -107,7 +107,7 @@ Totals totals(Fixture& f) {
   for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
     const SweepVertex vertex = view.vertices[slot];
     const Vec own = f.x[static_cast<std::size_t>(vertex.vertex)];
-    const D3 push = wide(gather(view, vertex, own, SerialTeam<4>{}).force);
+    const D3 push = wide(gather(view, vertex, view.contact_rows[slot], own, SerialTeam<4>{}).force);
     sum.force += push;
     sum.torque += cross(wide(own), push);
     sum.size += length(push);
@@ -152,7 +152,7 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
         naive.fresh = seen.data();
         const SweepVertex vertex = view.vertices[i];
         const auto v = static_cast<std::size_t>(vertex.vertex);
-        ForceAndBlock total = gather(naive, vertex, seen[v], SerialTeam<8>{});
+        ForceAndBlock total = gather(naive, vertex, view.contact_rows[i], seen[v], SerialTeam<8>{});
         add_inertia(vertex.inertia, seen[v], f.target[v], total);
         out[v] = seen[v] + solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
       }

@@ -1,0 +1,175 @@
+// Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few searches to hide the chain node →
+// child → primitive → arithmetic, and the longest of 32 different searches holds up the others. Here a warp takes `group` neighbouring searches and
+// keeps their open ends in lists of its own in shared memory; in each round all lanes take one item each, of whichever search:
+//
+//   nodes       still to be opened: four lanes open one, a box each
+//   candidates  that leaves offered: a lane asks is_pair
+//   pairs       what is left of them: a lane does the arithmetic (meet), which may lower the search's limit
+//
+// The last list that can fill the warp goes first, so lanes idle only when little is left. `nodes` is a stack: a round takes up to 8 from the top, where
+// the lowest level is, so what it pushes of a level (at most 32) meets none of that level left behind: 32 a level are room enough.
+#pragma once
+
+#include <algorithm>
+
+#include <cuda_runtime.h>
+
+#include "fast/kernels/search.hpp"
+
+namespace ogc::fast {
+
+inline constexpr int search_warps = 4;   ///< a block
+inline constexpr int largest_group = 8;  ///< searches a warp
+
+/// Primitives of a tree whose leaves have numbers of 25 bits.
+inline constexpr int largest_searched_count = 4 << 25;
+
+/// A node of the stack: level, search of the group, place in the level.
+struct SearchNode {
+  unsigned bits;
+
+  __device__ static SearchNode of(int level, int slot, int j) {
+    return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
+  }
+  __device__ int level() const { return static_cast<int>(bits >> 28); }
+  __device__ int slot() const { return static_cast<int>(bits >> 25 & 7U); }
+  __device__ int place() const { return static_cast<int>(bits & 0x1ffffffU); }
+};
+
+struct SearchItem {
+  int place;
+  float gap;
+};
+
+/// Open ends of one warp. A list from which 32 could be taken gets nothing, and no round adds more than 32.
+struct SearchMemory {
+  static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
+  Search searches[largest_group];
+  SearchItem candidates[most_items], pairs[most_items];
+  SearchNode nodes[most_nodes];
+  unsigned char candidate_slots[most_items], pair_slots[most_items];
+};
+
+template <class Query>
+class WarpSearch {
+ public:
+  __device__ WarpSearch(const Searches<Query>& searches, SearchMemory& memory)
+      : tree_(searches.tree), query_(searches.query), memory_(memory), lane_(static_cast<int>(threadIdx.x) % 32) {}
+
+  __device__ void run(int first, int count) {
+    if (lane_ < count) {
+      memory_.searches[lane_] = query_.begin(first + lane_);
+      memory_.nodes[lane_] = SearchNode::of(tree_.levels - 1, lane_, 0);
+    }
+    node_count_ = count;
+    __syncwarp();
+    while (node_count_ + candidate_count_ + pair_count_ > 0) {
+      if (pair_count_ >= 32 || node_count_ + candidate_count_ == 0) {
+        meet();
+      } else if (candidate_count_ >= 32 || node_count_ == 0) {
+        sift();
+      } else {
+        open();
+      }
+      __syncwarp();
+    }
+  }
+
+ private:
+  static constexpr unsigned everyone_ = 0xffffffffU;
+
+  __device__ unsigned before() const { return (1U << lane_) - 1; }
+
+  __device__ void meet() {
+    const int take = min(32, pair_count_);
+    pair_count_ -= take;
+    if (lane_ >= take) return;
+    Search& search = memory_.searches[memory_.pair_slots[pair_count_ + lane_]];
+    const SearchItem pair = memory_.pairs[pair_count_ + lane_];
+    const float limit = query_.meet(search, pair.place, pair.gap);
+    if (limit < search.limit) atomicMin(reinterpret_cast<int*>(&search.limit), __float_as_int(limit));
+  }
+
+  __device__ void sift() {
+    const int take = min(32, candidate_count_);
+    candidate_count_ -= take;
+    SearchItem item{};
+    unsigned char slot = 0;
+    bool keep = false;
+    if (lane_ < take) {
+      item = memory_.candidates[candidate_count_ + lane_];
+      slot = memory_.candidate_slots[candidate_count_ + lane_];
+      keep = query_.is_pair(memory_.searches[slot], item.place, item.gap);
+    }
+    const unsigned kept = __ballot_sync(everyone_, keep);
+    if (keep) {
+      const int to = pair_count_ + __popc(kept & before());
+      memory_.pairs[to] = item;
+      memory_.pair_slots[to] = slot;
+    }
+    pair_count_ += __popc(kept);
+  }
+
+  __device__ void open() {
+    const int take = min(8, node_count_), own = lane_ / 4, child = lane_ % 4;
+    node_count_ -= take;
+    int level = 1, slot = 0, j = 0;
+    float gap = 0;
+    bool is_near = false;
+    if (own < take) {
+      const SearchNode node = memory_.nodes[node_count_ + own];
+      level = node.level(), slot = node.slot(), j = 4 * node.place() + child;
+      const Search& search = memory_.searches[slot];
+      const Quad& quad = tree_.node(level, node.place());
+      gap = squared_gap(quad.box(child), search.box);
+      is_near = gap <= larger(search.limit, quad.reach[child]) && j >= search.from >> (2 * level);
+    }
+    __syncwarp();
+    const bool is_leaf = level == 0;
+    const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
+    if (is_near && is_leaf) {
+      const int to = candidate_count_ + __popc(near & leaves & before());
+      memory_.candidates[to] = {j, gap};
+      memory_.candidate_slots[to] = static_cast<unsigned char>(slot);
+    } else if (is_near) {
+      memory_.nodes[node_count_ + __popc(near & ~leaves & before())] = SearchNode::of(level - 1, slot, j);
+    }
+    candidate_count_ += __popc(near & leaves);
+    node_count_ += __popc(near & ~leaves);
+  }
+
+  const TreeView& tree_;
+  const Query& query_;
+  SearchMemory& memory_;
+  const int lane_;
+  int node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
+};
+
+template <class Query>
+__device__ void run_group(const Searches<Query>& searches, int group, int number, SearchMemory& memory) {
+  const int first = group * number;
+  if (first < searches.count && !searches.query.is_off()) WarpSearch<Query>(searches, memory).run(first, min(group, searches.count - first));
+}
+
+/// The first kind in the first blocks.
+template <class First, class Second>
+__global__ void __launch_bounds__(32 * search_warps, 8)
+    run_searches(Searches<First> first, int first_group, int first_blocks, Searches<Second> second, int second_group) {
+  __shared__ SearchMemory memory[search_warps];
+  const int warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
+  if (block < first_blocks) {
+    run_group(first, first_group, block * search_warps + warp, memory[warp]);
+  } else {
+    run_group(second, second_group, (block - first_blocks) * search_warps + warp, memory[warp]);
+  }
+}
+
+inline int search_blocks(int count, int group) { return (count + group * search_warps - 1) / (group * search_warps); }
+
+template <class First, class Second>
+void launch_searches(cudaStream_t stream, const Searches<First>& first, int first_group, const Searches<Second>& second, int second_group) {
+  const int first_blocks = search_blocks(first.count, first_group), blocks = first_blocks + search_blocks(second.count, second_group);
+  if (blocks > 0) run_searches<<<blocks, 32 * search_warps, 0, stream>>>(first, first_group, first_blocks, second, second_group);
+}
+
+}  // namespace ogc::fast

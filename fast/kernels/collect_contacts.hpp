@@ -1,0 +1,26 @@
+// The second half of both detections: of the pairs that the searches noted, those that are contacts, one thread a pair.
+#pragma once
+
+#include "fast/kernels/detect_edge_edge.hpp"
+#include "fast/kernels/detect_vertex_facet.hpp"
+
+namespace ogc::fast {
+
+/// Index over the noted pairs.
+struct CollectContacts {
+  CollectVertexFacet vertex_facet;
+  CollectEdgeEdge edge_edge;
+
+  OGC_HD void operator()(int i) const {
+    const ListsView& lists = vertex_facet.lists;
+    if (*lists.overflow != 0) return;
+    const NotedPair pair = lists.noted[i];
+    if (pair.first < 0) {
+      vertex_facet(~pair.first, pair.second);
+    } else {
+      edge_edge(pair.first, pair.second);
+    }
+  }
+};
+
+}  // namespace ogc::fast

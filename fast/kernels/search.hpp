@@ -1,0 +1,55 @@
+// A search of a tree, apart from how many threads carry it out: alone in one (here), or many by a team that shares its work (fast/cuda/search.cuh).
+//
+// A Query is what the searches of one kind have in common:
+//   bool is_off() const                                 nothing is to be searched
+//   Search begin(int i) const                           the i-th search
+//   bool is_pair(const Search&, int place, float gap)   whether the primitive at the place needs a closer look; cheap, in single precision
+//   float meet(const Search&, int place, float gap)     that look; returns a limit that it leaves for the search
+// Which primitives beyond the limit are offered too, and in which order, is open: no answer may depend on it.
+#pragma once
+
+#include "fast/kernels/bvh.hpp"
+
+namespace ogc::fast {
+
+/// All primitives at a place ≥ `from` whose box lies within the squared gap `limit` of `box`, or within their own reach.
+struct Search {
+  Box box;
+  int owner = -1;  ///< whose search it is: number of a vertex or an edge
+  int from = 0;
+  float limit = 0;
+};
+
+/// `count` searches in one tree.
+template <class Query>
+struct Searches {
+  TreeView tree;
+  int count;
+  Query query;
+
+  /// The i-th, from begin to end.
+  OGC_HD void run_alone(int i) const {
+    if (query.is_off()) return;
+    Search search = query.begin(i);
+    for_each_near(tree, search.box, search.from, search.limit, [&](int place, float gap) {
+      if (query.is_pair(search, place, gap)) search.limit = smaller(search.limit, query.meet(search, place, gap));
+    });
+  }
+};
+
+/// Searches of two kinds, one after the other.
+template <class First, class Second>
+struct SearchAlone {
+  Searches<First> first;
+  Searches<Second> second;
+
+  OGC_HD void operator()(int i) const {
+    if (i < first.count) {
+      first.run_alone(i);
+    } else {
+      second.run_alone(i - first.count);
+    }
+  }
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,94 @@
+// The judge's way in to contacts: each case becomes one record of a detection, which makes its incidence as the sweep's stream does, mollifier included,
+// and is added by the functions that the sweep uses. Friction is asked about alone: a difference of sums with and without it would hold their rounding.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "compare/stages/contact_force.hpp"
+#include "compare/stages/friction_force.hpp"
+#include "fast/kernels/contact_stream.hpp"
+#include "fast/stages/probe_forces.hpp"
+#include "fast/stages/probe_memory.hpp"
+
+namespace ogc::fast {
+
+/// Cases as records: case i has the vertices 4 i … 4 i + 3, the body i and the edges 2 i and 2 i + 1.
+struct ContactBatch {
+  std::vector<VertexFacetRecord> vertex_facet;
+  std::vector<EdgeEdgeRecord> edge_edge;
+  std::vector<ContactMaterial> materials;
+  std::vector<compare::Vec3f> positions, detected, start;
+  std::vector<float> rest_squared, radius, slip_limit;
+  std::vector<int> body, role;
+  std::vector<std::uint8_t> is_edge_edge;
+};
+
+/// Adds a case and its friction.
+void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start, float friction, float slip_limit);
+
+/// Each contact alone, at its positions.
+struct ProbeContact {
+  SweepView view;
+  ContactTables tables;
+  const VertexFacetRecord* vertex_facet;
+  const EdgeEdgeRecord* edge_edge;
+  const float *radius, *slip_limit;
+  const int* role;
+  const std::uint8_t* is_edge_edge;
+  bool friction;  ///< of friction alone, or of the normal force alone
+  ForceArrays out;
+
+  OGC_HD void operator()(int i) const {
+    SweepView here = view;
+    here.radius = radius[i];
+    here.friction_limit = slip_limit[i];
+    ContactIncidence incidence = is_edge_edge[i] != 0 ? contact_of(tables, edge_edge[i]) : contact_of(tables, vertex_facet[i]);
+    incidence.own = slot_of_role(is_edge_edge[i] != 0, incidence.kind, role[i]);
+    ForceAndBlock sum;
+    const ContactReads reads = read_contact(here, incidence);
+    const ContactAt at(incidence, reads, here.radius);
+    if (at.acts()) {
+      ForceAndBlock normal;
+      const float normal_force = add_contact(at.shape, at.weight, here.radius, incidence.stiffness, normal);
+      if (friction) add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
+      else sum = normal;
+    }
+    out.store(i, sum);
+  }
+};
+
+template <class Backend>
+compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bool friction) {
+  ProbeMemory<Backend> memory(backend);
+  compare::ForceOut out;
+  SweepView view;
+  view.old = memory.template in<Vec>(batch.positions);
+  view.start = memory.template in<Vec>(batch.start);
+  // Without a body count the material of a pair is that of its second body, here of its case.
+  const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials), 0,
+                             memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.detected), true};
+  const std::size_t n = batch.role.size();
+  backend.for_each(static_cast<int>(n),
+                   ProbeContact{view, tables, memory.template in<VertexFacetRecord>(batch.vertex_facet), memory.template in<EdgeEdgeRecord>(batch.edge_edge),
+                                memory.template in<float>(batch.radius), memory.template in<float>(batch.slip_limit), memory.template in<int>(batch.role),
+                                memory.template in<std::uint8_t>(batch.is_edge_edge), friction, force_arrays(memory, out, n)});
+  memory.fetch();
+  return out;
+}
+
+template <class Backend>
+compare::ForceOut probe_contact_force(Backend& backend, const compare::ContactForceIn& in) {
+  ContactBatch batch;
+  for (const compare::ContactForceCase& c : in.cases) append(batch, c, c.vertex, 0, 1);
+  return probe_contacts(backend, batch, false);
+}
+
+template <class Backend>
+compare::ForceOut probe_friction_force(Backend& backend, const compare::FrictionForceIn& in) {
+  ContactBatch batch;
+  for (const compare::FrictionForceCase& c : in.cases) append(batch, c.contact, c.start, c.friction, c.slip_limit);
+  return probe_contacts(backend, batch, true);
+}
+
+}  // namespace ogc::fast
