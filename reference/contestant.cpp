@@ -2,14 +2,22 @@
 #include "reference/contestant.hpp"
 
 #include "reference/energies/bending.hpp"
+#include "reference/energies/contact_force.hpp"
+#include "reference/energies/friction_force.hpp"
 #include "reference/energies/membrane.hpp"
+#include "reference/energies/rest_state.hpp"
 #include "reference/geometry/activation.hpp"
+#include "reference/geometry/block.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/closest_points.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/solvers/initial_guess.hpp"
+#include "reference/solvers/newton.hpp"
+#include "reference/solvers/step.hpp"
+#include "reference/solvers/sweep.hpp"
 
 namespace ogc::reference {
 
@@ -25,7 +33,21 @@ compare::Authority authority() {
   authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
   authority.bending = [](const compare::BendingIn& in) { return bending(in); };
+  authority.contact_force = [](const compare::ContactForceIn& in) { return contact_force(in); };
+  authority.friction_force = [](const compare::FrictionForceIn& in) { return friction_force(in); };
+  authority.rest_state = rest_state;
+  authority.block = block;
+  authority.initial_guess = initial_guess;
+  authority.sweep = sweep;
+  authority.step = step;
   return authority;
+}
+
+compare::Contestant newton() {
+  compare::Contestant contestant;
+  contestant.name = "newton";
+  contestant.start = start_newton;
+  return contestant;
 }
 
 }  // namespace ogc::reference

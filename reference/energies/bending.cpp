@@ -1,44 +1,14 @@
 #include "reference/energies/bending.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <vector>
 
+#include "reference/energies/fold.hpp"
 #include "reference/energies/inputs.hpp"
 #include "reference/energies/parallel.hpp"
 
 namespace ogc::reference {
 namespace {
-
-template <class T>
-using Hinge = std::array<Triple<T>, 4>;
-
-template <class T>
-bool is_zero(const Triple<T>& a) {
-  return plain(a[0]) == 0 && plain(a[1]) == 0 && plain(a[2]) == 0;
-}
-
-template <class T>
-double plain_length(const Triple<T>& a) {
-  return std::hypot(plain(a[0]), plain(a[1]), plain(a[2]));
-}
-
-/// The two normals and the edge between them.
-template <class T>
-struct Fold {
-  Hinge<T> x;
-  Triple<T> edge, first, second;
-  explicit Fold(const Hinge<T>& at) : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
-  bool collapsed() const { return is_zero(first) || is_zero(second); }
-  bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
-  /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.
-  bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
-    const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
-    return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;
-  }
-  /// From the first normal to the second, about the edge.
-  T angle() const { return atan2(dot(cross(first, second), edge) / sqrt(dot(edge, edge)), dot(first, second)); }
-};
 
 Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
   const auto own = static_cast<std::size_t>(q.own);
@@ -68,8 +38,13 @@ compare::ForceAnswer answer_at(const Inputs& inputs, const Material& m, const By
   const ByVertex bent = angle - ByVertex(m.rest_angle), moved = angle - ByVertex(start);
   const ByVertex energy = ByVertex(Input(0.5) * m.stiffness) * (bent * bent + ByVertex(m.damping) * moved * moved);
   Block block;
-  add_outer(block, m.stiffness * (Input(1.0) + m.damping), angle, angle);
-  return answer(inputs, energy, block);
+  const Input weight = m.stiffness * (Input(1.0) + m.damping);
+  add_outer(block, weight, angle, angle);
+  compare::ForceAnswer result = answer(inputs, energy, block);
+  // Where the gradient vanishes by cancellation, the block, its square, has no first derivative: an error of n u · cond in the gradient is all there is.
+  const double gradient = inputs.condition(angle.slope);
+  result.block_scale += compare::bending_gradient * compare::unit_roundoff * weight.value * gradient * gradient;
+  return result;
 }
 
 }  // namespace

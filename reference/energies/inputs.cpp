@@ -12,8 +12,8 @@ Triple<Input> Inputs::vector(const compare::Vec3f& p, const compare::Vec3f& from
   return point;
 }
 
-Input Inputs::number(double value) {
-  groups_.push_back({used_, 1, std::abs(value)});
+Input Inputs::number(double value, double size) {
+  groups_.push_back({used_, 1, size});
   return Input(value, used_++);
 }
 

@@ -20,7 +20,9 @@ class Inputs {
  public:
   /// p − from as one input. Exact: differences of single-precision numbers of one size have no rounding in double.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
-  Input number(double value);
+  Input number(double value) { return number(value, std::abs(value)); }
+  /// A number that is known to u times `size`: with the condition of a number as its size, its own inputs need not be carried along.
+  Input number(double value, double size);
   /// All points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences from any one of them: the condition is the
   /// largest over these choices.
   template <std::size_t N>

@@ -2,28 +2,10 @@
 
 #include "reference/energies/inputs.hpp"
 #include "reference/energies/parallel.hpp"
+#include "reference/energies/strain.hpp"
 
 namespace ogc::reference {
 namespace {
-
-/// G by its components xx, xy, yy.
-template <class T>
-using Strain = std::array<T, 3>;
-
-/// ψ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m²].
-template <class T>
-T density(const Strain<T>& g, const T& lambda, const T& mu) {
-  const T trace = g[0] + g[2];
-  return T(0.5) * lambda * trace * trace + mu * (g[0] * g[0] + T(2.0) * g[1] * g[1] + g[2] * g[2]);
-}
-
-/// G = (FᵀF − I)/2 of the map from the rest plane that takes the corners to x.
-template <class T>
-Strain<T> strain(const std::array<Triple<T>, 3>& x, const std::array<std::array<T, 2>, 3>& gradient) {
-  std::array<Triple<T>, 2> f;
-  for (std::size_t axis = 0; axis < 2; ++axis) f[axis] = gradient[0][axis] * x[0] + gradient[1][axis] * x[1] + gradient[2][axis] * x[2];
-  return {T(0.5) * (dot(f[0], f[0]) - T(1.0)), T(0.5) * dot(f[0], f[1]), T(0.5) * (dot(f[1], f[1]) - T(1.0))};
-}
 
 /// The question as numbers that know their inputs.
 struct Stencil {

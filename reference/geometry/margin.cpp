@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "compare/stages/numbers.hpp"
@@ -136,6 +137,12 @@ std::pair<double, double> distance_interval(const Margin& gap) {
   return {root.inf(), root.sup()};
 }
 
+/// m / √q for the exact q ≥ 0 that turns the margin into a length.
+double over_root(const Exact& m, const Exact& q) {
+  if (q.is_zero()) return 0;
+  return static_cast<double>(to_long_double(m) / std::sqrt(to_long_double(q)));
+}
+
 /// From a close guess to the exact answer: the gap about f is not negative where f is not above the distance.
 float settle_below(const Margin& gap, float f) {
   while (f > 0 && exact_sign(with_radius(gap, f)) < 0) f = std::nextafter(f, 0.0f);
@@ -180,6 +187,33 @@ float distance_below(const Margin& gap) {
   const float f = round_down(low);
   if (f == round_down(high)) return f;
   return settle_below(gap, round_down(distance(gap)));
+}
+
+bool scaled_distance_less(const Margin& gap, float scale, float b) {
+  const Quotient<Exact> d = squared_distance(gap.kind, widen<Exact>(gap));
+  const Exact s(static_cast<double>(scale)), limit(static_cast<double>(b));
+  return static_cast<int>((s * s * d.numerator - limit * limit * d.denominator).sign()) < 0;
+}
+
+double signed_length(const Margin& margin) {
+  const auto at = widen<Exact>(margin);
+  const Exact radius(static_cast<double>(margin.radius));
+  const auto e = at[1] - at[0];
+  switch (margin.kind) {
+    case MarginKind::along: return over_root(evaluate<Exact>(margin), dot(e, e));
+    case MarginKind::side: {
+      const auto n = cross(e, at[2] - at[0]);
+      return over_root(evaluate<Exact>(margin), dot(e, e) * dot(n, n));
+    }
+    case MarginKind::turn:
+    case MarginKind::parallel: throw std::logic_error("signed_length: this margin is no length");
+    default: break;
+  }
+  const Quotient<Exact> d = squared_distance(margin.kind, at);  // d − r = (d² − r²) / (d + r)
+  if (d.denominator.is_zero()) return 0;
+  const long double length = std::sqrt(to_long_double(d.numerator) / to_long_double(d.denominator));
+  const long double sum = length + to_long_double(radius);
+  return sum > 0 ? static_cast<double>(to_long_double(evaluate<Exact>(margin)) / to_long_double(d.denominator) / sum) : 0;
 }
 
 std::vector<double> shares(std::span<const Margin> margins) {

@@ -55,6 +55,13 @@ double distance(const Margin& gap);
 /// The largest single-precision number that is not above the distance of the gap [m]. Denominator as above.
 float distance_below(const Margin& gap);
 
+/// scale · d < b for the distance d of the gap, exactly; scale, b ≥ 0. Denominator as above.
+bool scaled_distance_less(const Margin& gap, float scale, float b);
+
+/// The margin as a length [m] with its sign, within 1 ulp of double: of `along` and `side` the distance of the last point from the plane, of a gap d − r
+/// (without cancellation). 0 where the line or plane is not defined. Not for `turn` and `parallel`, which are no lengths: std::logic_error.
+double signed_length(const Margin& margin);
+
 /// m_k / Σ m_j for margins that are no gaps and whose exact sum is positive; within 1 ulp of double each.
 std::vector<double> shares(std::span<const Margin> margins);
 

@@ -1,0 +1,72 @@
+// Where the contact points of two closed faces lie, in double, and their distance over any number type. Newton's positions are doubles between two detections,
+// so the exact predicates of reference/geometry do not apply; they are not needed either: the distance is continuous, with its slope, across the features.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "compare/stages/contact_force.hpp"
+#include "reference/energies/derivative.hpp"
+
+namespace ogc::reference {
+
+/// What the distance is measured between, by places in the vertices of the contact.
+enum class FormKind : std::uint8_t {
+  points,        ///< 0, 1
+  point_line,    ///< 0; 1 2
+  point_plane,   ///< 0; 1 2 3
+  lines,         ///< 0 1; 2 3
+  fixed_weights  ///< nearly parallel edges: the points of method.md §1, which do not move with the vertices
+};
+
+/// The contact points: x_first = Σ of the positive weights, x_second = −Σ of the negative ones.
+struct ClosestForm {
+  FormKind kind = FormKind::points;
+  std::array<std::uint8_t, 4> at{};  ///< which vertices the places are
+  std::array<double, 4> weight{};    ///< by vertex of the contact; each side's add up to 1 and −1
+};
+
+/// A collapsed edge or triangle counts as the lower face that holds the closest point.
+ClosestForm closest_form(compare::ContactSides sides, const std::array<Triple<double>, 4>& x);
+
+/// Σ w_i x_i, the vector from the second contact point to the first.
+template <class T, std::size_t N>
+Triple<T> separation(const std::array<double, 4>& weight, const std::array<Triple<T>, N>& x) {
+  Triple<T> sum = weight[0] * x[0];
+  for (std::size_t k = 1; k < N; ++k) sum = sum + weight[k] * x[k];
+  return sum;
+}
+
+/// |h|/‖n‖ for a height times ‖n‖.
+template <class T>
+T height(const T& scaled, const Triple<T>& normal) {
+  using std::sqrt;
+  return (plain(scaled) < 0 ? -1.0 : 1.0) * scaled / sqrt(dot(normal, normal));
+}
+
+/// The distance of a form's points, lines or planes [m].
+template <class T, std::size_t N>
+T form_distance(const ClosestForm& form, const std::array<Triple<T>, N>& x) {
+  using std::sqrt;
+  const auto at = [&](std::size_t place) -> const Triple<T>& { return x[form.at[place]]; };
+  if (form.kind == FormKind::points) {
+    const Triple<T> apart = at(0) - at(1);
+    return sqrt(dot(apart, apart));
+  }
+  if (form.kind == FormKind::point_line) {
+    const Triple<T> edge = at(2) - at(1), normal = cross(edge, at(0) - at(1));
+    return sqrt(dot(normal, normal) / dot(edge, edge));
+  }
+  if (form.kind == FormKind::point_plane) {
+    const Triple<T> normal = cross(at(2) - at(1), at(3) - at(1));
+    return height(dot(normal, at(0) - at(1)), normal);
+  }
+  if (form.kind == FormKind::lines) {
+    const Triple<T> normal = cross(at(1) - at(0), at(3) - at(2));
+    return height(dot(normal, at(2) - at(0)), normal);
+  }
+  const Triple<T> apart = separation(form.weight, x);
+  return sqrt(dot(apart, apart));
+}
+
+}  // namespace ogc::reference

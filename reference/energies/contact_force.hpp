@@ -1,0 +1,14 @@
+// Stage contact_force: the energy of one contact, by its closest points (Eq. 1, 16, 18–20; method.md §3, §4).
+#pragma once
+
+#include "compare/stages/contact_force.hpp"
+
+namespace ogc::reference {
+
+/// The exact answer, then those of the features, stages and ends of action that a decision in its grey zone could give instead.
+std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
+
+/// All cases, in parallel over them.
+compare::ForceTruth contact_force(const compare::ContactForceIn& in);
+
+}  // namespace ogc::reference

@@ -1,0 +1,45 @@
+// The angle of a hinge over any number type (compare/stages/bending.hpp).
+#pragma once
+
+#include <algorithm>
+
+#include "compare/stages/bending.hpp"
+#include "reference/energies/derivative.hpp"
+
+namespace ogc::reference {
+
+/// x0 and x1 of the edge, then the opposite vertices.
+template <class T>
+using Hinge = std::array<Triple<T>, 4>;
+
+template <class T>
+bool is_zero(const Triple<T>& a) {
+  return plain(a[0]) == 0 && plain(a[1]) == 0 && plain(a[2]) == 0;
+}
+
+template <class T>
+double plain_length(const Triple<T>& a) {
+  return std::hypot(plain(a[0]), plain(a[1]), plain(a[2]));
+}
+
+/// The two normals and the edge between them.
+template <class T>
+struct Fold {
+  Hinge<T> x;
+  Triple<T> edge, first, second;
+  explicit Fold(const Hinge<T>& at) : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
+  bool collapsed() const { return is_zero(first) || is_zero(second); }
+  bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
+  /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.
+  bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
+    const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
+    return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;
+  }
+  /// From the first normal to the second, about the edge.
+  T angle() const {
+    using std::atan2, std::sqrt;
+    return atan2(dot(cross(first, second), edge) / sqrt(dot(edge, edge)), dot(first, second));
+  }
+};
+
+}  // namespace ogc::reference

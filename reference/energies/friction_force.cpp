@@ -1,0 +1,80 @@
+// f₀ is the integral of f₁ (method.md §4), so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given with it, and finite where the
+// slip vanishes.
+#include "reference/energies/friction_force.hpp"
+
+#include "reference/energies/meeting.hpp"
+#include "reference/energies/parallel.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using ByDistance = Derivative<Input, 1>;
+
+/// λ = −e_k g'(d).
+Input normal_force(const Meeting& meeting) {
+  const ByDistance d(meeting.acting_distance(meeting.distance), 0);
+  return -activation_energy(d, ByDistance(meeting.radius), ByDistance(meeting.stiffness)).slope[0];
+}
+
+/// ‖u‖. Where u cannot be told from 0 it has no direction, and ‖u‖ grows by the length of any change of u.
+Input length(const Inputs& inputs, const Triple<Input>& slip) {
+  Input y = sqrt(dot(slip, slip));
+  if (y.value > compare::contact_grey * compare::unit_roundoff * inputs.condition(slip)) return y;
+  for (std::size_t i = 0; i < y.slope.size(); ++i) y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
+  return y;
+}
+
+/// f₁(y)/y.
+Input slope_over_slip(const Input& y, const Input& limit) {
+  return y.value < limit.value ? (Input(2.0) - y / limit) / limit : Input(1.0) / y;
+}
+
+/// f₀(y).
+Input potential(const Input& y, const Input& limit) {
+  if (!(y.value < limit.value)) return y;
+  return y * y / limit - y * y * y / (Input(3.0) * limit * limit) + limit / Input(3.0);
+}
+
+compare::ForceAnswer acting(Meeting meeting, const compare::FrictionForceCase& q) {
+  const auto own = static_cast<std::size_t>(q.contact.own);
+  Inputs& inputs = meeting.inputs;
+  Triple<Input> moved;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(q.contact.sides)); ++k) {
+    moved = moved + meeting.weight[k] * inputs.vector(q.contact.vertex[k], q.start[k]);
+  }
+  const Input limit = inputs.number(q.slip_limit), strength = inputs.number(q.friction) * normal_force(meeting);
+  const Triple<Input> normal = Input(1.0) / meeting.distance * meeting.separation();
+  const Triple<ByVertex> all = fixed(moved) + ByVertex(meeting.weight[own]) * own_vertex();
+  const Triple<ByVertex> slip = all - dot(fixed(normal), all) * fixed(normal);
+  const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
+  const Input y = length(inputs, u), stiffness = strength * slope_over_slip(y, limit);
+  const ByVertex energy = chained(Input(strength * potential(y, limit)), Input(Input(0.5) * stiffness), dot(slip, slip));
+  Block block;
+  for (const ByVertex& along : slip) add_outer(block, stiffness, along, along);
+  compare::ForceAnswer result = answer(inputs, energy, block);
+  const double stiff = reach(inputs, {&stiffness, 1});
+  add_weight_error(meeting, meeting.weight[own], stiff * reach(inputs, u), 2 * stiff, result);
+  // Where both vanish, at the radius and without slip, the first order says nothing of their product.
+  result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) * inputs.condition(u);
+  return result;
+}
+
+/// λ is at most k_c r 2²¹ (contact_force), f₁ at most 1, f₁/y at most 2/ε; ‖I − n nᵀ‖ = √2.
+compare::ForceAnswer largest(const compare::FrictionForceCase& q) {
+  compare::ForceAnswer bounds;
+  bounds.force_scale = 0x1p21 * q.friction * q.contact.stiffness * q.contact.contact_radius / compare::unit_roundoff;
+  bounds.block_scale = 4 * bounds.force_scale / q.slip_limit;
+  return bounds;
+}
+
+}  // namespace
+
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) {
+  return answers(meetings(question.contact), largest(question), [&](const Meeting& meeting) { return acting(meeting, question); });
+}
+
+compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {
+  return for_all(in.cases, [](const compare::FrictionForceCase& question) { return friction_force(question); });
+}
+
+}  // namespace ogc::reference

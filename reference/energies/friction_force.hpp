@@ -1,0 +1,14 @@
+// Stage friction_force: IPC's lagged potential on the contact points of one contact (method.md §4).
+#pragma once
+
+#include "compare/stages/friction_force.hpp"
+
+namespace ogc::reference {
+
+/// The exact answer, then those of the contact's other acceptable answers.
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question);
+
+/// All cases, in parallel over them.
+compare::ForceTruth friction_force(const compare::FrictionForceIn& in);
+
+}  // namespace ogc::reference

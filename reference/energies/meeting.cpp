@@ -1,0 +1,241 @@
+#include "reference/energies/meeting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/geometry/closest_face.hpp"
+#include "reference/geometry/closest_points.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::ContactForceCase;
+using compare::ContactSides;
+
+/// Where the contact points lie: on a triangle the weights of its second and third corner, on edges the parameters from end 0 to end 1.
+using Parameters = std::array<Input, 2>;
+using Vertices = std::array<Triple<Input>, 4>;
+
+const Input zero(0.0), one(1.0);
+
+/// Of the point of the line ab closest to p.
+Input foot(const Triple<Input>& p, const Triple<Input>& a, const Triple<Input>& b) {
+  const Triple<Input> e = b - a;
+  return dot(p - a, e) / dot(e, e);
+}
+
+/// A parameter that is clamped to `end`: where it can't be told from the end it may move, and keeps the derivatives that it has without the clamp.
+Input at_end(const Inputs& inputs, Input free, double end) {
+  if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1}))) return Input(end);
+  free.value = end;
+  return free;
+}
+
+/// Clamped to [0, 1]; keeps its derivatives, which hold on one side of the corner at least.
+Input clamped(Input x) {
+  x.value = x.value < 0 ? 0 : x.value > 1 ? 1 : x.value;
+  return x;
+}
+
+/// Of the foot in the triangle's plane.
+Parameters in_plane(const Vertices& x) {
+  const auto &p = x[0], &a = x[1], &b = x[2], &c = x[3];
+  const Triple<Input> n = cross(b - a, c - a);
+  const Input area = dot(n, n);
+  return {dot(cross(p - a, c - a), n) / area, dot(cross(b - a, p - a), n) / area};
+}
+
+Parameters on_triangle(const Inputs& inputs, TriangleFeature feature, const Vertices& x) {
+  const auto &p = x[0], &a = x[1], &b = x[2], &c = x[3];
+  const auto none = [&](const Input& free) { return at_end(inputs, free, 0); };
+  const Parameters plane = in_plane(x);
+  switch (feature) {
+    case TriangleFeature::corner_0: return {none(foot(p, a, b)), none(foot(p, a, c))};
+    case TriangleFeature::corner_1: return {one - none(foot(p, b, a)) - none(foot(p, b, c)), none(foot(p, b, c))};
+    case TriangleFeature::corner_2: return {none(foot(p, c, b)), one - none(foot(p, c, a)) - none(foot(p, c, b))};
+    case TriangleFeature::edge_01: return {foot(p, a, b), none(plane[1])};
+    case TriangleFeature::edge_12: return {foot(p, c, b), foot(p, b, c) - none(one - plane[0] - plane[1])};
+    case TriangleFeature::edge_20: return {none(plane[0]), foot(p, a, c)};
+    default: return plane;
+  }
+}
+
+std::vector<Parameters> all_on_triangle(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
+  const Corners corners{q.vertex[1], q.vertex[2], q.vertex[3]};
+  const TriangleFeature closest = closest_feature(corners, q.vertex[0]);
+  const unsigned possible = possible_features(corners, q.vertex[0]);
+  std::vector<Parameters> all{on_triangle(inputs, closest, x)};
+  for (unsigned f = 0; f < 7; ++f) {
+    const auto feature = static_cast<TriangleFeature>(f);
+    if (feature != closest && (possible >> f & 1) != 0) all.push_back(on_triangle(inputs, feature, x));
+  }
+  return all;
+}
+
+/// A point and a segment: end 0, end 1, interior, in the order that breaks the tie of a collapsed segment.
+std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
+  const Vec3f &p = q.vertex[0], &a = q.vertex[1], &b = q.vertex[2];
+  std::array<Membership, 3> membership;
+  require(membership[0], {along(a, b, p), false});
+  require(membership[1], {along(b, a, p), false});
+  require(membership[2], {along(a, b, p), true});
+  require(membership[2], {along(b, a, p), true});
+  const auto parameters = [&](std::size_t feature) {
+    const Input free = foot(x[0], x[1], x[2]);
+    return Parameters{feature == 2 ? free : at_end(inputs, free, static_cast<double>(feature)), zero};
+  };
+  const std::size_t closest = membership[0].exact ? 0 : membership[1].exact ? 1 : 2;
+  std::vector<Parameters> all{parameters(closest)};
+  for (std::size_t feature = 0; feature < 3; ++feature) {
+    if (feature != closest && membership[feature].possible && !membership[closest].certain) all.push_back(parameters(feature));
+  }
+  return all;
+}
+
+/// The parameter on the first of two edges of its feature, opposite a feature of the second. `skew`: their lines have closest points.
+Input on_edge(const Inputs& inputs, bool skew, EdgeFeature feature, const Triple<Input>& u0, const Triple<Input>& u1, EdgeFeature other,
+              const Triple<Input>& v0, const Triple<Input>& v1) {
+  if (!skew && feature != EdgeFeature::interior && other == EdgeFeature::interior) return feature == EdgeFeature::end_1 ? one : zero;
+  const Triple<Input> v = v1 - v0, n = cross(u1 - u0, v);
+  const Input free = other == EdgeFeature::interior ? dot(cross(v0 - u0, v), n) / dot(n, n) : foot(other == EdgeFeature::end_1 ? v1 : v0, u0, u1);
+  return feature == EdgeFeature::interior ? free : at_end(inputs, free, feature == EdgeFeature::end_1 ? 1 : 0);
+}
+
+Parameters on_edges(const Inputs& inputs, bool skew, EdgeFeatures features, const Vertices& x) {
+  return {on_edge(inputs, skew, features.first, x[0], x[1], features.second, x[2], x[3]),
+          on_edge(inputs, skew, features.second, x[2], x[3], features.first, x[0], x[1])};
+}
+
+/// The rule for nearly parallel edges: the middle of the overlap, then its projection.
+Parameters middle_of_overlap(const Vertices& x) {
+  const Input s = Input(0.5) * (clamped(foot(x[2], x[0], x[1])) + clamped(foot(x[3], x[0], x[1])));
+  return {s, clamped(foot(x[0] + s * (x[1] - x[0]), x[2], x[3]))};
+}
+
+std::vector<Parameters> all_on_edges(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
+  const EdgePair pair{{q.vertex[0], q.vertex[1]}, {q.vertex[2], q.vertex[3]}};
+  const EdgeFeatures closest = closest_features(pair), interiors{EdgeFeature::interior, EdgeFeature::interior};
+  const Membership rule = are_nearly_parallel(pair);
+  if (rule.certain) return {middle_of_overlap(x)};
+  std::vector<Parameters> all;
+  if (rule.exact) all.push_back(middle_of_overlap(x));
+  // Interiors that meet overlap, so the rule takes them wherever the angle is small: lines that are all but parallel need no crossing.
+  const Margin angle = parallel(q.vertex[0], q.vertex[1], q.vertex[2], q.vertex[3]);
+  const bool is_small = sign(angle) < 0 && !grey(angle), certain = are_closest(pair, closest).certain;
+  if (!(is_small && closest == interiors)) all.push_back(on_edges(inputs, !is_small, closest, x));
+  if (!rule.exact && rule.possible) all.push_back(middle_of_overlap(x));
+  for (int k = 0; k < edge_feature_pairs && !certain; ++k) {
+    const EdgeFeatures other = edge_features(k);
+    if (other == closest || (is_small && other == interiors)) continue;
+    if (are_closest(pair, other).possible) all.push_back(on_edges(inputs, !is_small, other, x));
+  }
+  return all;
+}
+
+std::vector<Parameters> all_parameters(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
+  switch (q.sides) {
+    case ContactSides::point_edge: return all_on_segment(inputs, q, x);
+    case ContactSides::edge_edge: return all_on_edges(inputs, q, x);
+    case ContactSides::point_triangle: return all_on_triangle(inputs, q, x);
+    default: return {{zero, zero}};
+  }
+}
+
+std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input& second) {
+  switch (sides) {
+    case ContactSides::point_edge: return {one, first - one, -first, zero};
+    case ContactSides::edge_edge: return {one - first, first, second - one, -second};
+    case ContactSides::point_triangle: return {one, first + second - one, -first, -second};
+    default: return {one, -one, zero, zero};
+  }
+}
+
+/// e_k as one number. Its size holds, beside its condition, the square of the normal's error: 4 u ‖e‖‖e'‖ by two products and a difference of rounded
+/// edges, which is all there is where the edges are parallel and the first order vanishes.
+Input mollifier(const ContactForceCase& q, Inputs& inputs) {
+  Inputs own;
+  const Triple<Input> e = own.vector(q.detected[1], q.detected[0]), f = own.vector(q.detected[3], q.detected[2]), n = cross(e, f);
+  const Input limit = Input(1e-3) * own.number(q.rest_squared[0]) * own.number(q.rest_squared[1]), sine = dot(n, n);
+  if (!(sine.value < limit.value)) return inputs.number(1, 0);
+  const Input share = sine / limit, result = share * (Input(2.0) - share);
+  const double square = 2 * 16 * compare::unit_roundoff * dot(e, e).value * dot(f, f).value / limit.value;
+  return inputs.number(result.value, own.condition({&result, 1}) + square);
+}
+
+/// Everything but the weights.
+Meeting begun(const ContactForceCase& q) {
+  Meeting meeting;
+  const std::size_t base = q.sides == ContactSides::edge_edge ? 0 : 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(q.sides)); ++k) {
+    if (k != base) meeting.vertex[k] = meeting.inputs.vector(q.vertex[k], q.vertex[base]);
+  }
+  meeting.radius = meeting.inputs.number(q.contact_radius);
+  meeting.stiffness = meeting.inputs.number(q.stiffness);
+  if (q.sides == ContactSides::edge_edge) meeting.stiffness = meeting.stiffness * mollifier(q, meeting.inputs);
+  return meeting;
+}
+
+void measure(Meeting& meeting) {
+  const Triple<Input> apart = meeting.separation();
+  meeting.distance = sqrt(dot(apart, apart));
+  constexpr double factor = compare::contact_grey * compare::unit_roundoff;
+  meeting.doubt = factor * meeting.inputs.condition(apart);
+  meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
+}
+
+}  // namespace
+
+Triple<Input> Meeting::separation() const {
+  Triple<Input> sum;
+  for (std::size_t k = 0; k < 4; ++k) sum = sum + weight[k] * vertex[k];
+  return sum;
+}
+
+std::vector<Meeting> meetings(const ContactForceCase& question) {
+  Meeting common = begun(question);
+  const std::vector<Parameters> all = all_parameters(common.inputs, question, common.vertex);
+  const bool has_parameters = question.sides != ContactSides::point_point;
+  const Input first_error = has_parameters ? common.inputs.number(0, 1) : zero, second_error = has_parameters ? common.inputs.number(0, 1) : zero;
+  std::vector<Meeting> result;
+  for (const Parameters& at : all) {
+    Meeting& meeting = result.emplace_back(common);
+    meeting.weight = weights(question.sides, at[0] + first_error, at[1] + second_error);
+    measure(meeting);
+  }
+  return result;
+}
+
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,
+                                          const std::function<compare::ForceAnswer(const Meeting&)>& acting) {
+  std::vector<compare::ForceAnswer> all;
+  bool none = false, any = false;
+  for (const Meeting& meeting : meetings) {
+    const bool acts = meeting.acts(), ends = meeting.distance.value > 0 && meeting.may_end();
+    if (!acts && all.empty()) {
+      all.push_back({});
+      none = true;
+    }
+    if (acts || ends) all.push_back(acting(meeting));
+    none = none || !acts || ends;
+    any = any || (meeting.doubt > 0 && meeting.may_touch());
+  }
+  if (none && meetings.front().acts()) all.push_back({});
+  if (any) all.push_back(largest);
+  return all;
+}
+
+double reach(const Inputs& inputs, std::span<const Input> answer) {
+  double squared = 0;
+  for (const Input& x : answer) squared += x.value * x.value;
+  return std::sqrt(squared) + compare::contact_grey * compare::unit_roundoff * inputs.condition(answer);
+}
+
+void add_weight_error(const Meeting& meeting, const Input& weight, double force, double curvature, compare::ForceAnswer& answer) {
+  if (meeting.inputs.condition({&weight, 1}) == 0) return;
+  double worst = 0;
+  for (const Input& w : meeting.weight) worst = std::max(worst, meeting.inputs.condition({&w, 1}));
+  answer.force_scale += force * worst;
+  answer.block_scale += curvature * worst * (2 * std::abs(weight.value) + compare::contact_grey * compare::unit_roundoff * worst);
+}
+
+}  // namespace ogc::reference

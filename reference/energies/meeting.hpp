@@ -1,0 +1,72 @@
+// How the two sides of a contact meet, as numbers that know their inputs: what contact_force and friction_force share. Which features hold the closest
+// points is decided exactly; where they lie on these features is a formula, so that the condition of an answer holds the sensitivity of the weights.
+//
+// Weights are constants of the outer differentiation (method.md §4): the distance is stationary in them where they are those of the closest points, so
+// that the force is the same.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "compare/stages/contact_force.hpp"
+#include "reference/energies/inputs.hpp"
+
+namespace ogc::reference {
+
+/// One acceptable way of meeting. Coordinates are relative to the first edge's end 0, the second side's first vertex where the first side is a point.
+struct Meeting {
+  Inputs inputs;
+  std::array<Triple<Input>, 4> vertex;
+  std::array<Input, 4> weight;  ///< those of the first side add up to 1, those of the second to −1
+  Input radius, stiffness;      ///< r; k_c e_k
+  Input distance;               ///< d, without derivatives where it is 0
+  double doubt = 0;             ///< how far the vector between the contact points can be off [m]
+  double distance_doubt = 0;    ///< how far d can be off, to first order [m]
+
+  /// Σ w_i x_i, the vector d n from the second side's contact point to the first's.
+  Triple<Input> separation() const;
+  /// The distance that slope and curvature belong to: d, but not below 2⁻²³ r. It keeps d's derivatives on both sides of that corner.
+  template <class T>
+  T acting_distance(T d) const {
+    const double least = 0x1p-23 * radius.value;
+    if (plain(d) < least) set_plain(d, least);
+    return d;
+  }
+  bool acts() const { return distance.value > 0 && distance.value < radius.value; }
+  /// Whether d cannot be told from r.
+  bool may_end() const { return std::abs(distance.value - radius.value) <= distance_doubt; }
+  /// Whether the contact points cannot be told from touching ones: neither d nor n is known.
+  bool may_touch() const { return distance.value <= 2 * doubt; }
+
+ private:
+  static void set_plain(Input& x, double value) { x.value = value; }
+  static void set_plain(ByVertex& x, double value) { x.value.value = value; }
+};
+
+/// The exact meeting first, then those that a decision in its grey zone could give instead.
+std::vector<Meeting> meetings(const compare::ContactForceCase& question);
+
+/// g(d) of Eq. 18–20 with Eq. 19 corrected, τ = r/2; d < r.
+template <class T>
+T activation_energy(const T& d, const T& r, const T& k) {
+  if (2 * plain(d) >= plain(r)) return T(0.5) * k * (r - d) * (r - d);
+  const T tau = T(0.5) * r, k_log = tau * k * (r - tau);
+  return k_log * (log(tau) - log(d)) + T(0.5) * k * (r - tau) * (r - tau);
+}
+
+/// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force and a block, by their moduli in
+/// the scales, that no answer can exceed wherever the points touch.
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,
+                                          const std::function<compare::ForceAnswer(const Meeting&)>& acting);
+
+/// The largest modulus that an answer of several numbers can be taken for.
+double reach(const Inputs& inputs, std::span<const Input> answer);
+
+/// Adds to the scales what the error of the own weight does beside those of its inputs: where weights are computed one by one, as in closest_face, each
+/// can be off by u times the largest condition of them all, even one that is 0, where the first order of the block's w² vanishes. `force` and `curvature`
+/// are the largest ones of w = 1.
+void add_weight_error(const Meeting& meeting, const Input& weight, double force, double curvature, compare::ForceAnswer& answer);
+
+}  // namespace ogc::reference

@@ -1,0 +1,198 @@
+// Each quantity is written once, as polynomials over a number type: exact numbers give the value, so that no needle, flat hinge or fold loses a bit before
+// the one root, quotient or angle at the end; numbers that know their inputs give the unit of its error.
+#include "reference/energies/rest_state.hpp"
+
+#include <CGAL/Mpzf.h>
+
+#include <cmath>
+
+#include "reference/energies/inputs.hpp"
+#include "reference/geometry/formulas.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using Exact = CGAL::Mpzf;
+
+/// 64 bits or more of an exact number: what a double leaves of it goes into a second one.
+long double number(const Exact& x) {
+  const double high = x.to_double();
+  return static_cast<long double>(high) + static_cast<long double>((x - Exact(high)).to_double());
+}
+Input number(const Input& x) { return x; }
+
+Point<Exact> exact(const compare::Vec3& p) { return {Exact(p.x), Exact(p.y), Exact(p.z)}; }
+
+compare::Vec3f single(const compare::Vec3& p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+
+Point<Input> input(Inputs& inputs, const compare::Vec3& p, const compare::Vec3& from) {
+  const Triple<Input> v = inputs.vector(single(p), single(from));
+  return {v[0], v[1], v[2]};
+}
+
+template <class T>
+T area_of(const Point<T>& normal) {
+  using std::sqrt;
+  return T(0.5) * sqrt(dot(normal, normal));
+}
+
+/// A triangle by what its coordinates give before any root: e = x1 − x0, n = e × (x2 − x0).
+template <class T>
+struct Shape {
+  Point<T> edge, normal, across[2];  ///< across[k]: the edge opposite corner k + 1, from its first end to its second
+
+  Shape(const Point<T>& x0, const Point<T>& x1, const Point<T>& x2) : edge(x1 - x0), normal(cross(edge, x2 - x0)), across{x0 - x2, x1 - x0} {}
+};
+
+/// ∇N_k = n × (edge opposite k) / ‖n‖², in the frame of e and n × e.
+template <class T>
+auto gradient(const Shape<T>& shape, std::size_t k) {
+  using std::sqrt;
+  const Point<T> slope = cross(shape.normal, shape.across[k]);
+  const auto nn = number(dot(shape.normal, shape.normal)), ee = number(dot(shape.edge, shape.edge));
+  const auto first = number(dot(slope, shape.edge)), second = number(dot(slope, cross(shape.normal, shape.edge)));
+  const auto along_edge = first / (nn * sqrt(ee)), above = second / (nn * sqrt(nn * ee));
+  return std::array{along_edge, above};
+}
+
+/// The two normals of a hinge about its edge.
+template <class T>
+struct Fold {
+  Point<T> edge, first, second;
+
+  Fold(const Point<T>& x0, const Point<T>& x1, const Point<T>& o0, const Point<T>& o1)
+      : edge(x1 - x0), first(cross(edge, o0 - x0)), second(cross(o1 - x0, edge)) {}
+
+  /// From the first normal to the second, positive about the edge: tan θ = (n₀ × n₁)·e / (‖e‖ n₀·n₁).
+  auto angle() const {
+    using std::atan2, std::sqrt;
+    const auto turned = number(dot(cross(first, second), edge)), length = sqrt(number(dot(edge, edge)));
+    const auto same = number(dot(first, second)) * length;
+    return atan2(turned, same);
+  }
+  /// 3 ‖e‖²/(A₀ + A₁).
+  auto factor() const {
+    using std::sqrt;
+    const auto ee = number(dot(edge, edge)), twice_first = sqrt(number(dot(first, first))), twice_second = sqrt(number(dot(second, second)));
+    return decltype(ee)(6.0) * ee / (twice_first + twice_second);
+  }
+};
+
+double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condition({&answer, 1}); }
+
+/// Fills the answer stencil by stencil.
+class Builder {
+ public:
+  explicit Builder(const compare::RestStateIn& in)
+      : scene_(*in.scene), topology_(*in.topology), body_(compare::body_of_vertex(scene_)), mass_(body_.size()), mass_scale_(body_.size()) {}
+
+  compare::RestStateTruth build() {
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      const compare::Body& body = scene_.bodies[b];
+      if (body.fixed) continue;
+      for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) add_triangle(t, static_cast<Index>(b));
+    }
+    for (std::size_t v = 0; v < mass_.size(); ++v) {
+      truth_.exact.mass.push_back(static_cast<float>(mass_[v]));
+      truth_.mass.push_back(static_cast<double>(mass_[v]));
+      truth_.mass_scale.push_back(mass_scale_[v]);
+    }
+    for (const compare::Hinge& hinge : topology_.hinges) add_hinge(hinge);
+    for (const compare::Edge& edge : topology_.edges) add_edge(edge);
+    for (const compare::Body& a : scene_.bodies)
+      for (const compare::Body& b : scene_.bodies) add_meeting(a.material, b.material);
+    return std::move(truth_);
+  }
+
+ private:
+  using Index = compare::Index;
+
+  const compare::Vec3& at(Index v) const { return scene_.rest_positions[static_cast<std::size_t>(v)]; }
+  const compare::Body& body(Index b) const { return scene_.bodies[static_cast<std::size_t>(b)]; }
+
+  void add_triangle(Index t, Index number_of_body) {
+    const compare::Triangle& corners = scene_.mesh.triangles[static_cast<std::size_t>(t)];
+    const compare::Vec3 &x0 = at(corners[0]), &x1 = at(corners[1]), &x2 = at(corners[2]);
+    const compare::Material& material = body(number_of_body).material;
+    const Shape<Exact> shape(exact(x0), exact(x1), exact(x2));
+    Inputs inputs;
+    const Shape<Input> reacting(Point<Input>{}, input(inputs, x1, x0), input(inputs, x2, x0));
+    const long double area = std::sqrt(number(dot(shape.normal, shape.normal))) / 2;
+    const double area_scale = unit_of(inputs, area_of(reacting.normal));
+    for (const Index corner : corners) {
+      const auto v = static_cast<std::size_t>(corner);
+      mass_[v] += material.density * area / 3;
+      mass_scale_[v] += material.density * (area_scale + static_cast<double>(area)) / 3;
+    }
+    if (material.membrane == compare::MembraneModel::none) return;
+    compare::RestTriangle triangle{corners, number_of_body, static_cast<float>(area), {}};
+    std::array<std::array<double, 2>, 2> gradients{};
+    std::array<double, 2> scales{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto value = gradient(shape, k);
+      scales[k] = inputs.condition(gradient(reacting, k));
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        triangle.gradient[k][axis] = static_cast<float>(value[axis]);
+        gradients[k][axis] = static_cast<double>(value[axis]);
+      }
+    }
+    truth_.exact.triangles.push_back(triangle);
+    truth_.area.push_back(static_cast<double>(area));
+    truth_.area_scale.push_back(area_scale);
+    truth_.gradient.push_back(gradients);
+    truth_.gradient_scale.push_back(scales);
+  }
+
+  void add_hinge(const compare::Hinge& hinge) {
+    const compare::Edge& edge = topology_.edges[static_cast<std::size_t>(hinge.edge)];
+    const Index number_of_body = body_[static_cast<std::size_t>(edge[0])];
+    const compare::Material& material = body(number_of_body).material;
+    if (body(number_of_body).fixed || material.bending == compare::BendingModel::none) return;
+    const std::array<Index, 4> vertex{edge[0], edge[1], hinge.opposite[0], hinge.opposite[1]};
+    const compare::Vec3& from = at(vertex[0]);
+    const Fold<Exact> fold(exact(from), exact(at(vertex[1])), exact(at(vertex[2])), exact(at(vertex[3])));
+    Inputs inputs;
+    const Fold<Input> reacting(Point<Input>{}, input(inputs, at(vertex[1]), from), input(inputs, at(vertex[2]), from), input(inputs, at(vertex[3]), from));
+    const double angle_scale = unit_of(inputs, reacting.angle());
+    const Input bending = inputs.number(material.bending_stiffness);
+    const long double angle = fold.angle(), stiffness = material.bending_stiffness * fold.factor();
+    truth_.exact.hinges.push_back({vertex, number_of_body, static_cast<float>(angle), static_cast<float>(stiffness)});
+    truth_.rest_angle.push_back(static_cast<double>(angle));
+    truth_.rest_angle_scale.push_back(angle_scale);
+    truth_.stiffness.push_back(static_cast<double>(stiffness));
+    truth_.stiffness_scale.push_back(unit_of(inputs, bending * reacting.factor()));
+  }
+
+  void add_edge(const compare::Edge& edge) {
+    const Point<Exact> e = exact(at(edge[1])) - exact(at(edge[0]));
+    Inputs inputs;
+    const Point<Input> reacting = input(inputs, at(edge[1]), at(edge[0]));
+    const long double squared = number(dot(e, e));
+    truth_.exact.edge_length_squared.push_back(static_cast<float>(squared));
+    truth_.edge_length_squared.push_back(static_cast<double>(squared));
+    truth_.edge_length_squared_scale.push_back(unit_of(inputs, dot(reacting, reacting)));
+  }
+
+  /// The harmonic mean as the reciprocal of the mean reciprocal.
+  void add_meeting(const compare::Material& a, const compare::Material& b) {
+    const long double ka = a.contact_stiffness, kb = b.contact_stiffness;
+    const long double stiffness = ka == 0 || kb == 0 ? 0 : 2 / (1 / ka + 1 / kb);
+    const long double friction = (static_cast<long double>(a.friction) + b.friction) / 2;
+    truth_.exact.meetings.push_back({static_cast<float>(stiffness), static_cast<float>(friction)});
+    truth_.meeting_stiffness.push_back(static_cast<double>(stiffness));
+    truth_.meeting_friction.push_back(static_cast<double>(friction));
+  }
+
+  const compare::Scene& scene_;
+  const compare::Topology& topology_;
+  std::vector<Index> body_;
+  std::vector<long double> mass_;
+  std::vector<double> mass_scale_;
+  compare::RestStateTruth truth_;
+};
+
+}  // namespace
+
+compare::RestStateTruth rest_state(const compare::RestStateIn& in) { return Builder(in).build(); }
+
+}  // namespace ogc::reference

@@ -1,0 +1,95 @@
+// The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4). Newton's method differentiates these; the
+// stages of the sweep ask for one vertex at a time and share strain and angle with them.
+#pragma once
+
+#include "compare/problem/vector.hpp"
+#include "reference/energies/closest_form.hpp"
+#include "reference/energies/contact_activation.hpp"
+#include "reference/energies/fold.hpp"
+#include "reference/energies/strain.hpp"
+
+namespace ogc::reference {
+
+/// A triangle: A (ψ(G) + k ψ(G − Gᵗ)).
+struct MembraneTerm {
+  std::array<compare::Index, 3> vertex{};
+  std::array<std::array<double, 2>, 3> gradient{};  ///< ∇N [1/m]
+  double area = 0, lambda = 0, mu = 0, damping = 0;  ///< A [m²], Lamé [N/m], k = k_d/h [1]
+  Strain<double> start{};                            ///< Gᵗ
+
+  template <class T>
+  T elastic(const std::array<Triple<T>, 3>& x) const {
+    return area * density(strain<T>(x, gradient), lambda, mu);
+  }
+  template <class T>
+  T energy(const std::array<Triple<T>, 3>& x) const {
+    const Strain<T> g = strain<T>(x, gradient);
+    const T psi = density(g, lambda, mu);
+    if (damping == 0) return area * psi;
+    const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
+    return area * (psi + damping * density(change, lambda, mu));
+  }
+};
+
+/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²); 0 where a triangle has collapsed.
+struct HingeTerm {
+  std::array<compare::Index, 4> vertex{};
+  double stiffness = 0, rest_angle = 0, damping = 0;  ///< c [J], θ₀ [rad], k [1]
+  double start = 0;                                   ///< θᵗ [rad]
+
+  template <class T>
+  T elastic(const Hinge<T>& x) const {
+    const Fold<T> fold(x);
+    if (fold.collapsed()) return T(0.0);
+    const T bent = fold.angle() - T(rest_angle);
+    return 0.5 * stiffness * bent * bent;
+  }
+  template <class T>
+  T energy(const Hinge<T>& x) const {
+    const Fold<T> fold(x);
+    if (fold.collapsed()) return T(0.0);
+    const T angle = fold.angle(), bent = angle - T(rest_angle);
+    if (damping == 0) return 0.5 * stiffness * bent * bent;
+    const T moved = angle - T(start);
+    return 0.5 * stiffness * (bent * bent + damping * moved * moved);
+  }
+};
+
+/// A contact: e_k g(d). The form is found where the energy is asked for.
+struct ContactTerm {
+  compare::ContactSides sides = compare::ContactSides::point_point;
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
+  double radius = 0, stiffness = 0;  ///< r [m]; k_c [N/m]
+  double mollifier = 1;              ///< e_k of the last detection
+  double friction = 0;               ///< μ [1]
+  compare::ContactActivation activation = compare::ContactActivation::ogc;
+
+  template <class T, std::size_t N>
+  T energy(const ClosestForm& form, const std::array<Triple<T>, N>& x) const {
+    return mollifier * contact_activation(activation, form_distance(form, x), radius, stiffness);
+  }
+};
+
+/// Lagged friction of a contact: μ λ f₀(‖u‖), u = (I − n nᵀ)(Σ wᵢ xᵢ − Σ wᵢ xᵢᵗ), with λ, n and w of a fixed state.
+struct FrictionTerm {
+  compare::ContactSides sides = compare::ContactSides::point_point;
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
+  std::array<double, 4> weight{};
+  Triple<double> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
+  double force = 0, limit = 0;       ///< μ λ [N]; ε = ε_v h [m]
+
+  /// f₀' = f₁: y − ε/3 beyond ε, y²/ε − y³/(3ε²) below, 0 at rest.
+  template <class T, std::size_t N>
+  T energy(const std::array<Triple<T>, N>& x) const {
+    using std::sqrt;
+    Triple<T> moved = separation(weight, x);
+    for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
+    const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
+    const Triple<T> slip = moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
+    const T squared = dot(slip, slip), length = sqrt(squared);
+    if (plain(length) >= limit) return force * (length - T(limit / 3));
+    return force / limit * (squared - 1 / (3 * limit) * squared * length);
+  }
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,99 @@
+// A question about a point that is given is one conjunction. A question about the point of an edge that is closest to something first asks which face of
+// the edge holds that point: of several that could, each has its say in what is accepted.
+#include "reference/geometry/block.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "reference/geometry/blocks.hpp"
+#include "reference/geometry/closest_points.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::BlockQuestion;
+
+struct Answer {
+  bool inside = false;
+  bool may_be_inside = false, may_be_outside = false;
+};
+
+/// x lies in the block under a premise that holds, or could hold.
+void add(Answer& answer, const Membership& premise, const Membership& block) {
+  answer.inside = answer.inside || (premise.exact && block.exact);
+  answer.may_be_inside = answer.may_be_inside || (premise.possible && block.possible);
+  answer.may_be_outside = answer.may_be_outside || (premise.possible && !block.certain);
+}
+
+Answer vertex_in_surface(const Complex& mesh, const Vec3f& x, Face a) {
+  Membership block;
+  visit_block(mesh, a, x, [&](const Boundary& boundary) {
+    require(block, boundary.condition);
+    return block.possible;
+  });
+  Answer answer;
+  add(answer, {}, block);
+  return answer;
+}
+
+/// Eq. 14: the foot on a lies between a's ends, which is where the closest point of a lies in its interior.
+Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
+  const auto ends = [&mesh](Index edge) { return std::array{mesh.at(mesh.edge(edge)[0]), mesh.at(mesh.edge(edge)[1])}; };
+  const EdgePair pair{ends(a), ends(e)};
+  const auto interior = [](EdgeFeatures on) { return on.first == EdgeFeature::interior; };
+  Answer answer;
+  const EdgeFeatures closest = closest_features(pair);
+  answer.inside = interior(closest);
+  const auto accept = [&](EdgeFeatures on) { (interior(on) ? answer.may_be_inside : answer.may_be_outside) = true; };
+  accept(closest);
+  if (are_closest(pair, closest).certain) return answer;
+  for (int k = 0; k < edge_feature_pairs; ++k) {
+    if (are_closest(pair, edge_features(k)).possible) accept(edge_features(k));
+  }
+  return answer;
+}
+
+/// Eq. 15 for the point of cd that is closest to v: `plane(w)` is positive where that point lies on w's side of the plane through v.
+template <class Plane>
+Membership vertex_block(const Complex& mesh, Index v, Plane plane) {
+  Membership block;
+  for (const Index f : mesh.edges_of(v)) require(block, {plane(mesh.at(mesh.across(f, v))), false});
+  return block;
+}
+
+Answer edge_in_vertex(const Complex& mesh, Index e, Index v) {
+  const Vec3f &x = mesh.at(v), &c = mesh.at(mesh.edge(e)[0]), &d = mesh.at(mesh.edge(e)[1]);
+  Answer answer;
+  Membership inside;
+  for (const auto& [from, to] : {std::array{c, d}, std::array{d, c}}) {
+    Membership beyond;
+    require(beyond, {along(from, to, x), false});
+    if (beyond.possible) add(answer, beyond, vertex_block(mesh, v, [&](const Vec3f& w) { return along(x, w, from); }));
+    require(inside, {along(from, to, x), true});
+  }
+  if (inside.possible) add(answer, inside, vertex_block(mesh, v, [&](const Vec3f& w) { return turn(x, w, c, d); }));
+  return answer;
+}
+
+Answer answer_to(const Complex& mesh, const BlockQuestion& question) {
+  if (question.kind == BlockQuestion::Kind::vertex_in_surface) return vertex_in_surface(mesh, mesh.at(question.of), question.face);
+  if (question.face.kind == FaceKind::edge) return edge_in_edge(mesh, question.of, question.face.index);
+  return edge_in_vertex(mesh, question.of, question.face.index);
+}
+
+}  // namespace
+
+compare::BlockTruth block(const compare::BlockIn& in) {
+  const Complex mesh{*in.topology, in.positions};
+  compare::BlockTruth truth{std::vector<std::uint8_t>(in.questions.size()), std::vector<std::uint8_t>(in.questions.size())};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.questions.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Answer answer = answer_to(mesh, in.questions[i]);
+      truth.inside[i] = answer.inside;
+      truth.grey[i] = answer.may_be_inside && answer.may_be_outside;
+    }
+  });
+  return truth;
+}
+
+}  // namespace ogc::reference

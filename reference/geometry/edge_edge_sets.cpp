@@ -1,0 +1,190 @@
+// E_OGC twice: as a definition over quotients, and as Algorithm 2 over all pairs.
+#include <algorithm>
+#include <map>
+
+#include "reference/geometry/closest_points.hpp"
+#include "reference/geometry/contact_sets.hpp"
+#include "reference/geometry/defined_blocks_exact.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::EdgeEdgeContact;
+using EdgeNumbers = std::array<Index, 2>;
+
+/// Pairs of faces with the lowest-numbered edges that generate them. Pairs of edges come in ascending order, so the first one stays.
+using Entered = std::map<FacePair, EdgeNumbers>;
+
+bool is_candidate(const compare::DetectIn& in, Index e, Index f) {
+  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(f)];
+  const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+  return !adjacent && !in_one_group(in.rigid_groups, a, b);
+}
+
+/// Calls visit(e, f) for all candidates, e < f, ascending.
+template <class Visit>
+void for_each_pair(const compare::DetectIn& in, Visit visit) {
+  const auto count = static_cast<Index>(in.topology->edges.size());
+  for (Index e = 0; e < count; ++e) {
+    for (Index f = e + 1; f < count; ++f) {
+      if (is_candidate(in, e, f)) visit(e, f);
+    }
+  }
+}
+
+Face face_of(const Complex& mesh, Index e, EdgeFeature feature) {
+  return feature == EdgeFeature::interior ? edge_face(e) : vertex_face(mesh.edge(e)[static_cast<std::size_t>(feature)]);
+}
+
+bool is_on(const Complex& mesh, Face face, Index e) {
+  return face == edge_face(e) || face == vertex_face(mesh.edge(e)[0]) || face == vertex_face(mesh.edge(e)[1]);
+}
+
+std::vector<EdgeEdgeContact> canonical(const Complex& mesh, const Entered& entered) {
+  std::vector<EdgeEdgeContact> contacts;
+  for (const auto& [faces, edges] : entered) {
+    const bool in_order = is_on(mesh, faces.first, edges[0]);
+    contacts.push_back({faces.first, faces.second, edges[in_order ? 0 : 1], edges[in_order ? 1 : 0]});
+  }
+  return contacts;
+}
+
+/// A segment a + s d, 0 ≤ s ≤ 1.
+struct Segment {
+  ExactVector a, d;
+};
+
+Segment segment_of(const Complex& mesh, Index e) {
+  const ExactVector a = exact(mesh.at(mesh.edge(e)[0]));
+  return {a, exact(mesh.at(mesh.edge(e)[1])) - a};
+}
+
+ExactVector end(const Segment& s, EdgeFeature feature) { return feature == EdgeFeature::end_0 ? s.a : plus(s.a, s.d); }
+
+/// A parameter s / weight of a point on a segment, weight > 0.
+struct Parameter {
+  Exact s, weight;
+  bool inside() const { return sign_of(s) > 0 && sign_of(weight - s) > 0; }
+};
+
+ExactPoint point_at(const Segment& segment, const Parameter& p) { return {plus(times(p.weight, segment.a), times(p.s, segment.d)), p.weight}; }
+
+/// Closest points of two features, if they lie inside what is called interior.
+struct Candidate {
+  ExactPoint first, second;
+};
+
+std::optional<ExactPoint> foot_inside(const Segment& segment, const ExactVector& x) {
+  const Parameter p{dot(x - segment.a, segment.d), dot(segment.d, segment.d)};
+  return p.inside() ? std::optional(point_at(segment, p)) : std::nullopt;
+}
+
+std::optional<Candidate> between_lines(const Segment& e, const Segment& f) {
+  const ExactVector w = f.a - e.a;
+  const Exact ee = dot(e.d, e.d), ff = dot(f.d, f.d), ef = dot(e.d, f.d), we = dot(w, e.d), wf = dot(w, f.d);
+  const Exact det = ee * ff - ef * ef;
+  const Parameter s{we * ff - wf * ef, det}, t{we * ef - wf * ee, det};
+  if (!s.inside() || !t.inside()) return std::nullopt;
+  return Candidate{point_at(e, s), point_at(f, t)};
+}
+
+std::optional<Candidate> candidate(const Segment& e, const Segment& f, EdgeFeatures features) {
+  const bool first_inside = features.first == EdgeFeature::interior, second_inside = features.second == EdgeFeature::interior;
+  if (first_inside && second_inside) return between_lines(e, f);
+  if (first_inside) {
+    const ExactVector q = end(f, features.second);
+    const auto foot = foot_inside(e, q);
+    return foot ? std::optional(Candidate{*foot, {q}}) : std::nullopt;
+  }
+  const ExactVector p = end(e, features.first);
+  if (!second_inside) return Candidate{{p}, {end(f, features.second)}};
+  const auto foot = foot_inside(f, p);
+  return foot ? std::optional(Candidate{{p}, *foot}) : std::nullopt;
+}
+
+Quotient<Exact> squared_distance(const Candidate& c) {
+  const ExactVector d = times(c.second.weight, c.first.numerator) - times(c.first.weight, c.second.numerator);
+  const Exact weight = c.first.weight * c.second.weight;
+  return {dot(d, d), weight * weight};
+}
+
+bool smaller(const Quotient<Exact>& a, const Quotient<Exact>& b) { return sign_of(a.numerator * b.denominator - b.numerator * a.denominator) < 0; }
+
+/// The nearest of all pairs of features; the first of those equally near.
+struct Closest {
+  EdgeFeatures features;
+  Candidate points;
+  Quotient<Exact> squared;
+};
+
+Closest closest_of(const Segment& e, const Segment& f) {
+  std::optional<Closest> best;
+  for (int k = 0; k < edge_feature_pairs; ++k) {
+    const auto found = candidate(e, f, edge_features(k));
+    if (!found) continue;
+    const Quotient<Exact> squared = squared_distance(*found);
+    if (!best || smaller(squared, best->squared)) best = Closest{edge_features(k), *found, squared};
+  }
+  return *best;  // two ends always are a candidate
+}
+
+/// method.md §1: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖², projections that overlap in more than a point.
+bool by_rule_parallel(const Segment& e, const Segment& f) {
+  const ExactVector n = cross(e.d, f.d);
+  const Exact ee = dot(e.d, e.d);
+  if (sign_of(Exact(1e6) * dot(n, n) - ee * dot(f.d, f.d)) >= 0) return false;
+  Exact low = dot(f.a - e.a, e.d), high = low + dot(f.d, e.d);
+  if (sign_of(high - low) < 0) std::swap(low, high);
+  return sign_of(high) > 0 && sign_of(ee - low) > 0 && sign_of(high - low) > 0;
+}
+
+}  // namespace
+
+std::vector<EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in) {
+  const Complex mesh{*in.topology, in.positions};
+  const DefinedBlocks blocks(mesh);
+  const Exact r(static_cast<double>(in.contact_radius));
+  Entered entered;
+  for_each_pair(in, [&](Index e, Index f) {
+    const Segment first = segment_of(mesh, e), second = segment_of(mesh, f);
+    const Closest closest = closest_of(first, second);
+    if (!smaller(closest.squared, {r * r, Exact(1)})) return;
+    if (by_rule_parallel(first, second)) {
+      entered.try_emplace(ordered(edge_face(e), edge_face(f)), EdgeNumbers{e, f});
+      return;
+    }
+    const Face p = face_of(mesh, e, closest.features.first), q = face_of(mesh, f, closest.features.second);
+    const bool in_both = blocks.cones().contains_edge_only(p, closest.points.second, in.contact_radius) &&
+                         blocks.cones().contains_edge_only(q, closest.points.first, in.contact_radius);
+    if (in_both) entered.try_emplace(ordered(p, q), EdgeNumbers{e, f});
+  });
+  return canonical(mesh, entered);
+}
+
+std::vector<EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in) {
+  const Complex mesh{*in.topology, in.positions};
+  const auto ends = [&](Index e) { return std::array<Vec3f, 2>{mesh.at(mesh.edge(e)[0]), mesh.at(mesh.edge(e)[1])}; };
+  Entered entered;
+  for_each_pair(in, [&](Index e, Index f) {
+    const EdgePair pair{ends(e), ends(f)};
+    const EdgeFeatures closest = closest_features(pair);
+    if (sign(with_radius(feature_gap(pair, closest), in.contact_radius)) >= 0) return;
+    const bool parallel = nearly_parallel(pair);
+    const FacePair faces = parallel ? ordered(edge_face(e), edge_face(f)) : ordered(face_of(mesh, e, closest.first), face_of(mesh, f, closest.second));
+    bool inside = true;
+    if (!parallel) visit_pair(mesh, faces, [&](const PairBoundary& boundary) { return inside = holds(boundary.condition); });
+    if (inside) entered.try_emplace(faces, EdgeNumbers{e, f});
+  });
+  return canonical(mesh, entered);
+}
+
+std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology, std::span<const EdgeEdgeContact> contacts) {
+  std::vector<std::vector<std::size_t>> rows(topology.edges.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    rows[static_cast<std::size_t>(contacts[i].first_edge)].push_back(i);
+    rows[static_cast<std::size_t>(contacts[i].second_edge)].push_back(i);
+  }
+  return rows;
+}
+
+}  // namespace ogc::reference

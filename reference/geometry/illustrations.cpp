@@ -1,0 +1,28 @@
+// The list of figures; each is made where its subject is.
+#include "reference/geometry/illustrations.hpp"
+
+#include <algorithm>
+
+#include "compare/problem/error.hpp"
+#include "reference/geometry/illustration_parts.hpp"
+
+namespace ogc::reference {
+namespace {
+
+constexpr std::array<std::string_view, 7> names{"fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig22a"};
+constexpr std::array<std::vector<DrawingPanel> (*)(), names.size()> makers{contact_face_sets, offset_geometries, vertex_kinds,      face_normals,
+                                                                           surface_blocks,    edge_only_blocks,  force_along_a_path};
+
+}  // namespace
+
+std::span<const std::string_view> illustration_names() { return names; }
+
+std::vector<DrawingPanel> illustration(std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return makers[static_cast<std::size_t>(found - names.begin())]();
+  std::string known;
+  for (const std::string_view one : names) known += " " + std::string(one);
+  throw compare::InputError("there is no illustration '" + std::string(name) + "'; there are:" + known);
+}
+
+}  // namespace ogc::reference

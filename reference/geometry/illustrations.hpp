@@ -1,0 +1,34 @@
+// The data of the paper's drawings (Fig. 3 to 8, 22a), computed by the very functions that decide; plots only draw them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ogc::reference {
+
+/// Points with what connects them. Lengths in units of the drawing, which has no scale.
+struct DrawingLayer {
+  std::string name;                             ///< what it shows: "surface", "block", "gauss_map", "arrows of OGC", …
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::vector<int>> lines;
+  std::vector<double> values;                   ///< one for each point of a field or curve; otherwise empty
+  bool closed = true;                           ///< boundaries that belong to a block; open ones are drawn dashed
+};
+
+/// One part of a figure, in the order of its caption.
+struct DrawingPanel {
+  std::string name, caption;
+  std::vector<DrawingLayer> layers;
+};
+
+/// "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig22a".
+std::span<const std::string_view> illustration_names();
+
+/// The panels of one figure. Throws InputError for a name that is not in the list.
+std::vector<DrawingPanel> illustration(std::string_view name);
+
+}  // namespace ogc::reference

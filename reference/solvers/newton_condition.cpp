@@ -1,0 +1,61 @@
+#include "reference/solvers/newton_condition.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <Eigen/Dense>
+
+namespace ogc::reference {
+namespace {
+
+constexpr int most_iterations = 500;
+/// ‖A z − θ z‖ ≤ tolerance θ puts an eigenvalue within the same of the Ritz value θ. It is small so that the largest has time to appear beside its neighbours.
+constexpr double tolerance = 0x1p-20;
+
+/// Numbers in [−1, 1) without a pattern, the same in every run: a start that is orthogonal to the largest eigenvector would never find it.
+Eigen::VectorXd start(Eigen::Index size) {
+  std::mt19937 engine;
+  Eigen::VectorXd x(size);
+  for (double& value : x) value = static_cast<double>(engine()) * 0x1p-31 - 1;
+  return x.normalized();
+}
+
+/// Lanczos with full reorthogonalisation; the largest eigenvalue of a symmetric positive definite operator.
+template <class Apply>
+double largest_eigenvalue(Eigen::Index size, Apply apply) {
+  std::vector<Eigen::VectorXd> basis{start(size)};
+  std::vector<double> diagonal, beside;
+  while (static_cast<int>(diagonal.size()) < most_iterations) {
+    Eigen::VectorXd next = apply(basis.back());
+    diagonal.push_back(next.dot(basis.back()));
+    for (int pass = 0; pass < 2; ++pass)
+      for (const Eigen::VectorXd& old : basis) next -= next.dot(old) * old;
+    const double length = next.norm();
+    const auto count = static_cast<Eigen::Index>(diagonal.size());
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), count), Eigen::Map<const Eigen::VectorXd>(beside.data(), count - 1));
+    const double largest = ritz.eigenvalues()[count - 1];
+    if (length * std::abs(ritz.eigenvectors()(count - 1, count - 1)) <= tolerance * largest || count == size) return largest;
+    beside.push_back(length);
+    basis.push_back(next / length);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double condition_number(const BlockMatrix& matrix, Factor& factor) {
+  const auto size = static_cast<Eigen::Index>(matrix.rows());
+  const auto through = [](auto operation) {
+    return [operation](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      const std::vector<double> y = operation(std::vector<double>(x.data(), x.data() + x.size()));
+      return Eigen::Map<const Eigen::VectorXd>(y.data(), x.size());
+    };
+  };
+  const double largest = largest_eigenvalue(size, through([&](const std::vector<double>& x) { return matrix.times(x); }));
+  const double smallest = 1 / largest_eigenvalue(size, through([&](const std::vector<double>& x) { return factor.solve(x); }));
+  return largest / smallest;
+}
+
+}  // namespace ogc::reference

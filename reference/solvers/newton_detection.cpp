@@ -1,0 +1,64 @@
+#include "reference/solvers/newton_detection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/geometry/bound.hpp"
+#include "reference/geometry/detect_edge_edge.hpp"
+#include "reference/geometry/detect_vertex_facet.hpp"
+
+namespace ogc::reference {
+
+std::vector<compare::Vec3f> rounded(const State& x) {
+  std::vector<compare::Vec3f> positions;
+  positions.reserve(x.size());
+  for (const Triple<double>& p : x) positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  return positions;
+}
+
+Detected detect(const compare::Scene& scene, const compare::Topology& topology, const std::vector<compare::Index>& groups,
+                std::vector<compare::Vec3f> positions, float query_radius) {
+  const auto radius = static_cast<float>(scene.settings.contact_radius);
+  const compare::DetectIn in{&topology, groups, positions, radius, query_radius};
+  compare::DetectVertexFacetOut facets = detect_vertex_facet(in).exact;
+  compare::DetectEdgeEdgeOut edges = detect_edge_edge(in).exact;
+  const auto relaxation = static_cast<float>(scene.settings.bound_relaxation);
+  Detected result;
+  result.bound = bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
+  float smallest = query_radius;
+  for (const auto* distances : {&facets.d_min_vertex, &facets.d_min_triangle, &edges.d_min_edge})
+    for (const float d : *distances) smallest = std::min(smallest, d);
+  result.smallest_distance = double{smallest};
+  result.sets = {std::move(facets.contacts), std::move(edges.contacts)};
+  result.previous = std::move(positions);
+  return result;
+}
+
+/// Rounding moves each coordinate, at most ‖X_prev‖_∞ + b_v, by 2⁻²⁴ of itself, so the point by √3 times that, or by as many of the smallest numbers. A
+/// projection in double rounds each coordinate and the step to it a few times more: 2⁻⁵⁰ of either.
+Balls::Balls(const Detected& detected) : centre_(widened(detected.previous)) {
+  for (std::size_t v = 0; v < centre_.size(); ++v) {
+    const Triple<double>& p = centre_[v];
+    const double bound = double{detected.bound[v]}, size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) + bound;
+    const double rounding = std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149);
+    radius_.push_back(std::max(0.0, (bound - rounding) * (1 - 0x1p-50)));
+  }
+}
+
+Balls::Inside Balls::inside(std::size_t vertex, const Triple<double>& x) const {
+  const Triple<double> away = x - centre_[vertex];
+  const double length = std::hypot(away[0], away[1], away[2]);
+  if (!(length > radius_[vertex])) return {x, false};
+  return {centre_[vertex] + (radius_[vertex] / length) * away, true};
+}
+
+double Balls::share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const {
+  if (!inside(vertex, x + step).cut) return 1;
+  // ‖a + s b‖ = R with ‖a‖ ≤ R has one root s ≥ 0.
+  const Triple<double> away = x - centre_[vertex];
+  const double bb = dot(step, step), ab = dot(away, step), room = radius_[vertex] * radius_[vertex] - dot(away, away);
+  if (room <= 0) return 0;
+  return std::clamp((std::sqrt(ab * ab + bb * room) - ab) / bb * (1 - 0x1p-40), 0.0, 1.0);
+}
+
+}  // namespace ogc::reference

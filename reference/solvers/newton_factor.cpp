@@ -1,0 +1,83 @@
+#include "reference/solvers/newton_factor.hpp"
+
+
+#include <cholmod.h>
+
+#include "compare/problem/error.hpp"
+
+namespace ogc::reference {
+
+struct Factor::Memory {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+  Memory() {
+    cholmod_start(&common);
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.print = 0;
+  }
+  ~Memory() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  void check() const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+      throw compare::ResourceError("the factorisation of Newton's matrix needs more memory than there is; take a smaller scale or --solver vbd");
+  }
+};
+
+namespace {
+
+/// A view: CHOLMOD reads the matrix where it is, and changes nothing of it.
+cholmod_sparse view(const BlockMatrix& matrix) {
+  cholmod_sparse a{};
+  a.nrow = a.ncol = matrix.rows();
+  a.nzmax = matrix.values().size();
+  a.p = const_cast<std::int32_t*>(matrix.column_begin().data());
+  a.i = const_cast<std::int32_t*>(matrix.row_index().data());
+  a.x = const_cast<double*>(matrix.values().data());
+  a.stype = -1;
+  a.itype = CHOLMOD_INT;
+  a.xtype = CHOLMOD_REAL;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = a.packed = 1;
+  return a;
+}
+
+}  // namespace
+
+Factor::Factor() : memory_(std::make_unique<Memory>()) {}
+Factor::~Factor() = default;
+
+void Factor::analyze(const BlockMatrix& matrix) {
+  cholmod_free_factor(&memory_->factor, &memory_->common);
+  cholmod_sparse a = view(matrix);
+  memory_->factor = cholmod_analyze(&a, &memory_->common);
+  memory_->check();
+}
+
+bool Factor::factorize(const BlockMatrix& matrix) {
+  cholmod_sparse a = view(matrix);
+  cholmod_factorize(&a, memory_->factor, &memory_->common);
+  memory_->check();
+  return memory_->common.status == CHOLMOD_OK && memory_->factor->minor == memory_->factor->n;
+}
+
+std::vector<double> Factor::solve(const std::vector<double>& b) {
+  cholmod_dense right{};
+  right.nrow = right.d = right.nzmax = b.size();
+  right.ncol = 1;
+  right.x = const_cast<double*>(b.data());
+  right.xtype = CHOLMOD_REAL;
+  right.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* solution = cholmod_solve(CHOLMOD_A, memory_->factor, &right, &memory_->common);
+  memory_->check();
+  const auto* values = static_cast<const double*>(solution->x);
+  std::vector<double> x(values, values + b.size());
+  cholmod_free_dense(&solution, &memory_->common);
+  return x;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,52 @@
+// The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, one row of blocks for each free vertex, in compressed
+// columns as CHOLMOD reads it. Its pattern is kept as long as it holds all blocks that the stencils need; each value is summed by one thread, in the order
+// of the stencils, so that threads change no bit.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reference/solvers/newton_potential.hpp"
+
+namespace ogc::reference {
+
+class BlockMatrix {
+ public:
+  explicit BlockMatrix(const std::vector<Mobility>& mobility);
+
+  /// Finds the blocks of the potential's present stencils. Returns whether the pattern changed.
+  bool set_stencils(const Potential& potential);
+  /// Sums the stencils' Hessians and m/h².
+  void assemble(const Potential& potential, const PotentialDerivatives& derivatives);
+
+  std::size_t rows() const { return 3 * free_.size(); }
+  const std::vector<std::int32_t>& column_begin() const { return column_begin_; }
+  const std::vector<std::int32_t>& row_index() const { return row_index_; }
+  std::vector<double>& values() { return values_; }
+  const std::vector<double>& values() const { return values_; }
+  /// Vertex of each row of blocks.
+  const std::vector<std::size_t>& free_vertices() const { return free_; }
+  /// A x, with x and the result as the rows.
+  std::vector<double> times(const std::vector<double>& x) const;
+
+ private:
+  /// Which entry of which stencil's Hessian belongs to a block: places k and l of the rows and columns.
+  struct Share {
+    std::uint64_t block = 0;  ///< column · 2³² + row
+    std::uint32_t stencil = 0;
+    std::uint8_t row = 0, column = 0;
+  };
+  std::vector<Share> shares_of(const Potential& potential) const;
+  void set_pattern(std::vector<std::uint64_t> blocks);
+  void assemble_column(std::size_t column, const Potential& potential, const PotentialDerivatives& derivatives);
+
+  std::vector<std::size_t> free_;
+  std::vector<std::int32_t> number_;                    ///< of each vertex among the free ones, or −1
+  std::vector<std::uint64_t> blocks_;                   ///< ascending
+  std::vector<std::size_t> block_begin_, share_begin_;  ///< by column; by block
+  std::vector<Share> shares_;
+  std::vector<std::int32_t> column_begin_, row_index_;
+  std::vector<double> values_;
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,287 @@
+#include "reference/solvers/newton_potential.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "reference/energies/rest_state.hpp"
+#include "reference/solvers/vertex_terms.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::ContactSides;
+using compare::HessianProjection;
+using compare::Index;
+
+template <std::size_t Count, class Vertices>
+std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& x) {
+  std::array<Triple<double>, Count> corners;
+  for (std::size_t k = 0; k < Count; ++k) corners[k] = x[static_cast<std::size_t>(vertex[k])];
+  return corners;
+}
+
+/// All four places; those that the contact lacks are at the origin.
+std::array<Triple<double>, 4> contact_corners(ContactSides sides, const std::array<Index, 4>& vertex, const State& x) {
+  std::array<Triple<double>, 4> corners{};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(sides)); ++k) corners[k] = x[static_cast<std::size_t>(vertex[k])];
+  return corners;
+}
+
+/// Calls `visit` with the first `Count` places for the contact's number of vertices.
+template <class Visit>
+auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
+  switch (vertex_count(sides)) {
+    case 2: return visit(gathered<2>(vertex, x));
+    case 3: return visit(gathered<3>(vertex, x));
+    default: return visit(gathered<4>(vertex, x));
+  }
+}
+
+StencilDerivatives contact_derivatives(const ContactTerm& term, const State& x, HessianProjection projection) {
+  const ClosestForm form = closest_form(term.sides, contact_corners(term.sides, term.vertex, x));
+  return with_count(term.sides, term.vertex, x, [&]<std::size_t Count>(const std::array<Triple<double>, Count>& corners) {
+    if (form_distance(form, corners) >= term.radius) return StencilDerivatives{};
+    return stencil_derivatives<Count>(corners, projection, [&](const auto& variables) { return term.energy(form, variables); });
+  });
+}
+
+StencilDerivatives friction_derivatives(const FrictionTerm& term, const State& x, HessianProjection projection) {
+  return with_count(term.sides, term.vertex, x, [&]<std::size_t Count>(const std::array<Triple<double>, Count>& corners) {
+    return stencil_derivatives<Count>(corners, projection, [&](const auto& variables) { return term.energy(variables); });
+  });
+}
+
+double contact_term_energy(const ContactTerm& term, const State& x) {
+  const ClosestForm form = closest_form(term.sides, contact_corners(term.sides, term.vertex, x));
+  return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(form, corners); });
+}
+
+MembraneTerm membrane_term(const compare::Scene& scene, const compare::RestTriangle& rest) {
+  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
+  MembraneTerm term;
+  term.vertex = rest.corner;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    for (std::size_t k = 0; k < 2; ++k) term.gradient[k + 1][axis] = double{rest.gradient[k][axis]};
+    term.gradient[0][axis] = -term.gradient[1][axis] - term.gradient[2][axis];
+  }
+  term.area = double{rest.area};
+  term.lambda = material.lame_lambda;
+  term.mu = material.lame_mu;
+  term.damping = material.membrane_damping / scene.settings.time_step;
+  return term;
+}
+
+HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest) {
+  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
+  return {rest.vertex, double{rest.stiffness}, double{rest.rest_angle}, material.bending_damping / scene.settings.time_step, 0};
+}
+
+double largest_coordinate(const State& x) {
+  double largest = 0;
+  for (const Triple<double>& p : x) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  return largest;
+}
+
+double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+}  // namespace
+
+State widened(const std::vector<compare::Vec3f>& positions) {
+  State state;
+  state.reserve(positions.size());
+  for (const compare::Vec3f& p : positions) state.push_back({p.x, p.y, p.z});
+  return state;
+}
+
+std::vector<Mobility> mobility_of(const compare::Scene& scene) {
+  std::vector<Mobility> mobility;
+  for (const Index group : rigid_groups(scene)) mobility.push_back(group < 0 ? Mobility::free : group == 0 ? Mobility::fixed : Mobility::prescribed);
+  return mobility;
+}
+
+Potential::Potential(const compare::Scene& scene, const compare::Topology& topology)
+    : scene_(scene),
+      topology_(topology),
+      rest_(rest_state({&scene, &topology}).exact),
+      body_(body_of_vertex(scene)),
+      mobility_(mobility_of(scene)),
+      mass_(rest_.mass.begin(), rest_.mass.end()),
+      step_(scene.settings.time_step) {
+  free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
+  for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
+  for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
+}
+
+void Potential::begin_step(const State& start, const State& target) {
+  start_ = start;
+  target_ = target;
+  contacts_.clear();
+  frictions_.clear();
+  for (MembraneTerm& term : membranes_) term.start = strain<double>(gathered<3>(term.vertex, start), term.gradient);
+  for (HingeTerm& term : hinges_) {
+    const Fold<double> fold(gathered<4>(term.vertex, start));
+    term.start = fold.collapsed() ? 0 : fold.angle();
+  }
+}
+
+void Potential::set_contacts(const ContactSets& sets, const State& detected) {
+  contacts_.clear();
+  constexpr std::array facet_sides{ContactSides::point_point, ContactSides::point_edge, ContactSides::point_triangle};
+  for (const compare::VertexFacetContact& contact : sets.vertex_facet) {
+    const auto facet = vertices_of(topology_, contact.face);
+    add_contact(facet_sides[static_cast<std::size_t>(contact.face.kind)], {contact.vertex, facet[0], facet[1], facet[2]}, {-1, -1}, detected);
+  }
+  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) {
+    // first < second as faces, so an edge is never followed by a vertex.
+    const auto p = vertices_of(topology_, contact.first), q = vertices_of(topology_, contact.second);
+    if (p[1] >= 0) add_contact(ContactSides::edge_edge, {p[0], p[1], q[0], q[1]}, {contact.first.index, contact.second.index}, detected);
+    else add_contact(q[1] >= 0 ? ContactSides::point_edge : ContactSides::point_point, {p[0], q[0], q[1], -1}, {-1, -1}, detected);
+  }
+}
+
+void Potential::add_contact(ContactSides sides, const std::array<Index, 4>& vertex, std::array<Index, 2> edges, const State& detected) {
+  const auto is_free = [&](Index v) { return v >= 0 && mobility_[static_cast<std::size_t>(v)] == Mobility::free; };
+  if (std::none_of(vertex.begin(), vertex.end(), is_free)) return;
+  const auto body_at = [&](std::size_t place) { return static_cast<std::size_t>(body_[static_cast<std::size_t>(vertex[place])]); };
+  const compare::MeetingMaterial& material =
+      rest_.meetings[body_at(0) * scene_.bodies.size() + body_at(sides == ContactSides::edge_edge ? 2 : 1)];
+  ContactTerm term{sides, vertex, scene_.settings.contact_radius, double{material.stiffness}, 1, double{material.friction}, scene_.settings.activation};
+  if (sides == ContactSides::edge_edge && !topology_.triangles.empty()) {
+    const auto x = gathered<4>(vertex, detected);
+    const Triple<double> normal = cross(x[1] - x[0], x[3] - x[2]);
+    const auto rest_squared = [&](std::size_t k) { return double{rest_.edge_length_squared[static_cast<std::size_t>(edges[k])]}; };
+    const double sine = dot(normal, normal), limit = 1e-3 * rest_squared(0) * rest_squared(1);
+    if (sine < limit) term.mollifier = sine / limit * (2 - sine / limit);
+  }
+  if (term.stiffness > 0) contacts_.push_back(term);
+}
+
+void Potential::lag_friction(const State& x) {
+  frictions_.clear();
+  using Slope = Derivative<double, 1>;
+  for (const ContactTerm& term : contacts_) {
+    if (term.friction == 0) continue;
+    const auto corners = contact_corners(term.sides, term.vertex, x);
+    const ClosestForm form = closest_form(term.sides, corners);
+    const Triple<double> apart = separation(form.weight, corners);
+    const double distance = norm(apart);
+    if (distance == 0 || distance >= term.radius) continue;
+    const double slope = contact_activation(term.activation, Slope(distance, 0), term.radius, term.stiffness).slope[0];
+    frictions_.push_back({term.sides, term.vertex, form.weight, (1 / distance) * apart, separation(form.weight, contact_corners(term.sides, term.vertex, start_)),
+                          -term.friction * term.mollifier * slope, scene_.settings.friction_velocity * step_});
+  }
+}
+
+std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
+  if (stencil < membranes_.size()) return {membranes_[stencil].vertex[0], membranes_[stencil].vertex[1], membranes_[stencil].vertex[2], -1};
+  stencil -= membranes_.size();
+  if (stencil < hinges_.size()) return hinges_[stencil].vertex;
+  stencil -= hinges_.size();
+  return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
+}
+
+double Potential::stencil_energy(std::size_t stencil, const State& x) const {
+  if (stencil < membranes_.size()) return membranes_[stencil].energy(gathered<3>(membranes_[stencil].vertex, x));
+  stencil -= membranes_.size();
+  if (stencil < hinges_.size()) return hinges_[stencil].energy(gathered<4>(hinges_[stencil].vertex, x));
+  stencil -= hinges_.size();
+  if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
+  const FrictionTerm& term = frictions_[stencil - contacts_.size()];
+  return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
+}
+
+StencilDerivatives Potential::differentiate(std::size_t stencil, const State& x, HessianProjection projection) const {
+  if (stencil < membranes_.size()) {
+    const MembraneTerm& term = membranes_[stencil];
+    return stencil_derivatives<3>(gathered<3>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
+  }
+  stencil -= membranes_.size();
+  if (stencil < hinges_.size()) {
+    const HingeTerm& term = hinges_[stencil];
+    return stencil_derivatives<4>(gathered<4>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
+  }
+  stencil -= hinges_.size();
+  if (stencil < contacts_.size()) return contact_derivatives(contacts_[stencil], x, projection);
+  return friction_derivatives(frictions_[stencil - contacts_.size()], x, projection);
+}
+
+PotentialTerms Potential::terms(const State& x) const {
+  PotentialTerms result;
+  result.stencil.resize(stencil_count());
+  result.inertia.resize(x.size());
+  tbb::parallel_for(std::size_t{0}, result.stencil.size(), [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (mobility_[v] != Mobility::free) continue;
+    const Triple<double> away = x[v] - target_[v];
+    result.inertia[v] = 0.5 * inertia(v) * dot(away, away);
+  }
+  return result;
+}
+
+double Potential::change(const PotentialTerms& from, const PotentialTerms& to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.stencil.size(); ++i) sum += to.stencil[i] - from.stencil[i];
+  for (std::size_t i = 0; i < from.inertia.size(); ++i) sum += to.inertia[i] - from.inertia[i];
+  return sum;
+}
+
+double Potential::total(const PotentialTerms& terms) {
+  double sum = 0;
+  for (const double e : terms.stencil) sum += e;
+  for (const double e : terms.inertia) sum += e;
+  return sum;
+}
+
+PotentialDerivatives Potential::derivatives(const State& x, HessianProjection projection) const {
+  PotentialDerivatives result;
+  result.stencil.resize(stencil_count());
+  tbb::parallel_for(std::size_t{0}, result.stencil.size(), [&](std::size_t i) { result.stencil[i] = differentiate(i, x, projection); });
+  sum_gradient(x, result);
+  return result;
+}
+
+void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const {
+  result.gradient.assign(x.size(), {});
+  double slopes = 0, curvatures = 0;
+  for (std::size_t i = 0; i < result.stencil.size(); ++i) {
+    const StencilDerivatives& stencil = result.stencil[i];
+    const auto vertex = vertices(i);
+    for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
+      const auto v = static_cast<std::size_t>(vertex[k]);
+      if (mobility_[v] != Mobility::free) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t row = 3 * k + axis;
+        result.gradient[v][axis] += stencil.gradient[row];
+        slopes += std::abs(stencil.gradient[row]);
+        for (std::size_t column = 0; column < 12; ++column) curvatures += std::abs(stencil.hessian[12 * row + column]);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (mobility_[v] != Mobility::free) continue;
+    const Triple<double> pull = inertia(v) * (x[v] - target_[v]);
+    result.gradient[v] = result.gradient[v] + pull;
+    slopes += std::abs(pull[0]) + std::abs(pull[1]) + std::abs(pull[2]);
+    curvatures += 3 * inertia(v);
+  }
+  const double rounding = 0x1p-52 * largest_coordinate(x);
+  result.energy_noise = rounding * slopes;
+  result.force_noise = free_count_ > 0 ? rounding * curvatures / static_cast<double>(free_count_) : 0;
+}
+
+double Potential::elastic_energy(const State& x) const {
+  double sum = 0;
+  for (const MembraneTerm& term : membranes_) sum += term.elastic(gathered<3>(term.vertex, x));
+  for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
+  return sum;
+}
+
+double Potential::contact_energy(const State& x) const {
+  double sum = 0;
+  for (const ContactTerm& term : contacts_) sum += contact_term_energy(term, x);
+  return sum;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,94 @@
+// The incremental potential of a step (backward Euler): inertia, elasticity, damping, contact of the last detection, lagged friction. Its gradient is minus the
+// total force of Eq. 29.
+#pragma once
+
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/rest_state.hpp"
+#include "reference/energies/stencil_derivatives.hpp"
+#include "reference/energies/stencil_terms.hpp"
+
+namespace ogc::reference {
+
+/// Positions of all vertices [m].
+using State = std::vector<Triple<double>>;
+
+State widened(const std::vector<compare::Vec3f>& positions);
+
+struct ContactSets {
+  std::vector<compare::VertexFacetContact> vertex_facet;
+  std::vector<compare::EdgeEdgeContact> edge_edge;
+};
+
+enum class Mobility : std::uint8_t { fixed, prescribed, free };
+/// By vertex.
+std::vector<Mobility> mobility_of(const compare::Scene& scene);
+
+/// Energies at one state, by term, so that two states are compared term by term: their difference is small beside their sum.
+struct PotentialTerms {
+  std::vector<double> stencil;  ///< [J]
+  std::vector<double> inertia;  ///< by vertex; 0 where not free [J]
+};
+
+/// Derivatives at one state.
+struct PotentialDerivatives {
+  std::vector<StencilDerivatives> stencil;
+  State gradient;  ///< by vertex; 0 where not free [N]
+  /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums of |∂²E| and of |∂E|.
+  double force_noise = 0, energy_noise = 0;  ///< [N], [J]
+};
+
+class Potential {
+ public:
+  /// The scene must be rounded; both must outlive it.
+  Potential(const compare::Scene& scene, const compare::Topology& topology);
+
+  /// xᵗ and y of the step; strains and angles at xᵗ. Contacts and friction of the step before are gone.
+  void begin_step(const State& start, const State& target);
+  /// Contacts found at `detected`, where e_k is evaluated. Those without a free vertex act on nothing and are left out.
+  void set_contacts(const ContactSets& sets, const State& detected);
+  /// λ, n and w of the present contacts that act at x (method.md §4), until the next call.
+  void lag_friction(const State& x);
+
+  PotentialTerms terms(const State& x) const;
+  /// E(to) − E(from), the same stencils in both.
+  static double change(const PotentialTerms& from, const PotentialTerms& to);
+  static double total(const PotentialTerms& terms);
+  PotentialDerivatives derivatives(const State& x, compare::HessianProjection projection) const;
+
+  std::size_t stencil_count() const { return membranes_.size() + hinges_.size() + contacts_.size() + frictions_.size(); }
+  /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
+  std::array<compare::Index, 4> vertices(std::size_t stencil) const;
+
+  double elastic_energy(const State& x) const;  ///< without damping [J]
+  double contact_energy(const State& x) const;  ///< normal energies [J]
+  const std::vector<double>& mass() const { return mass_; }
+  const std::vector<Mobility>& mobility() const { return mobility_; }
+  double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
+  std::size_t free_count() const { return free_count_; }
+
+ private:
+  void add_contact(compare::ContactSides sides, const std::array<compare::Index, 4>& vertex, std::array<compare::Index, 2> edges, const State& detected);
+  double stencil_energy(std::size_t stencil, const State& x) const;
+  StencilDerivatives differentiate(std::size_t stencil, const State& x, compare::HessianProjection projection) const;
+  void sum_gradient(const State& x, PotentialDerivatives& result) const;
+
+  const compare::Scene& scene_;
+  const compare::Topology& topology_;
+  compare::RestStateOut rest_;
+  std::vector<compare::Index> body_;
+  std::vector<Mobility> mobility_;
+  std::vector<double> mass_;
+  double step_;
+  std::size_t free_count_ = 0;
+  std::vector<MembraneTerm> membranes_;
+  std::vector<HingeTerm> hinges_;
+  std::vector<ContactTerm> contacts_;
+  std::vector<FrictionTerm> frictions_;
+  State start_, target_;
+};
+
+}  // namespace ogc::reference

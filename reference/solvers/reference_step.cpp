@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "reference/energies/rest_state.hpp"
+#include "reference/geometry/bound.hpp"
+#include "reference/geometry/detect_edge_edge.hpp"
+#include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/margin.hpp"
+#include "reference/geometry/truncate.hpp"
+#include "reference/solvers/initial_guess.hpp"
+#include "reference/solvers/step.hpp"
+#include "reference/solvers/step_order.hpp"
+#include "reference/solvers/vertex_update.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+using compare::StepEvent;
+using compare::StepEventKind;
+using compare::Vec3;
+
+Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
+
+/// The nearest single-precision position, stepped towards X_prev until it obeys the bound.
+Vec3f stored(const Vec3& position, const Vec3f& previous, float bound) {
+  Vec3f x = single(position);
+  while (sign(gap_points(previous, x, bound)) > 0) x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
+  return x;
+}
+
+/// Free vertices in the order of their numbers, each in the lowest colour that none of its stencils has; −1 for all others.
+std::vector<Index> coloured(const compare::RestStateOut& rest, const std::vector<Index>& groups) {
+  std::vector<std::vector<Index>> near(groups.size());
+  const auto meet = [&](const auto& vertices) {
+    for (const Index a : vertices)
+      for (const Index b : vertices)
+        if (a != b) near[static_cast<std::size_t>(a)].push_back(b);
+  };
+  for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
+  for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
+  std::vector<Index> colour(groups.size(), -1);
+  for (std::size_t v = 0; v < groups.size(); ++v) {
+    if (groups[v] != -1) continue;
+    const auto taken = [&](Index c) { return std::any_of(near[v].begin(), near[v].end(), [&](Index w) { return colour[static_cast<std::size_t>(w)] == c; }); };
+    for (colour[v] = 0; taken(colour[v]);) ++colour[v];
+  }
+  return colour;
+}
+
+class ReferenceStep {
+ public:
+  explicit ReferenceStep(const compare::StepIn& in)
+      : in_(in), settings_(in.scene->settings), groups_(compare::rigid_groups(*in.scene)), start_(compare::to_single(in.scene->mesh.positions)), x_(start_) {}
+
+  compare::StepOut run() {
+    out_.rest = rest_state({in_.scene, in_.topology}).exact;
+    out_.colour = coloured(out_.rest, groups_);
+    set_targets();
+    out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
+    StepOrder order(settings_, static_cast<Index>(std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; })));
+    for (auto kind = order.next(); kind; kind = order.next()) {
+      StepEvent event;
+      event.kind = *kind;
+      if (*kind == StepEventKind::detection) detect(event);
+      else if (*kind == StepEventKind::guess) guess(event, order.holds_contacts());
+      else sweep(event);
+      order.took_place(event.cut);
+      event.position = x_;
+      out_.events.push_back(std::move(event));
+    }
+    out_.position = x_;
+    out_.velocity.clear();
+    for (const Vec3& v : step(in_, out_).velocity) out_.velocity.push_back(single(v));
+    return std::move(out_);
+  }
+
+ private:
+  /// The answer so far, at rest.
+  const compare::StepOut& with_start() {
+    out_.position = start_;
+    return out_;
+  }
+
+  void set_targets() {
+    out_.target = start_;
+    compare::InitialGuessIn question;
+    const std::vector<Vec3f> velocity = compare::to_single(in_.scene->velocities);
+    const Vec3f acceleration = compare::to_single({in_.scene->gravity})[0];
+    for (std::size_t v = 0; v < start_.size(); ++v)
+      question.cases.push_back({start_[v], velocity[v], acceleration, static_cast<float>(settings_.time_step), start_[v], 0, 0});
+    const compare::InitialGuessTruth guess = initial_guess(question);
+    const std::vector<Vec3f> prescribed = step(in_, with_start()).prescribed_target;
+    for (std::size_t v = 0; v < start_.size(); ++v) {
+      if (groups_[v] == -1) out_.target[v] = single(guess.target[v]);
+      if (groups_[v] > 0) out_.target[v] = prescribed[v];
+    }
+  }
+
+  void detect(StepEvent& event) {
+    previous_ = x_;
+    const compare::DetectIn question{in_.topology, groups_, x_, static_cast<float>(settings_.contact_radius), out_.query_radius};
+    event.vertex_facet = detect_vertex_facet(question).exact;
+    event.edge_edge = detect_edge_edge(question).exact;
+    event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge, event.vertex_facet.d_min_triangle,
+                         static_cast<float>(settings_.bound_relaxation)})
+                      .exact.bound;
+    bound_ = event.bound;
+    vertex_facet_ = event.vertex_facet.contacts;
+    edge_edge_ = event.edge_edge.contacts;
+  }
+
+  std::vector<bool> touched() const {
+    std::vector<bool> touched(x_.size(), false);
+    const auto mark = [&](const compare::Face& face) {
+      for (const Index v : vertices_of(*in_.topology, face))
+        if (v >= 0) touched[static_cast<std::size_t>(v)] = true;
+    };
+    for (const compare::VertexFacetContact& c : vertex_facet_) touched[static_cast<std::size_t>(c.vertex)] = true, mark(c.face);
+    for (const compare::EdgeEdgeContact& c : edge_edge_) mark(c.first), mark(c.second);
+    return touched;
+  }
+
+  /// Where v goes on its way to its target; counts a cut.
+  Vec3f truncated(std::size_t v, Index& cut) const {
+    const compare::TruncateTruth truth = truncate({{previous_[v]}, {out_.target[v]}, {bound_[v]}});
+    if (truth.exceeded[0] == 0) return out_.target[v];
+    ++cut;
+    return stored(truth.position[0], previous_[v], bound_[v]);
+  }
+
+  void guess(StepEvent& event, bool hold_contacts) {
+    const std::vector<bool> held = hold_contacts ? touched() : std::vector<bool>(x_.size(), false);
+    for (std::size_t v = 0; v < x_.size(); ++v)
+      if (!held[v]) x_[v] = truncated(v, event.cut);
+  }
+
+  void sweep(StepEvent& event) {
+    const std::vector<Vec3f> old = x_;
+    const compare::SweepIn question{in_.scene, in_.topology, &out_.rest, out_.colour, old, start_, out_.target, previous_, bound_, vertex_facet_, edge_edge_};
+    const SweepStencils stencils(question);
+    compare::SweepOut answer{old, 0};
+    for (std::size_t v = 0; v < x_.size(); ++v)
+      if (groups_[v] > 0) answer.position[v] = truncated(v, answer.cut);
+    const Index colours = 1 + *std::max_element(out_.colour.begin(), out_.colour.end());
+    for (Index colour = 0; colour < colours; ++colour) update_colour(colour, question, stencils, answer);
+    x_ = answer.position;
+    event.cut = answer.cut;
+  }
+
+  void update_colour(Index colour, const compare::SweepIn& question, const SweepStencils& stencils, compare::SweepOut& answer) const {
+    std::vector<Index> mine;
+    for (std::size_t v = 0; v < x_.size(); ++v)
+      if (out_.colour[v] == colour) mine.push_back(static_cast<Index>(v));
+    std::vector<VertexUpdate> updates(mine.size());
+    tbb::parallel_for(std::size_t{0}, mine.size(), [&](std::size_t k) { updates[k] = update(mine[k], question, stencils, answer); });
+    for (std::size_t k = 0; k < mine.size(); ++k) {
+      const auto v = static_cast<std::size_t>(mine[k]);
+      answer.position[v] = stored(updates[k].position, previous_[v], bound_[v]);
+      answer.cut += updates[k].cut == Cut::yes;
+    }
+  }
+
+  VertexUpdate update(Index v, const compare::SweepIn& question, const SweepStencils& stencils, const compare::SweepOut& answer) const {
+    const auto i = static_cast<std::size_t>(v);
+    const VertexPlace place{question.old[i], out_.target[i], previous_[i], bound_[i], out_.rest.mass[i] / (settings_.time_step * settings_.time_step)};
+    return update_of(terms_of_vertex(question, stencils, SweepPositions(question, answer, v), v), place, question.old[i]);
+  }
+
+  const compare::StepIn& in_;
+  const compare::Settings& settings_;
+  std::vector<Index> groups_;
+  std::vector<Vec3f> start_, x_, previous_;
+  std::vector<float> bound_;
+  std::vector<compare::VertexFacetContact> vertex_facet_;
+  std::vector<compare::EdgeEdgeContact> edge_edge_;
+  compare::StepOut out_;
+};
+
+}  // namespace
+
+compare::StepOut reference_step(const compare::StepIn& in) { return ReferenceStep(in).run(); }
+
+}  // namespace ogc::reference

@@ -1,0 +1,48 @@
+#include "reference/solvers/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/solvers/step_order.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+using compare::Vec3;
+using compare::Vec3f;
+
+Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
+double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+
+}  // namespace
+
+compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer) {
+  const compare::Scene& scene = *in.scene;
+  const compare::Settings& settings = scene.settings;
+  const std::vector<Vec3f> start = compare::to_single(scene.mesh.positions);
+  const std::vector<Index> groups = compare::rigid_groups(scene);
+  compare::StepTruth truth;
+  truth.prescribed_target.resize(start.size());
+  for (const compare::PrescribedMotion& motion : scene.motions) {
+    const std::vector<Vec3f> targets = compare::prescribed_targets(scene, motion, settings.time_step);
+    for (std::size_t k = 0; k < targets.size(); ++k) truth.prescribed_target[static_cast<std::size_t>(motion.vertices[k])] = targets[k];
+  }
+  double largest = 0;
+  for (std::size_t v = 0; v < start.size(); ++v) {
+    if (groups[v] != 0) largest = std::max(largest, norm(difference(answer.target[v], start[v])));
+    const Vec3 moved = difference(answer.position[v], start[v]);
+    truth.velocity.push_back({moved.x / settings.time_step, moved.y / settings.time_step, moved.z / settings.time_step});
+    truth.velocity_scale.push_back(norm(moved) / settings.time_step);
+  }
+  truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest, settings.query_radius_cap * settings.contact_radius);
+  StepOrder order(settings, static_cast<Index>(std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; })));
+  for (auto kind = order.next(); kind; kind = order.next()) {
+    const std::size_t i = truth.events.size();
+    truth.events.push_back(*kind);
+    order.took_place(i < answer.events.size() ? answer.events[i].cut : 0);
+  }
+  return truth;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,86 @@
+#include "reference/solvers/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "reference/geometry/margin.hpp"
+#include "reference/geometry/truncate.hpp"
+#include "reference/solvers/vertex_update.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+
+VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& answer, const SweepStencils& stencils, Index v) {
+  const auto i = static_cast<std::size_t>(v);
+  const double step = in.scene->settings.time_step;
+  const VertexPlace place{in.old[i], in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step)};
+  return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), place, answer.position[i]);
+}
+
+/// y, truncated: the very question of the stage truncate.
+VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
+  const compare::TruncateTruth truth = truncate({{in.previous[i]}, {in.target[i]}, {in.bound[i]}});
+  const bool exceeded = truth.exceeded[0] != 0, grey = truth.grey[0] != 0;
+  const compare::Vec3f& p = in.previous[i];
+  const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + in.bound[i];
+  const double accepted = exceeded || grey ? compare::truncate_position_tolerance * compare::unit_roundoff * size : 0;
+  return {truth.position[0], accepted, grey, grey ? Cut::doubtful : exceeded ? Cut::yes : Cut::no};
+}
+
+}  // namespace
+
+compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& answer) {
+  const std::size_t count = in.old.size();
+  const SweepStencils stencils(in);
+  const std::vector<Index> groups = rigid_groups(*in.scene);
+  std::vector<VertexUpdate> updates(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    if (in.colour[i] >= 0) updates[i] = free_vertex(in, answer, stencils, static_cast<Index>(i));
+    else if (groups[i] > 0) updates[i] = prescribed_vertex(in, i);
+    else updates[i].position = {in.old[i].x, in.old[i].y, in.old[i].z};
+  });
+  compare::SweepTruth truth;
+  for (const VertexUpdate& update : updates) {
+    truth.position.push_back(update.position);
+    truth.accepted.push_back(update.accepted);
+    truth.grey.push_back(update.grey);
+    truth.cut += update.cut == Cut::yes;
+    truth.cut_doubtful += update.cut == Cut::doubtful;
+  }
+  return truth;
+}
+
+compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound) {
+  compare::Vec3f x{static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)};
+  while (sign(gap_points(previous, x, bound)) > 0) x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
+  return x;
+}
+
+compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils) {
+  compare::SweepOut out{{in.old.begin(), in.old.end()}, 0};
+  const auto store = [&](std::size_t v, const VertexUpdate& update) {
+    out.position[v] = stored_within(update.position, in.previous[v], in.bound[v]);
+    out.cut += update.cut == Cut::yes;
+  };
+  const std::vector<Index> groups = rigid_groups(*in.scene);
+  std::vector<std::vector<Index>> classes;
+  for (std::size_t v = 0; v < in.old.size(); ++v) {
+    if (in.colour[v] < 0 && groups[v] > 0) store(v, prescribed_vertex(in, v));
+    if (in.colour[v] < 0) continue;
+    const auto colour = static_cast<std::size_t>(in.colour[v]);
+    classes.resize(std::max(classes.size(), colour + 1));
+    classes[colour].push_back(static_cast<Index>(v));
+  }
+  for (const std::vector<Index>& members : classes) {
+    std::vector<VertexUpdate> updates(members.size());
+    tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) { updates[k] = free_vertex(in, out, stencils, members[k]); });
+    for (std::size_t k = 0; k < members.size(); ++k) store(static_cast<std::size_t>(members[k]), updates[k]);
+  }
+  return out;
+}
+
+}  // namespace ogc::reference

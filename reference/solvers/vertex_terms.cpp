@@ -1,0 +1,141 @@
+#include "reference/solvers/vertex_terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/energies/bending.hpp"
+#include "reference/energies/membrane.hpp"
+#include "reference/solvers/symmetric3.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+using compare::Vec3;
+using compare::Vec3f;
+
+template <class Vertices>
+void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& vertices) {
+  std::size_t place = 0;
+  for (const Index v : vertices) {
+    if (v >= 0) rows[static_cast<std::size_t>(v)].emplace_back(element, place);
+    ++place;
+  }
+}
+
+float rounded(double x) { return static_cast<float>(x); }
+
+/// Seen from one corner; the other two follow in the order of the mesh. ∇N₀ is not stored and is rounded here.
+compare::MembraneCase membrane_question(const compare::SweepIn& in, const compare::RestTriangle& triangle, std::size_t corner, const SweepPositions& x) {
+  const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(triangle.body)].material;
+  const auto& g = triangle.gradient;
+  const std::array<std::array<float, 2>, 3> gradient{
+      {{rounded(-double{g[0][0]} - double{g[1][0]}), rounded(-double{g[0][1]} - double{g[1][1]})}, g[0], g[1]}};
+  compare::MembraneCase question;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Index v = triangle.corner[(corner + k) % 3];
+    question.corner[k] = x[v];
+    question.start[k] = in.start[static_cast<std::size_t>(v)];
+    if (k > 0) question.gradient[k - 1] = gradient[(corner + k) % 3];
+  }
+  question.area = triangle.area;
+  question.lame_lambda = rounded(material.lame_lambda);
+  question.lame_mu = rounded(material.lame_mu);
+  question.damping = rounded(material.membrane_damping / in.scene->settings.time_step);
+  return question;
+}
+
+compare::BendingCase bending_question(const compare::SweepIn& in, const compare::RestHinge& hinge, std::size_t role, const SweepPositions& x) {
+  compare::BendingCase question;
+  for (std::size_t k = 0; k < 4; ++k) {
+    question.vertex[k] = x[hinge.vertex[k]];
+    question.start[k] = in.start[static_cast<std::size_t>(hinge.vertex[k])];
+  }
+  question.stiffness = hinge.stiffness;
+  question.rest_angle = hinge.rest_angle;
+  question.damping = rounded(in.scene->bodies[static_cast<std::size_t>(hinge.body)].material.bending_damping / in.scene->settings.time_step);
+  question.own = static_cast<std::int32_t>(role);
+  return question;
+}
+
+Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
+
+double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+
+/// ‖e × s‖/(‖e‖‖s‖), the sine of the angle at a corner of a hinge; 0 where a side has no length.
+double sine(const Vec3& e, const Vec3& s) {
+  const double scale = length(e) * length(s);
+  return scale == 0 ? 0 : length({e.y * s.z - e.z * s.y, e.z * s.x - e.x * s.z, e.x * s.y - e.y * s.x}) / scale;
+}
+
+/// Whether both triangles are either collapsed or far enough from it for the question to have an answer.
+bool is_defined(const std::array<Vec3f, 4>& x) {
+  const Vec3 edge = difference(x[1], x[0]);
+  for (const std::size_t side : {2u, 3u})
+    if (const double height = sine(edge, difference(x[side], x[0])); height > 0 && height < 0x1p-16) return false;
+  return true;
+}
+
+}  // namespace
+
+std::array<Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face) {
+  const auto i = static_cast<std::size_t>(face.index);
+  if (face.kind == compare::FaceKind::vertex) return {face.index, -1, -1};
+  if (face.kind == compare::FaceKind::edge) return {topology.edges[i][0], topology.edges[i][1], -1};
+  return topology.triangles[i];
+}
+
+SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
+  const std::size_t count = in.old.size();
+  for (ElementsOfVertex* rows : {&triangles, &hinges, &vertex_facet, &edge_edge}) rows->resize(count);
+  for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
+  for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
+  for (std::size_t i = 0; i < in.vertex_facet.size(); ++i) {
+    const auto facet = vertices_of(*in.topology, in.vertex_facet[i].face);
+    add_element(vertex_facet, i, std::array{in.vertex_facet[i].vertex, facet[0], facet[1], facet[2]});
+  }
+  for (std::size_t i = 0; i < in.edge_edge.size(); ++i) {
+    const auto p = vertices_of(*in.topology, in.edge_edge[i].first), q = vertices_of(*in.topology, in.edge_edge[i].second);
+    const bool both = p[1] >= 0;
+    add_element(edge_edge, i, both ? std::array{p[0], p[1], q[0], q[1]} : std::array{p[0], q[0], q[1], Index{-1}});
+  }
+}
+
+Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance) {
+  const compare::ForceAnswer exact = accepted.front();
+  Term term{{exact}, force_tolerance, block_tolerance};
+  for (std::size_t i = 1; i < accepted.size(); ++i) {
+    const compare::ForceAnswer& other = accepted[i];
+    Symmetric3 difference;
+    for (std::size_t k = 0; k < 6; ++k) difference[k] = other.block[k] - exact.block[k];
+    const double force = std::hypot(other.force.x - exact.force.x, other.force.y - exact.force.y, other.force.z - exact.force.z), block = norm(difference);
+    const double near_force = compare::unit_roundoff * force_tolerance * exact.force_scale;
+    const double near_block = compare::unit_roundoff * block_tolerance * exact.block_scale;
+    if (force > near_force || block > near_block || other.force_scale > 2 * exact.force_scale || other.block_scale > 2 * exact.block_scale) {
+      term.accepted.push_back(other);
+      continue;
+    }
+    term.force_spread = std::max(term.force_spread, force + near_force);
+    term.block_spread = std::max(term.block_spread, block + near_block);
+  }
+  return term;
+}
+
+VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions, Index vertex) {
+  const auto v = static_cast<std::size_t>(vertex);
+  constexpr double inputs = compare::sweep_input_tolerance;
+  VertexTerms sum;
+  for (const auto& [triangle, corner] : stencils.triangles[v]) {
+    const auto question = membrane_question(in, in.rest->triangles[triangle], corner, positions);
+    sum.terms.push_back(term_of({membrane(question)}, compare::membrane_force_tolerance + inputs, compare::membrane_block_tolerance + inputs));
+  }
+  for (const auto& [hinge, role] : stencils.hinges[v]) {
+    const auto question = bending_question(in, in.rest->hinges[hinge], role, positions);
+    sum.defined = sum.defined && is_defined(question.vertex) && (question.damping == 0 || is_defined(question.start));
+    sum.terms.push_back(term_of(bending(question), compare::bending_force_tolerance + inputs, compare::bending_block_tolerance + inputs));
+  }
+  add_contact_terms(in, stencils, positions, vertex, sum);
+  return sum;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,162 @@
+// Errors. A right answer solves (H + δH) dx = f + δf with ‖δf‖ ≤ φ, ‖δH‖ ≤ η, so with the exact dx* of H dx* = f
+//
+//   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ along each eigenvector of H,   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
+//
+// Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no farther apart; what it does to single
+// directions depends on where they lie, so a vertex that may be cut is held to the largest of the three errors.
+#include "reference/solvers/vertex_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "compare/stages/truncate.hpp"
+#include "reference/solvers/symmetric3.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Vec3;
+using compare::Vec3f;
+
+using reference::norm;
+
+constexpr double u = compare::unit_roundoff, infinity = std::numeric_limits<double>::infinity();
+/// A vertex with more combinations of accepted answers than this is only held to its bound.
+constexpr std::size_t most_combinations = 4096;
+
+Vec3 wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
+Vec3 plus(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec3 times(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+
+/// H and f of one choice among the accepted answers, with φ and η, the solve's error included.
+struct System {
+  Vec3 force;
+  Symmetric3 block{};
+  double force_error = 0, block_error = 0;
+};
+
+System system_of(const VertexTerms& terms, const VertexPlace& place, std::span<const std::size_t> choice) {
+  const Vec3 pull = times(place.inertia, minus(wide(place.target), wide(place.old)));
+  System sum{pull, {place.inertia, 0, 0, place.inertia, 0, place.inertia}};
+  double errors_force = compare::sweep_inertia_tolerance * norm(pull), errors_block = place.inertia * std::sqrt(3.0);
+  double moduli_force = norm(pull), moduli_block = norm(sum.block);
+  for (std::size_t i = 0; i < terms.terms.size(); ++i) {
+    const Term& term = terms.terms[i];
+    const compare::ForceAnswer& answer = term.accepted[choice[i]];
+    sum.force = plus(sum.force, answer.force);
+    for (std::size_t k = 0; k < 6; ++k) sum.block[k] += answer.block[k];
+    errors_force += term.force_tolerance * answer.force_scale + term.force_spread / u;
+    // The stage's tolerance counts each entry off the diagonal once, the matrix holds it twice.
+    errors_block += term.block_tolerance * answer.block_scale * std::sqrt(2.0) + term.block_spread / u;
+    moduli_force += norm(answer.force);
+    moduli_block += norm(answer.block);
+  }
+  const auto additions = static_cast<double>(terms.terms.size() + 1);
+  sum.force_error = u * (errors_force + additions * moduli_force);
+  sum.block_error = u * (errors_block + compare::sweep_block_additions * additions * moduli_block);
+  return sum;
+}
+
+/// The point of the ball that is closest to x.
+Vec3 projected(const Vec3& x, const VertexPlace& place) {
+  const Vec3 step = minus(x, wide(place.previous));
+  const double length = norm(step);
+  return length > place.bound ? plus(wide(place.previous), times(place.bound / length, step)) : x;
+}
+
+double truncation_error(const VertexPlace& place) {
+  const Vec3f& p = place.previous;
+  return compare::truncate_position_tolerance * u * (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + place.bound);
+}
+
+/// What an ill-conditioned vertex is held to: dx·f ≥ −‖dx‖(φ + η‖dx‖) and what storing adds, where nothing was cut.
+double accepted_without_position(const System& system, const VertexPlace& place, const Vec3f& answer) {
+  const Vec3 moved = minus(wide(answer), wide(place.old));
+  const bool may_be_cut = norm(minus(wide(answer), wide(place.previous))) + truncation_error(place) >= place.bound;
+  if (may_be_cut) return infinity;
+  const double stored = u * norm(wide(answer)), length = norm(moved) + stored;
+  const double slack = length * (system.force_error + system.block_error * length) + stored * norm(system.force);
+  return inner(moved, system.force) >= -slack ? infinity : 0;
+}
+
+/// How far along `error` a right answer that is not cut may be: within `along[i]` in the direction of each axis.
+double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<double, 3>& along) {
+  double share = 0;
+  for (std::size_t i = 0; i < 3; ++i) share = std::max(share, std::abs(inner(error, eigen.axis[i])) / along[i]);
+  return share > 0 ? norm(error) / share : *std::min_element(along.begin(), along.end());
+}
+
+VertexUpdate update_with(const System& system, const VertexPlace& place, const Vec3f& answer) {
+  const Eigen3 eigen = eigen_of(system.block);
+  std::array<double, 3> stiffness;
+  // All terms but inertia are positive semidefinite.
+  for (std::size_t i = 0; i < 3; ++i) stiffness[i] = std::max(eigen.value[i], place.inertia);
+  const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
+  Vec3 change;
+  for (std::size_t i = 0; i < 3; ++i) change = plus(change, times(inner(system.force, eigen.axis[i]) / stiffness[i], eigen.axis[i]));
+  const double block_error = system.block_error + u * compare::sweep_solve_tolerance * *most, relative = block_error / *least;
+  const Vec3 proposal = plus(wide(place.old), change);
+  VertexUpdate update{projected(proposal, place)};
+  if (relative >= 0.5) {
+    update.cut = Cut::doubtful;
+    update.grey = true;
+    update.accepted = accepted_without_position({system.force, system.block, system.force_error, block_error}, place, answer);
+    return update;
+  }
+  const double length = (norm(change) + system.force_error / *least) / (1 - relative), numerator = system.force_error + block_error * length;
+  // The smallest positive number stands for what underflows.
+  const double stored = u * (norm(proposal) + numerator / *least) + std::numeric_limits<float>::denorm_min();
+  std::array<double, 3> along;
+  for (std::size_t i = 0; i < 3; ++i) along[i] = numerator / stiffness[i] + stored;
+  const double largest = numerator / *least + stored, reach = norm(minus(proposal, wide(place.previous)));
+  if (reach + largest <= place.bound) {
+    update.accepted = accepted_along(minus(wide(answer), update.position), eigen, along);
+    return update;
+  }
+  update.cut = reach - largest > place.bound ? Cut::yes : Cut::doubtful;
+  const double shrunk = update.cut == Cut::yes ? place.bound / (reach - largest) : 1;
+  update.accepted = shrunk * largest + truncation_error(place);
+  return update;
+}
+
+/// Error in units of what is accepted.
+double share_of(const VertexUpdate& update, const Vec3f& answer) {
+  const double error = norm(minus(wide(answer), update.position));
+  return error == 0 ? 0 : error / update.accepted;
+}
+
+/// The next choice among the accepted answers of all terms; false after the last one.
+bool advance(std::vector<std::size_t>& choice, const VertexTerms& terms) {
+  for (std::size_t i = 0; i < choice.size(); ++i) {
+    if (++choice[i] < terms.terms[i].accepted.size()) return true;
+    choice[i] = 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+VertexUpdate update_of(const VertexTerms& terms, const VertexPlace& place, const Vec3f& answer) {
+  std::vector<std::size_t> choice(terms.terms.size(), 0);
+  VertexUpdate best = update_with(system_of(terms, place, choice), place, answer);
+  std::size_t combinations = 1;
+  for (const Term& term : terms.terms) combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
+  if (!terms.defined || combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
+  // Where the bound hides which of them an answer has chosen, the cut may be that of any.
+  bool cuts_differ = false;
+  while (advance(choice, terms)) {
+    const VertexUpdate other = update_with(system_of(terms, place, choice), place, answer);
+    cuts_differ = cuts_differ || (other.cut != best.cut && share_of(other, answer) <= 1);
+    if (share_of(other, answer) < share_of(best, answer)) best = other;
+  }
+  if (cuts_differ) best.cut = Cut::doubtful;
+  best.grey = best.grey || combinations > 1;
+  return best;
+}
+
+}  // namespace ogc::reference

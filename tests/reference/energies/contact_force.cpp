@@ -1,0 +1,151 @@
+// The reference's contact against differences of its energy, against mechanics, in closed form, and where it has more than one answer.
+#include "reference/energies/contact_force.hpp"
+
+#include "tests/catch.hpp"
+#include "tests/reference/energies/contacts.hpp"
+
+using namespace ogc;
+using namespace ogc::tests;
+
+namespace {
+
+compare::ForceAnswer exact(const ContactForceCase& c) { return reference::contact_force(c).front(); }
+
+/// A point above a large triangle, at a quarter of its second and half of its third corner.
+ContactForceCase above(float height, float r = 0.5f, float k = 8) {
+  ContactForceCase c;
+  c.sides = ContactSides::point_triangle;
+  c.vertex = {{{2.5f, 5, height}, {0, 0, 0}, {10, 0, 0}, {0, 10, 0}}};
+  c.detected = c.vertex;
+  c.contact_radius = r;
+  c.stiffness = k;
+  return c;
+}
+
+double trace(const compare::ForceAnswer& a) { return a.block[0] + a.block[3] + a.block[5]; }
+
+}  // namespace
+
+TEST_CASE("the reference's contact force is minus the slope of the energy of the closest distance, weights that move included", "[property]") {
+  Draw draw(1);
+  for (int i = 0; i < 60; ++i) {
+    ContactForceCase c = random_contact(draw, all_sides[static_cast<std::size_t>(i) % 4]);
+    for (c.own = 0; c.own < vertex_count(c.sides); ++c.own) {
+      const auto energy = [&](const Point& own) {
+        std::array<Point, 4> x = points(c.vertex);
+        x[static_cast<std::size_t>(c.own)] = own;
+        return activation(distance_of(x, weights(c.sides, x)), c.contact_radius, c.stiffness);
+      };
+      const Point expected = slope(energy, point(c.vertex[static_cast<std::size_t>(c.own)]), 1e-5);
+      const compare::Vec3 force = exact(c).force;
+      REQUIRE(norm({force.x + expected[0], force.y + expected[1], force.z + expected[2]}) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("the reference's contact forces leave no net force and no net torque", "[property]") {
+  Draw draw(2);
+  for (int i = 0; i < 200; ++i) {
+    ContactForceCase c = random_contact(draw, all_sides[static_cast<std::size_t>(i) % 4]);
+    Point force{}, torque{};
+    for (c.own = 0; c.own < vertex_count(c.sides); ++c.own) {
+      const compare::Vec3 f = exact(c).force;
+      const Point one{f.x, f.y, f.z}, turning = outer(point(c.vertex[static_cast<std::size_t>(c.own)]), one);
+      for (std::size_t k = 0; k < 3; ++k) {
+        force[k] += one[k];
+        torque[k] += turning[k];
+      }
+    }
+    REQUIRE(norm(force) < 1e-13);
+    REQUIRE(norm(torque) < 1e-13);
+  }
+}
+
+TEST_CASE("the reference's contact block is g'' w^2 n n^T: along the force, positive semidefinite, of rank one", "[property]") {
+  Draw draw(3);
+  for (int i = 0; i < 200; ++i) {
+    ContactForceCase c = random_contact(draw, all_sides[static_cast<std::size_t>(i) % 4]);
+    c.own = i / 4 % vertex_count(c.sides);
+    const std::array<Point, 4> x = points(c.vertex);
+    const Weights w = weights(c.sides, x);
+    const double d = distance_of(x, w), weight = w[static_cast<std::size_t>(c.own)], r = c.contact_radius;
+    const compare::ForceAnswer answer = exact(c);
+    const double curvature = d < r ? (d < r / 2 ? c.stiffness * r * r / (4 * d * d) : c.stiffness) : 0;
+    REQUIRE(trace(answer) == Approx(curvature * weight * weight).margin(1e-9));
+    const double size = std::hypot(answer.force.x, answer.force.y, answer.force.z);
+    if (size < 1e-6) continue;
+    const std::array<double, 3> n{answer.force.x / size, answer.force.y / size, answer.force.z / size};
+    constexpr std::array<std::array<std::size_t, 2>, 6> at{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+    for (std::size_t k = 0; k < 6; ++k) REQUIRE(answer.block[k] == Approx(trace(answer) * n[at[k][0]] * n[at[k][1]]).margin(1e-9));
+    REQUIRE(smallest_quadratic(answer.block, draw) >= -1e-12);
+  }
+}
+
+TEST_CASE("a point above a large triangle is pushed by k (r - d), below r/2 by k r^2/(4 d), and the corners share the reaction", "[unit]") {
+  for (const float d : {0.0625f, 0.125f, 0.25f, 0.375f}) {
+    ContactForceCase c = above(d);
+    const double lambda = d < 0.25f ? 8 * 0.25 / (4 * double{d}) : 8 * (0.5 - double{d});
+    REQUIRE(exact(c).force.z == Approx(lambda));
+    REQUIRE(trace(exact(c)) == Approx(d < 0.25f ? lambda / double{d} : 8));
+    constexpr std::array<double, 3> shares{0.25, 0.25, 0.5};
+    for (c.own = 1; c.own < 4; ++c.own) REQUIRE(exact(c).force.z == Approx(-lambda * shares[static_cast<std::size_t>(c.own) - 1]));
+  }
+}
+
+TEST_CASE("nothing acts from r on and at 0, and nearer than 2^-23 r nothing grows", "[unit]") {
+  REQUIRE(exact(above(0.5f)).force == compare::Vec3{});
+  REQUIRE(exact(above(2)).force == compare::Vec3{});
+  REQUIRE(exact(above(0)).force == compare::Vec3{});
+  ContactForceCase c;
+  c.sides = ContactSides::point_point;
+  c.contact_radius = 0.5f;
+  c.stiffness = 8;
+  for (const float d : {0x1p-24f, 0x1p-26f, 0x1p-40f}) {
+    c.vertex[0].x = d;
+    REQUIRE(exact(c).force.x == Approx(8 * 0.5 / (4 * 0x1p-23)));
+    REQUIRE(trace(exact(c)) == Approx(8 / (4 * 0x1p-46)));
+  }
+}
+
+TEST_CASE("the mollifier is that of the last detection, for two edges of meshes with triangles", "[unit]") {
+  ContactForceCase c;
+  c.sides = ContactSides::edge_edge;
+  c.vertex = {{{-1, 0, 0.25f}, {1, 0, 0.25f}, {0, -1, 0}, {0, 1, 0}}};
+  c.contact_radius = 1;
+  c.stiffness = 2;
+  const auto at = [&](double sine) {
+    c.detected = {{{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {static_cast<float>(2 * std::sqrt(1 - sine * sine)), static_cast<float>(2 * sine), 0}}};
+    return exact(c).force.z;
+  };
+  REQUIRE(at(0) == Approx(1));  // λ/2 at one end of four
+  c.rest_squared = {4, 4};
+  REQUIRE(at(0) == 0);
+  REQUIRE(at(std::sqrt(1e-3 / 2)) == Approx(0.75).epsilon(1e-6));
+  REQUIRE(at(std::sqrt(1.001e-3)) == Approx(1));
+}
+
+TEST_CASE("nearly parallel edges meet in the middle of their overlap", "[unit]") {
+  ContactForceCase c;
+  c.sides = ContactSides::edge_edge;
+  c.vertex = {{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0.25f}, {2.5f, 0, 0.25f}}};
+  c.detected = c.vertex;
+  c.contact_radius = 1;
+  c.stiffness = 2;
+  constexpr std::array<double, 4> shares{-0.25, -0.75, 0.875, 0.125};
+  for (c.own = 0; c.own < 4; ++c.own) REQUIRE(exact(c).force.z == Approx(2 * shares[static_cast<std::size_t>(c.own)]));
+}
+
+TEST_CASE("where a decision is grey both answers are accepted, the exact one first", "[unit]") {
+  REQUIRE(reference::contact_force(above(0.3f)).size() == 1);
+  const auto at_radius = reference::contact_force(above(std::nextafter(0.5f, 0.0f)));
+  REQUIRE(at_radius.size() == 2);
+  REQUIRE(at_radius[0].force_scale > 0);
+  REQUIRE(at_radius[1].force_scale == 0);
+  ContactForceCase beside = above(0.3f);
+  beside.vertex[0] = {5, 5, 0.3f};  // above the middle of the side between the second and the third corner
+  beside.own = 1;
+  const auto on_side = reference::contact_force(beside);
+  REQUIRE(on_side.size() == 2);
+  REQUIRE(on_side[0].force.z == 0);
+  REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);  // not to be told from touching: anything up to the force at 2^-23 r
+}

@@ -1,0 +1,278 @@
+#include "reference/solvers/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <tbb/global_control.h>
+
+#include "reference/solvers/newton_solver.hpp"
+#include "tests/catch.hpp"
+#include "tests/reference/solvers/sheets.hpp"
+
+using namespace ogc;
+using namespace ogc::tests;
+using compare::Vec3f;
+
+namespace {
+
+struct Run {
+  std::vector<compare::StepMetrics> rows;
+  compare::Snapshot end;
+};
+
+Run run(const compare::Scene& scene, std::int64_t steps) {
+  const auto simulation = reference::start_newton(scene, {.iterations = true});
+  Run result{simulation->advance(steps), {}};
+  result.end = simulation->snapshot();
+  return result;
+}
+
+bool clean(const Run& run) {
+  return std::all_of(run.rows.begin(), run.rows.end(), [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
+}
+
+/// Two sheets that meet askew: contacts of all kinds, friction, damping, several detections a step.
+compare::Scene drop_scene() {
+  compare::Scene scene;
+  scene.name = "drop";
+  compare::Material material;
+  material.bending_damping = material.membrane_damping = 2e-6;
+  add_sheet(scene, 8, 0.07, 0.012, false, material);
+  add_sheet(scene, 6, 0.09, 0, true, material);
+  for (std::size_t v = 0; v < 64; ++v) {
+    compare::Vec3& x = scene.mesh.positions[v];
+    x.y += 0.1 * x.x + 0.05 * x.z;
+    scene.velocities[v] = {0.1, -0.3, 0.05};
+  }
+  return scene;
+}
+
+compare::Vec3 momentum(const compare::Scene& scene, const std::vector<Vec3f>& velocity, const std::vector<double>& mass) {
+  compare::Vec3 sum;
+  for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
+    sum.x += mass[v] * double{velocity[v].x};
+    sum.y += mass[v] * double{velocity[v].y};
+    sum.z += mass[v] * double{velocity[v].z};
+  }
+  return sum;
+}
+
+compare::Material heavy() {
+  compare::Material material;
+  material.density = 200;
+  material.lame_mu = material.lame_lambda = 1e4;
+  material.contact_stiffness = 1000;
+  return material;
+}
+
+/// Of one vertex of `triangle_on_plane` [kg].
+double corner_mass(const compare::Material& material) { return material.density * 0.5 * 1e-4 / 3; }
+
+}  // namespace
+
+TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one iteration a step", "[property]") {
+  compare::Scene scene;
+  scene.name = "fall";
+  add_sheet(scene, 6, 0.05, 0, false);
+  const Run result = run(scene, 10);
+  REQUIRE(clean(result));
+  const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
+  // Positions below 1 m are stored to 2⁻²⁵ m, and the velocity carries each rounding on: n(n+1)/2 times at most.
+  for (const Vec3f& x : result.end.positions) CHECK(std::abs(double{x.y} + fallen) <= 55 * 0x1p-25);
+  for (const compare::StepMetrics& row : result.rows) {
+    CHECK(row.iterations <= 1);
+    CHECK(row.momentum_lost_end < 1e-6);
+  }
+}
+
+TEST_CASE("Newton: each accepted iteration lowers the energy between two detections", "[property]") {
+  compare::Scene scene = drop_scene();
+  round_to_single(scene);
+  const compare::Topology topology = build_topology(scene);
+  reference::NewtonSolver solver(scene, topology, {});
+  int accepted = 0;
+  solver.on_accepted = [&](double before, double change, double noise) {
+    CHECK((change < 0 || change <= noise));
+    CHECK(noise <= 1e-8 * before);
+    ++accepted;
+  };
+  std::vector<Vec3f> x = compare::to_single(scene.mesh.positions), v = compare::to_single(scene.velocities);
+  std::int64_t contacts = 0, detections = 0;
+  for (std::int64_t step = 1; step <= 12; ++step) {
+    reference::NewtonStep result = solver.step(x, v, step);
+    REQUIRE(result.metrics.status == compare::step_clean);
+    x = std::move(result.position);
+    v = std::move(result.velocity);
+    contacts += result.metrics.vertex_facet_contacts + result.metrics.edge_edge_contacts;
+    detections += result.metrics.broad_phases;
+  }
+  CHECK(accepted > 20);
+  CHECK(contacts > 100);
+  CHECK(detections > 24);
+}
+
+TEST_CASE("Newton converges quadratically on a smooth problem", "[property]") {
+  // A sheet pulled apart at both ends, far from itself; stretched, so that its own Hessian is positive definite.
+  compare::Scene scene;
+  scene.name = "stretch";
+  add_sheet(scene, 6, 0.05, 0, false);
+  for (compare::Vec3& p : scene.mesh.positions) p.x *= 1.3, p.z *= 1.2, p.y = 0.002 * std::sin(100 * p.x);
+  for (const double side : {-1.0, 1.0}) {
+    compare::PrescribedMotion motion;
+    motion.name = side < 0 ? "left" : "right";
+    for (std::size_t v = 0; v < scene.mesh.positions.size(); ++v)
+      if (scene.mesh.positions[v].x * side > 0.032) motion.vertices.push_back(static_cast<compare::Index>(v));
+    scene.motions.push_back(motion);
+  }
+  scene.settings.newton_tolerance = 1e-9;
+  scene.settings.time_step = 0.05;
+  scene.settings.projection = compare::HessianProjection::none;
+  const Run result = run(scene, 1);
+  REQUIRE(clean(result));
+  std::vector<double> residuals;
+  for (const compare::IterationMetrics& row : result.rows[0].iteration_rows) residuals.push_back(row.residual);
+  int quadratic = 0;
+  for (std::size_t i = 1; i < residuals.size(); ++i)
+    if (residuals[i - 1] < 2e-3 && residuals[i] > 1e-13) quadratic += residuals[i] < 100 * residuals[i - 1] * residuals[i - 1];
+  CHECK(quadratic >= 2);
+  CHECK(result.rows[0].iterations <= 15);
+}
+
+TEST_CASE("Newton: a pressed contact comes to rest where its force carries the weight", "[property]") {
+  compare::Material material = heavy();
+  material.friction = 0;
+  compare::Scene scene = triangle_on_plane(4.5e-3, material);
+  scene.settings.newton_tolerance = 1e-8;
+  const Run result = run(scene, 150);
+  REQUIRE(clean(result));
+  const double distance = 5e-3 - corner_mass(material) * 9.81 / material.contact_stiffness;
+  CHECK(distance > 2.5e-3);
+  for (std::size_t v = 0; v < 3; ++v) CHECK(std::abs(double{result.end.positions[v].y} - distance) < 1e-8);
+  CHECK(result.rows.back().vertex_facet_contacts == 3);
+  CHECK(result.rows.back().edge_edge_contacts == 0);
+}
+
+TEST_CASE("Newton: a block on a slope slides as friction says, or creeps below the velocity threshold where friction holds it", "[property]") {
+  for (const double friction : {0.2, 0.8}) {
+    compare::Material material = heavy();
+    material.friction = friction;
+    const double slope = 0.5, down = 9.81 * std::sin(slope), press = 9.81 * std::cos(slope);
+    compare::Scene scene = triangle_on_plane(5e-3 - corner_mass(material) * press / material.contact_stiffness, material);
+    scene.gravity = {down, -press, 0};
+    scene.settings.newton_tolerance = 1e-7;
+    const Run result = run(scene, 30);
+    REQUIRE(clean(result));
+    const double time = 0.3, velocity = double{result.end.velocities[0].x}, threshold = scene.settings.friction_velocity;
+    // f₁(y)/1 = tan/μ has the solution y = ε_v (1 − √(1 − tan/μ)): the velocity of the creep.
+    if (std::tan(slope) < friction) CHECK(velocity == Approx(threshold * (1 - std::sqrt(1 - std::tan(slope) / friction))).epsilon(0.02));
+    else CHECK(velocity == Approx(time * (down - friction * press)).epsilon(0.02).margin(threshold));
+  }
+}
+
+TEST_CASE("Newton at convergence conserves momentum in a collision, friction included", "[property]") {
+  compare::Scene scene;
+  scene.name = "collision";
+  add_sheet(scene, 6, 0.05, 0.006, false);
+  add_sheet(scene, 5, 0.06, 0, false);
+  for (std::size_t v = 0; v < 36; ++v) {
+    scene.velocities[v] = {0.05, -0.4, 0};
+    scene.mesh.positions[v].y += 0.1 * scene.mesh.positions[v].x;
+  }
+  scene.gravity = {};
+  scene.settings.newton_tolerance = 1e-8;
+  scene.settings.newton_iterations = 400;
+  round_to_single(scene);
+  const compare::Topology topology = build_topology(scene);
+  const reference::Potential potential(scene, topology);
+  const compare::Vec3 before = momentum(scene, compare::to_single(scene.velocities), potential.mass());
+  const Run result = run(scene, 3);
+  REQUIRE(clean(result));
+  CHECK(result.rows.back().edge_edge_contacts + result.rows.back().vertex_facet_contacts > 0);
+  const compare::Vec3 after = momentum(scene, result.end.velocities, potential.mass());
+  const double whole = std::hypot(before.x, before.y), lost = std::hypot(after.x - before.x, after.y - before.y, after.z - before.z);
+  double mass = 0;
+  for (const double m : potential.mass()) mass += m;
+  // Each step rounds positions of a few centimetres to 2⁻²⁹ m, and a velocity is made of two of them.
+  const double rounding = mass * 3 * 2 * 0x1p-29 / 0.01;
+  CHECK(lost <= 1e-6 * whole + rounding);
+  CHECK(std::abs(double{result.end.velocities[14].y} + 0.4) > 0.05);  // they did collide
+}
+
+TEST_CASE("Newton: a step that can't converge says so, keeps the state before it and ends", "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.newton_iterations = 1;
+  scene.settings.newton_tolerance = 1e-12;
+  const auto simulation = reference::start_newton(scene, {});
+  const auto rows = simulation->advance(50);
+  REQUIRE(rows.size() < 50);
+  CHECK(rows.back().status == compare::step_not_converged);
+  CHECK(simulation->snapshot().step == rows.back().step - 1);
+  CHECK(simulation->advance(3).size() == 1);
+}
+
+TEST_CASE("Newton without projection reports a matrix that is not positive definite", "[unit]") {
+  compare::Scene scene;
+  scene.name = "compressed";
+  compare::Material stiff;
+  stiff.lame_mu = stiff.lame_lambda = 1e4;
+  add_sheet(scene, 4, 0.03, 0, false, stiff);
+  for (compare::Vec3& p : scene.mesh.positions) p.x *= 0.5, p.z *= 0.6;
+  scene.settings.contact_radius = 1e-3;
+  scene.settings.projection = compare::HessianProjection::none;
+  CHECK(run(scene, 1).rows[0].status == compare::step_indefinite);
+  for (const auto projection : {compare::HessianProjection::clamp, compare::HessianProjection::absolute}) {
+    scene.settings.projection = projection;
+    CHECK(run(scene, 1).rows[0].status != compare::step_indefinite);
+  }
+}
+
+TEST_CASE("Newton: handles that bounds hold back lag, and the step ends", "[property]") {
+  compare::Scene scene;
+  scene.name = "pinched";
+  add_sheet(scene, 4, 0.03, 2e-3, false);
+  add_sheet(scene, 4, 0.05, 0, true);
+  compare::PrescribedMotion motion;
+  motion.name = "down";
+  motion.vertices = {0, 5};
+  motion.velocity = {0, -1, 0};  // through the fixed sheet within a step
+  scene.motions = {motion};
+  scene.settings.newton_tolerance = 1e-3;
+  const Run result = run(scene, 1);
+  CHECK(result.rows[0].largest_lag > 5e-3);
+}
+
+TEST_CASE("Newton: the number of threads changes no bit", "[property]") {
+  std::vector<Vec3f> first;
+  for (const std::size_t threads : {1u, 2u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const Run result = run(drop_scene(), 6);
+    REQUIRE(result.end.step == 6);
+    if (first.empty()) first = result.end.positions;
+    CHECK(std::memcmp(first.data(), result.end.positions.data(), first.size() * sizeof(Vec3f)) == 0);
+  }
+}
+
+TEST_CASE("Newton goes on from a restored state to the same bits", "[property]") {
+  const compare::Scene scene = drop_scene();
+  const auto whole = reference::start_newton(scene, {}), rest = reference::start_newton(scene, {});
+  whole->advance(3);
+  rest->restore(whole->snapshot());
+  whole->advance(3);
+  rest->advance(3);
+  CHECK(whole->snapshot().positions == rest->snapshot().positions);
+  CHECK(rest->snapshot().step == 6);
+}
+
+TEST_CASE("every activation and projection keeps the guarantee and ends its steps", "[property]") {
+  for (int k = 0; k < 5; ++k) {
+    compare::Scene scene = drop_scene();
+    scene.settings.activation = static_cast<compare::ContactActivation>(k);
+    scene.settings.projection = k % 2 == 0 ? compare::HessianProjection::clamp : compare::HessianProjection::absolute;
+    scene.settings.newton_tolerance = 1e-2;
+    const Run result = run(scene, 5);
+    INFO(k);
+    CHECK(clean(result));
+    CHECK(result.rows.back().smallest_distance > 0);
+  }
+}

@@ -1,0 +1,150 @@
+// The order of Algorithm 3 in scripted runs, and the reference's own step against what physics and the method say of it.
+#include "reference/solvers/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/solvers/step_order.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc;
+using compare::Index;
+using compare::StepEventKind;
+
+namespace {
+
+constexpr StepEventKind find = StepEventKind::detection, guess = StepEventKind::guess, sweep = StepEventKind::sweep;
+
+/// The events of a step whose rounds and iterations cut these numbers of vertices; 0 after the last of them.
+std::vector<StepEventKind> order(const compare::Settings& settings, Index moving, std::vector<Index> cuts) {
+  reference::StepOrder order(settings, moving);
+  std::vector<StepEventKind> events;
+  std::reverse(cuts.begin(), cuts.end());
+  for (auto kind = order.next(); kind; kind = order.next()) {
+    events.push_back(*kind);
+    Index cut = 0;
+    if (*kind != find && !cuts.empty()) cut = cuts.back(), cuts.pop_back();
+    order.took_place(cut);
+  }
+  return events;
+}
+
+compare::Settings settings(std::int64_t iterations, double fraction = 0.01) {
+  compare::Settings settings;
+  settings.iterations = iterations;
+  settings.redetect_fraction = fraction;
+  return settings;
+}
+
+/// n × n vertices on a grid of 1 cm in the plane y = height.
+compare::Mesh sheet(Index n, double height) {
+  compare::Mesh mesh;
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i < n; ++i) mesh.positions.push_back({0.01 * i, height, 0.01 * j});
+  for (Index j = 0; j + 1 < n; ++j)
+    for (Index i = 0; i + 1 < n; ++i) {
+      const Index a = j * n + i, b = a + 1, c = a + n, d = c + 1;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+    }
+  return mesh;
+}
+
+compare::Scene scene_of(const compare::Mesh& mesh, const compare::Vec3& velocity) {
+  compare::Scene scene;
+  scene.name = "test";
+  compare::append_body(scene, {.name = "sheet", .material = {}}, mesh);
+  std::fill(scene.velocities.begin(), scene.velocities.end(), velocity);
+  scene.settings.contact_radius = 0.004;
+  scene.settings.iterations = 4;
+  return scene;
+}
+
+compare::StepOut step_of(compare::Scene& scene) {
+  compare::round_to_single(scene);
+  const compare::Topology topology = compare::build_topology(scene);
+  return reference::reference_step({&scene, &topology});
+}
+
+}  // namespace
+
+TEST_CASE("without a cut a step detects once, guesses once and sweeps", "[unit]") {
+  CHECK(order(settings(3), 100, {}) == std::vector{find, guess, sweep, sweep, sweep});
+}
+
+TEST_CASE("the guess loop goes on while enough vertices are cut and rounds are left", "[unit]") {
+  compare::Settings few = settings(1);
+  CHECK(order(few, 100, {1, 1, 0}) == std::vector{find, guess, find, guess, find, guess, sweep});
+  few.guess_rounds = 2;
+  CHECK(order(few, 100, {1, 1, 0}) == std::vector{find, guess, find, guess, sweep});
+  few.guess_rounds = 1;
+  CHECK(order(few, 100, {100}) == std::vector{find, guess, sweep});
+}
+
+TEST_CASE("a detection follows an iteration that cut enough, but never the last one", "[unit]") {
+  CHECK(order(settings(3), 100, {0, 1, 0, 1}) == std::vector{find, guess, sweep, find, sweep, sweep});
+  CHECK(order(settings(2), 100, {0, 50, 50}) == std::vector{find, guess, sweep, find, sweep});
+}
+
+TEST_CASE("the threshold is the fraction of K rounded up, at least one vertex", "[unit]") {
+  const auto again = [](double fraction, Index moving, Index cut) { return order(settings(2, fraction), moving, {0, cut}).size() == 5; };
+  CHECK(again(0.25, 10, 3));
+  CHECK_FALSE(again(0.25, 10, 2));
+  CHECK(again(0.25, 8, 2));
+  CHECK(again(0, 8, 1));
+  CHECK_FALSE(again(0, 8, 0));
+  CHECK(again(0.01, 0, 1));
+  // As stored, a tenth is a little more than a tenth.
+  CHECK_FALSE(again(0.1f, 10, 1));
+}
+
+TEST_CASE("detections by count are counted from the last detection", "[unit]") {
+  compare::Settings by_count = settings(6);
+  by_count.redetect_every = 2;
+  CHECK(order(by_count, 100, {}) == std::vector{find, guess, sweep, sweep, find, sweep, sweep, find, sweep, sweep});
+  CHECK(order(by_count, 100, {0, 1}) == std::vector{find, guess, sweep, find, sweep, sweep, find, sweep, sweep, find, sweep});
+}
+
+TEST_CASE("a sheet far from everything falls by h² g in the reference's own step, whatever its bounds cut", "[property]") {
+  compare::Scene scene = scene_of(sheet(4, 1), {0, -2, 0});
+  const compare::StepOut out = step_of(scene);
+  const double fall = (2 + 9.81f * double{0.01f}) * double{0.01f};
+  // Coordinates of 1 m are stored within 2⁻²⁵ m; the strains that these roundings make pull by less.
+  for (const compare::Vec3f& x : out.position) CHECK(std::abs(x.y - (1 - fall)) < 0x1p-23);
+  CHECK(out.events.size() > 6);
+}
+
+TEST_CASE("positions of the reference's own step obey their bounds, and its counts are those of its order", "[property]") {
+  compare::Scene scene = scene_of(sheet(4, 0.006), {0.3, -1, 0});
+  compare::append_body(scene, {.name = "floor", .fixed = true, .material = {}}, sheet(4, 0));
+  const compare::StepOut out = step_of(scene);
+  const compare::StepEvent* last = nullptr;
+  std::size_t contacts = 0;
+  for (const compare::StepEvent& event : out.events) {
+    if (event.kind == find) last = &event, contacts += event.vertex_facet.contacts.size();
+    for (std::size_t v = 0; v < event.position.size(); ++v) {
+      const compare::Vec3f &x = event.position[v], &p = last->position[v];
+      CHECK(std::hypot(double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z) <= last->bound[v]);
+    }
+  }
+  CHECK(contacts > 0);
+  const compare::Topology topology = compare::build_topology(scene);
+  const compare::StepTruth truth = reference::step({&scene, &topology}, out);
+  std::vector<StepEventKind> kinds;
+  for (const compare::StepEvent& event : out.events) kinds.push_back(event.kind);
+  CHECK(truth.events == kinds);
+}
+
+TEST_CASE("r_q grows with the fastest vertex, a prescribed one included, up to its cap", "[unit]") {
+  compare::Scene scene = scene_of(sheet(3, 1), {0, 0, 0});
+  scene.gravity = {};
+  scene.settings.query_radius_cap = 4;
+  CHECK(step_of(scene).query_radius == 0.004f);
+  compare::PrescribedMotion motion;
+  motion.vertices = {0};
+  motion.velocity = {0.5, 0, 0};
+  scene.motions.push_back(motion);
+  CHECK(step_of(scene).query_radius == Approx(0.009).epsilon(1e-6));
+  CHECK(step_of(scene).target[0].x == Approx(0.005).epsilon(1e-6));
+  scene.motions[0].velocity.x = 10;
+  CHECK(step_of(scene).query_radius == Approx(0.016).epsilon(1e-6));
+}
