@@ -13,11 +13,20 @@
 namespace ogc::compare {
 namespace {
 
+void read_choice(const JsonNode& node, const SettingInfo& info, Settings& settings) {
+  std::string name = setting_text(settings, info);
+  node.read(name);
+  if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) return node.fail("is '" + name + "'", "give " + describe_range(info));
+  set_setting(settings, info.name, name);
+}
+
 void read_settings(const JsonNode& node, Settings& settings) {
   JsonObject object(node);
   for (const SettingInfo& info : setting_table()) {
     object.optional(std::string(info.name), [&](const JsonNode& value) {
-      std::visit([&](auto field) { value.read(settings.*field); }, info.field);
+      if (!info.choices.empty()) return read_choice(value, info, settings);
+      if (const auto* field = std::get_if<double Settings::*>(&info.field)) value.read(settings.**field);
+      if (const auto* field = std::get_if<std::int64_t Settings::*>(&info.field)) value.read(settings.**field);
       const double number = get_setting(settings, info);
       if (!in_range(info, number)) value.fail("is " + shortest(number), "give " + describe_range(info));
     });

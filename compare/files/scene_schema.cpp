@@ -23,24 +23,30 @@ Json object(const Json& properties, const std::vector<std::string>& required) {
 
 std::string with_unit(std::string_view meaning, std::string_view unit) { return std::string(meaning) + " [" + std::string(unit) + "]"; }
 
-Json settings_schema() {
-  const Settings defaults;
-  Json properties = Json::object();
-  for (const SettingInfo& info : setting_table()) {
-    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
-    Json& row = properties[std::string(info.name)] = value(whole ? "integer" : "number", with_unit(info.meaning, info.unit));
-    row["minimum"] = info.minimum;
-    row["maximum"] = info.maximum;
-    std::visit([&](auto field) { row["default"] = defaults.*field; }, info.field);
-  }
-  properties["lanes"]["enum"] = {0, 1, 2, 4, 8, 16, 32};
-  return object(properties, {});
-}
-
 Json model_schema(std::span<const std::string_view> names, std::string_view standard) {
   Json json = {{"enum", Json::array()}, {"default", standard}};
   for (const std::string_view name : names) json["enum"].push_back(name);
   return json;
+}
+
+Json settings_schema() {
+  const Settings defaults;
+  Json properties = Json::object();
+  for (const SettingInfo& info : setting_table()) {
+    if (!info.choices.empty()) {
+      Json& row = properties[std::string(info.name)] = model_schema(info.choices, setting_text(defaults, info));
+      row["description"] = info.meaning;
+      continue;
+    }
+    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+    Json& row = properties[std::string(info.name)] = value(whole ? "integer" : "number", with_unit(info.meaning, info.unit));
+    row["minimum"] = info.minimum;
+    row["maximum"] = info.maximum;
+    if (const auto* field = std::get_if<double Settings::*>(&info.field)) row["default"] = defaults.**field;
+    if (const auto* field = std::get_if<std::int64_t Settings::*>(&info.field)) row["default"] = defaults.**field;
+  }
+  properties["lanes"]["enum"] = {0, 1, 2, 4, 8, 16, 32};
+  return object(properties, {});
 }
 
 Json material_schema() {

@@ -31,6 +31,7 @@ Json settings_json(const Settings& settings) {
     Json& value = json[std::string(info.name)];
     if (const auto* field = std::get_if<double Settings::*>(&info.field)) value = as_typed(settings.**field);
     if (const auto* field = std::get_if<std::int64_t Settings::*>(&info.field)) value = settings.**field;
+    if (!info.choices.empty()) value = setting_text(settings, info);
   }
   return json;
 }

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "compare/judge/sweep_question.hpp"
+
 namespace ogc::compare {
 
 namespace {
@@ -77,9 +79,9 @@ TruncateIn truncate_question(Cases cases) {
   return in;
 }
 
-/// In of a force stage: its cases as they are.
+/// In of a stage whose questions are its cases as they are.
 template <class In, class Case>
-In force_question(Cases cases, std::vector<Case> In::*questions) {
+In case_question(Cases cases, std::vector<Case> In::*questions) {
   In in;
   for (const TestCase& test : cases) (in.*questions).push_back(std::get<Case>(test.data));
   return in;
@@ -95,7 +97,49 @@ BoundIn bound_question(const TestCase& test) {
   return {c.topology.get(), c.d_min_vertex, c.d_min_edge, c.d_min_triangle, c.bound_relaxation};
 }
 
+/// Likewise, and each event of the answer is a question of its own.
+void ask_step(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+  const auto& c = std::get<StepCase>(test.data);
+  const StepIn question{c.scene.get(), c.topology.get()};
+  const StepOut out = asker.answer(question, contestant.step);
+  if (!can_judge_step(test, question, out, tally)) return;
+  const std::function<bool(const StepIn&)> about_answer = [&](const StepIn& in) {
+    judge_step(test, in, authority.step(in, out), out, authority, tally);
+    return true;
+  };
+  asker.truth(question, about_answer);
+}
+
+/// The truth follows the answer, so the contestant is asked first.
+void ask_sweep(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+  const SweepQuestion question(std::get<SweepCase>(test.data), authority);
+  const SweepOut out = asker.answer(question.in(), contestant.sweep);
+  if (!can_judge_sweep(test, question.in(), out, tally)) return;
+  const std::function<SweepTruth(const SweepIn&)> about_answer = [&](const SweepIn& in) { return authority.sweep(in, out); };
+  judge_sweep(test, question.in(), asker.truth(question.in(), about_answer), out, tally);
+}
+
 void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+  if (stage == Stage::step) {
+    ask_step(test, contestant, authority, asker, tally);
+    return;
+  }
+  if (stage == Stage::sweep) {
+    ask_sweep(test, contestant, authority, asker, tally);
+    return;
+  }
+  if (stage == Stage::rest_state) {
+    const auto& c = std::get<RestStateCase>(test.data);
+    const RestStateIn in{c.scene.get(), c.topology.get()};
+    judge_rest_state(test, asker.truth(in, authority.rest_state), asker.answer(in, contestant.rest_state), tally);
+    return;
+  }
+  if (stage == Stage::block) {
+    const auto& c = std::get<BlockCase>(test.data);
+    const BlockIn in{c.topology.get(), c.positions, c.questions};
+    judge_block(test, asker.truth(in, authority.block), asker.answer(in, contestant.block), tally);
+    return;
+  }
   if (stage == Stage::bound) {
     const BoundIn in = bound_question(test);
     judge_bound(test, asker.truth(in, authority.bound), asker.answer(in, contestant.bound), tally);
@@ -107,11 +151,21 @@ void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, c
   else judge_detect_edge_edge(test, asker.truth(in, authority.detect_edge_edge), asker.answer(in, contestant.detect_edge_edge), tally);
 }
 
+/// Position and cut are asked about the y of the answer.
+void ask_guess(Cases cases, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+  const InitialGuessIn in = case_question(cases, &InitialGuessIn::cases);
+  const InitialGuessOut out = asker.answer(in, contestant.initial_guess);
+  const TruncateTruth cut = asker.truth(cut_question(in, out), authority.truncate);
+  judge_initial_guess(cases, in, asker.truth(in, authority.initial_guess), cut, out, tally);
+}
+
 void ask_force(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
   const auto put = [&](const auto& in, const auto& truth, const auto& answer) { judge_force(cases, asker.truth(in, truth), asker.answer(in, answer), tally); };
   switch (stage) {
-    case Stage::membrane: return put(force_question(cases, &MembraneIn::cases), authority.membrane, contestant.membrane);
-    default: return put(force_question(cases, &BendingIn::cases), authority.bending, contestant.bending);
+    case Stage::contact_force: return put(case_question(cases, &ContactForceIn::cases), authority.contact_force, contestant.contact_force);
+    case Stage::friction_force: return put(case_question(cases, &FrictionForceIn::cases), authority.friction_force, contestant.friction_force);
+    case Stage::membrane: return put(case_question(cases, &MembraneIn::cases), authority.membrane, contestant.membrane);
+    default: return put(case_question(cases, &BendingIn::cases), authority.bending, contestant.bending);
   }
 }
 
@@ -130,6 +184,8 @@ void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority
   } else if (stage == Stage::closest_points) {
     const ClosestPointsIn in = points_question(cases);
     judge_closest_points(cases, in, asker.truth(in, authority.closest_points), asker.answer(in, contestant.closest_points), tally);
+  } else if (stage == Stage::initial_guess) {
+    ask_guess(cases, contestant, authority, asker, tally);
   } else if (stage == Stage::activation) {
     const ActivationIn in = activation_question(cases);
     judge_activation(cases, asker.truth(in, authority.activation), asker.answer(in, contestant.activation), tally);

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "compare/judge/stage.hpp"
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/scene.hpp"
 #include "compare/stages/bending.hpp"
+#include "compare/stages/block.hpp"
+#include "compare/stages/friction_force.hpp"
+#include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
 
 namespace ogc::compare {
@@ -51,6 +54,33 @@ struct BoundCase {
   float bound_relaxation = 0.45f;
 };
 
+/// A mesh and what is asked about it.
+struct BlockCase {
+  std::shared_ptr<const Topology> topology;
+  std::vector<Vec3f> positions;
+  std::vector<BlockQuestion> questions;
+};
+
+struct RestStateCase {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Topology> topology;
+};
+
+/// A scene that takes one step.
+struct StepCase {
+  std::shared_ptr<const Scene> scene;  ///< rounded
+  std::shared_ptr<const Topology> topology;
+};
+
+/// Where a sweep finds a scene; contacts and bounds follow from X_prev (compare/judge/sweep_question.hpp).
+struct SweepCase {
+  std::shared_ptr<const Scene> scene;               ///< rounded
+  std::vector<Index> colour;                        ///< as in SweepIn
+  std::vector<Vec3f> old, start, target, previous;  ///< x (what is beyond the bound is brought back), xᵗ, y, X_prev [m]
+  std::vector<float> largest_bound;                 ///< [m]; b_v is the smaller one of it and the bound of the detection
+  float query_radius = 0;                           ///< r_q [m]
+};
+
 struct ActivationCase {
   float distance = 0, contact_radius = 0, stiffness = 0;
 };
@@ -60,7 +90,8 @@ struct TruncateCase {
   float bound = 0;
 };
 
-using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase, MembraneCase, BendingCase>;
+using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase, MembraneCase, BendingCase, RestStateCase,
+                              BlockCase, InitialGuessCase, ContactForceCase, FrictionForceCase, SweepCase, StepCase>;
 
 struct TestCase {
   CaseName name;

@@ -4,25 +4,16 @@
 #include <fstream>
 
 #include "compare/judge/corpus_forces.hpp"
+#include "compare/judge/corpus_rest.hpp"
+#include "compare/judge/corpus_scenes.hpp"
 #include "compare/judge/numbers_json.hpp"
+#include "compare/judge/topology_json.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
 
 namespace ogc::compare {
 
 namespace {
-
-Json topology_to_json(const Topology& topology) {
-  Json loose = Json::array();
-  for (std::size_t e = 0; e < topology.edges.size(); ++e)
-    if (topology.edge_triangles[e].empty()) loose.push_back(topology.edges[e]);
-  return {{"vertex_count", topology.vertex_count}, {"triangles", topology.triangles}, {"loose_edges", loose}};
-}
-
-std::shared_ptr<const Topology> to_topology(const Json& json) {
-  const auto triangles = json.at("triangles").get<std::vector<Triangle>>();
-  const auto loose = json.at("loose_edges").get<std::vector<Edge>>();
-  return std::make_shared<Topology>(build_topology(json.at("vertex_count").get<Index>(), triangles, loose));
-}
 
 struct ToJson {
   Json operator()(const ClosestFaceCase& c) const { return {{"point", to_json(c.point)}, {"triangle", points_to_json(c.triangle)}}; }
@@ -41,6 +32,11 @@ struct ToJson {
   Json operator()(const TruncateCase& c) const {
     return {{"previous", to_json(c.previous)}, {"position", to_json(c.position)}, {"bound", hexadecimal(c.bound)}};
   }
+  Json operator()(const SweepCase& c) const { return sweep_case_to_json(c); }
+  Json operator()(const StepCase& c) const { return {{"scene", scene_to_json(*c.scene)}}; }
+  Json operator()(const RestStateCase& c) const { return case_to_json(c); }
+  Json operator()(const BlockCase& c) const { return case_to_json(c); }
+  Json operator()(const InitialGuessCase& c) const { return case_to_json(c); }
   template <class ForceCase>
   Json operator()(const ForceCase& c) const {
     return force_case_to_json(c);
@@ -65,11 +61,23 @@ BoundCase to_bound_case(const Json& data) {
   return c;
 }
 
+StepCase to_step_case(const Json& data) {
+  Scene scene = to_scene(data.at("scene"));
+  if (const auto problems = validate(scene); !problems.empty()) throw InputError(describe(problems));
+  auto topology = std::make_shared<Topology>(build_topology(scene));
+  return {std::make_shared<Scene>(std::move(scene)), std::move(topology)};
+}
+
 CaseData to_data(Stage stage, const Json& data) {
   switch (stage) {
     case Stage::closest_face: return ClosestFaceCase{to_point(data.at("point")), to_points<3>(data.at("triangle"))};
     case Stage::closest_points: return ClosestPointsCase{to_points<2>(data.at("first")), to_points<2>(data.at("second"))};
+    case Stage::rest_state: return to_rest_state_case(data);
+    case Stage::block: return to_block_case(data);
+    case Stage::initial_guess: return to_initial_guess_case(data);
     case Stage::bound: return to_bound_case(data);
+    case Stage::sweep: return to_sweep_case(data);
+    case Stage::step: return to_step_case(data);
     case Stage::activation: return ActivationCase{number(data.at("distance")), number(data.at("contact_radius")), number(data.at("stiffness"))};
     case Stage::truncate: return TruncateCase{to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
     case Stage::detect_vertex_facet:
@@ -103,6 +111,13 @@ struct ToObj {
     for (std::size_t e = 0; e < c.topology->edges.size(); ++e)
       if (c.topology->edge_triangles[e].empty())
         text += "l " + std::to_string(c.topology->edges[e][0] + 1) + " " + std::to_string(c.topology->edges[e][1] + 1) + "\n";
+  }
+  void operator()(const SweepCase& c) { scene(*c.scene, c.previous); }
+  void operator()(const StepCase& c) { scene(*c.scene, to_single(c.scene->mesh.positions)); }
+  void scene(const Scene& scene, const std::vector<Vec3f>& positions) {
+    for (const Vec3f& p : positions) point(p);
+    for (const Triangle& t : scene.mesh.triangles)
+      text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
   }
   template <class Other>
   void operator()(const Other&) {}

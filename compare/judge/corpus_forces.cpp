@@ -1,6 +1,7 @@
 // Each case names its members once, for both ways.
 #include "compare/judge/corpus_forces.hpp"
 
+#include <algorithm>
 #include <concepts>
 
 namespace ogc::compare {
@@ -31,10 +32,34 @@ void visit_members(Case& c, Visit visit) {
   visit("own", c.own);
 }
 
+constexpr std::array<const char*, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
+
+template <class Case, class Visit>
+  requires std::same_as<std::remove_const_t<Case>, ContactForceCase>
+void visit_members(Case& c, Visit visit) {
+  visit("sides", c.sides);
+  visit("own", c.own);
+  visit("vertex", c.vertex);
+  visit("detected", c.detected);
+  visit("rest_squared", c.rest_squared);
+  visit("contact_radius", c.contact_radius);
+  visit("stiffness", c.stiffness);
+}
+
+template <class Case, class Visit>
+  requires std::same_as<std::remove_const_t<Case>, FrictionForceCase>
+void visit_members(Case& c, Visit visit) {
+  visit_members(c.contact, visit);
+  visit("start", c.start);
+  visit("friction", c.friction);
+  visit("slip_limit", c.slip_limit);
+}
+
 struct Writer {
   Json json;
   void operator()(const char* name, float x) { json[name] = hexadecimal(x); }
   void operator()(const char* name, std::int32_t x) { json[name] = x; }
+  void operator()(const char* name, ContactSides x) { json[name] = side_names[static_cast<std::size_t>(x)]; }
   template <std::size_t n>
   void operator()(const char* name, const std::array<Vec3f, n>& points) {
     json[name] = points_to_json(points);
@@ -51,6 +76,12 @@ struct Reader {
   void operator()(const char* name, std::int32_t& x) const {
     x = json.at(name).get<std::int32_t>();
     if (x < 0 || x > 3) throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
+  }
+  void operator()(const char* name, ContactSides& x) const {
+    const std::string text = json.at(name).get<std::string>();
+    const auto at = std::find(side_names.begin(), side_names.end(), text);
+    if (at == side_names.end()) throw InputError(std::string(name) + ": '" + text + "' is unknown; use point_point, point_edge, edge_edge or point_triangle");
+    x = static_cast<ContactSides>(at - side_names.begin());
   }
   template <std::size_t n>
   void operator()(const char* name, std::array<Vec3f, n>& points) const {
@@ -77,13 +108,29 @@ Case read(const Json& data) {
   return c;
 }
 
+void check_own(const ContactForceCase& c) {
+  if (c.own >= vertex_count(c.sides)) throw InputError("own: " + std::to_string(c.own) + " is not a vertex of these sides");
+}
+ContactForceCase checked(ContactForceCase c) {
+  check_own(c);
+  return c;
+}
+FrictionForceCase checked(FrictionForceCase c) {
+  check_own(c.contact);
+  return c;
+}
+
 }  // namespace
 
 Json force_case_to_json(const MembraneCase& c) { return written(c); }
 Json force_case_to_json(const BendingCase& c) { return written(c); }
+Json force_case_to_json(const ContactForceCase& c) { return written(c); }
+Json force_case_to_json(const FrictionForceCase& c) { return written(c); }
 
 CaseData to_force_case(Stage stage, const Json& data) {
   switch (stage) {
+    case Stage::contact_force: return checked(read<ContactForceCase>(data));
+    case Stage::friction_force: return checked(read<FrictionForceCase>(data));
     case Stage::membrane: return read<MembraneCase>(data);
     default: return read<BendingCase>(data);
   }

@@ -2,8 +2,11 @@
 // whether a stored position obeys its bound, so that no contestant's arithmetic is trusted for it.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include "compare/problem/vector.hpp"
 
 namespace ogc::compare {
 
@@ -33,5 +36,17 @@ class ExactSum {
  private:
   std::vector<double> parts_;
 };
+
+/// ‖x − p‖ ≤ b, exactly: x² − 2xp + p² by coordinate, products of two floats being exact in double. All must be finite.
+inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
+  ExactSum margin;
+  for (const auto [a, c] : {std::array{x.x, p.x}, std::array{x.y, p.y}, std::array{x.z, p.z}}) {
+    margin.add(double{a} * a);
+    margin.add(-2 * (double{a} * c));
+    margin.add(double{c} * c);
+  }
+  margin.add(-(double{b} * b));
+  return margin.sign() <= 0;
+}
 
 }  // namespace ogc::compare

@@ -95,7 +95,20 @@ CaseData membrane_sign(Random& random) {
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, 0, yy); });
 }
 
-constexpr std::array<Generator, 5> membrane_table{{{"uniform", 40, true, membrane_uniform},
+/// As a sweep asks: the vertex is corner 1 or 2 of the rest triangle, so that no component of a gradient is always 0.
+CaseData membrane_corner(Random& random) {
+  MembraneCase question = std::get<MembraneCase>(membrane_uniform(random));
+  for (int shifts = 1 + random.below(2); shifts > 0; --shifts) {
+    const auto [b, c] = question.gradient;
+    question.gradient = {c, {-b[0] - c[0], -b[1] - c[1]}};
+    std::rotate(question.corner.begin(), question.corner.begin() + 1, question.corner.end());
+    std::rotate(question.start.begin(), question.start.begin() + 1, question.start.end());
+  }
+  return question;
+}
+
+constexpr std::array<Generator, 6> membrane_table{{{"uniform", 40, true, membrane_uniform},
+                                                   {"corner", 20, true, membrane_corner},
                                                    {"lattice", 15, false, membrane_lattice},
                                                    {"ladder.rest", 20, false, membrane_rest},
                                                    {"ladder.collapse", 10, false, membrane_collapse},

@@ -7,8 +7,8 @@ namespace ogc::compare {
 
 namespace {
 
-// Detection decides within r alone. The pair stages decide wherever they are asked, and in a regular sheet every vertex lies on the planes of its
-// neighbours: there grey decisions say nothing of the kernel or of the state.
+// Detection decides within r alone. The pair stages and block decide wherever they are asked, and in a regular sheet every vertex lies on the planes of
+// its neighbours: there grey decisions say nothing of the kernel or of the state.
 constexpr Generator real_states{"states", 50, true, nullptr}, pairs_of_real_states{"states", 50, false, nullptr};
 
 }  // namespace
@@ -17,17 +17,24 @@ std::span<const Generator> generators(Stage stage) {
   switch (stage) {
     case Stage::closest_face: return closest_face_generators();
     case Stage::closest_points: return closest_points_generators();
+    case Stage::rest_state: return rest_state_generators();
+    case Stage::block: return block_generators();
+    case Stage::initial_guess: return initial_guess_generators();
     case Stage::bound: return bound_generators();
     case Stage::activation: return activation_generators();
     case Stage::truncate: return truncate_generators();
+    case Stage::contact_force: return contact_force_generators();
+    case Stage::friction_force: return friction_force_generators();
     case Stage::membrane: return membrane_generators();
     case Stage::bending: return bending_generators();
+    case Stage::sweep: return sweep_generators();
+    case Stage::step: return step_generators();
     default: return detect_generators();
   }
 }
 
 const Generator& find_generator(Stage stage, std::string_view name) {
-  if (name == real_states.name) return is_mesh_stage(stage) ? real_states : pairs_of_real_states;
+  if (name == real_states.name) return is_mesh_stage(stage) && stage != Stage::block ? real_states : pairs_of_real_states;
   std::string known;
   for (const Generator& generator : generators(stage)) {
     if (generator.name == name) return generator;

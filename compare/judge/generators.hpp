@@ -40,7 +40,14 @@ std::span<const Generator> detect_generators();
 std::span<const Generator> bound_generators();
 std::span<const Generator> activation_generators();
 std::span<const Generator> truncate_generators();
+std::span<const Generator> contact_force_generators();
+std::span<const Generator> friction_force_generators();
 std::span<const Generator> membrane_generators();
 std::span<const Generator> bending_generators();
+std::span<const Generator> sweep_generators();
+std::span<const Generator> step_generators();
+std::span<const Generator> rest_state_generators();
+std::span<const Generator> block_generators();
+std::span<const Generator> initial_guess_generators();
 
 }  // namespace ogc::compare

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "compare/judge/ask.hpp"
+#include "compare/judge/narrow.hpp"
 #include "compare/judge/states.hpp"
 
 namespace ogc::compare {
@@ -57,7 +58,7 @@ class GeneratorRun {
       }
       try {
         Tally tally(stage_);
-        ask(stage_, batch(number), contestant_, authority_, contestant_turn_, tally);
+        ask_narrowing(stage_, batch(number), contestant_, authority_, contestant_turn_, failures_allowed, tally);
         merge(number, std::move(tally));
       } catch (...) {
         const std::lock_guard lock(mutex_);
@@ -75,7 +76,7 @@ class GeneratorRun {
       waiting_.erase(it);
       ++merged_count_;
       // Batches of a family of empty meshes would never count a case.
-      stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_;
+      stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_ || merged_.failures >= failures_allowed;
     }
     if (options_.progress) options_.progress(cases_before_ + merged_.total().cases, mismatches_before_ + merged_.mismatched);
   }
@@ -114,10 +115,20 @@ bool can_judge(Stage stage, const Contestant& contestant, const Authority& autho
     case Stage::closest_points: return contestant.closest_points && authority.closest_points;
     case Stage::detect_vertex_facet: return contestant.detect_vertex_facet && authority.detect_vertex_facet;
     case Stage::detect_edge_edge: return contestant.detect_edge_edge && authority.detect_edge_edge;
+    case Stage::rest_state: return contestant.rest_state && authority.rest_state;
+    case Stage::block: return contestant.block && authority.block;
+    case Stage::initial_guess: return contestant.initial_guess && authority.initial_guess && authority.truncate;
     case Stage::bound: return contestant.bound && authority.bound;
     case Stage::activation: return contestant.activation && authority.activation;
+    case Stage::contact_force: return contestant.contact_force && authority.contact_force;
+    case Stage::friction_force: return contestant.friction_force && authority.friction_force;
     case Stage::membrane: return contestant.membrane && authority.membrane;
     case Stage::bending: return contestant.bending && authority.bending;
+    case Stage::step:
+      return contestant.step && authority.step && authority.rest_state && authority.detect_vertex_facet && authority.detect_edge_edge && authority.bound &&
+             authority.initial_guess && authority.truncate && authority.sweep;
+    case Stage::sweep:
+      return contestant.sweep && authority.sweep && authority.rest_state && authority.detect_vertex_facet && authority.detect_edge_edge && authority.bound;
     default: return contestant.truncate && authority.truncate;
   }
 }
@@ -136,6 +147,7 @@ StageReport judge_stage(Stage stage, const Contestant& contestant, const Authori
     const auto cases = static_cast<std::uint64_t>(std::ceil(static_cast<double>(options.cases) * row.share / shares));
     GeneratorRun run(stage, row.name, cases, contestant, authority, options);
     report.tally.add(run.run(report.tally.total().cases, report.tally.mismatched));
+    if (report.tally.failures >= failures_allowed) break;
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
@@ -151,7 +163,7 @@ std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Cont
     StageReport report{Tally(stage)};
     const auto start = std::chrono::steady_clock::now();
     report.skipped = !can_judge(stage, contestant, authority);
-    if (!report.skipped) ask(stage, mine, contestant, authority, turn, report.tally);
+    if (!report.skipped) ask_narrowing(stage, mine, contestant, authority, turn, failures_allowed, report.tally);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     reports.push_back(std::move(report));
   }

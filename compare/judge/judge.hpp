@@ -35,7 +35,11 @@ struct StageReport {
 /// Whether both have the stage.
 bool can_judge(Stage stage, const Contestant& contestant, const Authority& authority);
 
-/// Judges generated cases of one stage. The report depends on cases, seed, batch and generators, not on threads. What a contestant throws is passed on.
+/// A stage ends after so many failures of the contestant (ContestantFailure), with the cases judged so far.
+inline constexpr std::uint64_t failures_allowed = 3;
+
+/// Judges generated cases of one stage. The report depends on cases, seed, batch and generators, not on threads. A ContestantFailure becomes a mismatch of
+/// the case that provokes it; what else a contestant throws is passed on.
 StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority, const JudgeOptions& options);
 
 /// Judges given cases (a batch file, a replay), grouped by stage in the order of `all_stages`.

@@ -39,7 +39,7 @@ std::vector<Row> stage_rows(const StageReport& report) {
   const Tally& tally = report.tally;
   std::vector<Row> rows;
   const auto infos = metrics(tally.stage);
-  for (std::size_t i = 0; i < infos.size(); ++i) {
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, infos.size()); ++i) {
     Row row;
     if (i == 0) {
       row[0] = stage_name(tally.stage);
@@ -48,6 +48,7 @@ std::vector<Row> stage_rows(const StageReport& report) {
       row[3] = print("%.2g", tally.grey_share());
       row[9] = print("%.3g", speed(report));
     }
+    if (infos.empty()) return {row};  // all answers are discrete
     const Histogram& errors = tally.metrics[i].errors;
     row[4] = std::string(infos[i].name) + " [" + std::string(infos[i].unit) + "]";
     row[5] = print("%.3g", errors.quantile(0.5));
@@ -86,6 +87,7 @@ Json report_json(const StageReport& report) {
             {"grey_share_generic", tally.grey_share()}, {"seconds", report.seconds},   {"cases_per_second", speed(report)},
             {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
   const auto infos = metrics(tally.stage);
+  json["metrics"] = Json::array();
   for (std::size_t i = 0; i < infos.size(); ++i) {
     const MetricTally& metric = tally.metrics[i];
     json["metrics"].push_back({{"name", infos[i].name}, {"unit", infos[i].unit}, {"tolerance", infos[i].tolerance}, {"median", metric.errors.quantile(0.5)},

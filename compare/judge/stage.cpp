@@ -4,8 +4,9 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr std::array<std::string_view, all_stages.size()> names{"closest_face", "closest_points", "detect_vertex_facet", "detect_edge_edge", "bound",
-                                                                "activation",   "truncate",       "membrane",            "bending"};
+constexpr std::array<std::string_view, all_stages.size()> names{
+    "rest_state", "closest_face", "closest_points", "block", "detect_vertex_facet", "detect_edge_edge", "bound", "initial_guess",
+    "activation", "contact_force", "friction_force", "membrane", "bending", "sweep", "truncate", "step"};
 
 }  // namespace
 
@@ -17,8 +18,19 @@ std::optional<Stage> find_stage(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_mesh_stage(Stage stage) { return stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge || stage == Stage::bound; }
+bool is_mesh_stage(Stage stage) {
+  switch (stage) {
+    case Stage::rest_state:
+    case Stage::block:
+    case Stage::detect_vertex_facet:
+    case Stage::detect_edge_edge:
+    case Stage::bound:
+    case Stage::sweep:
+    case Stage::step: return true;
+    default: return false;
+  }
+}
 
-bool is_force_stage(Stage stage) { return stage == Stage::membrane || stage == Stage::bending; }
+bool is_force_stage(Stage stage) { return stage == Stage::contact_force || stage == Stage::friction_force || stage == Stage::membrane || stage == Stage::bending; }
 
 }  // namespace ogc::compare

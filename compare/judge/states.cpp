@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "compare/judge/block_questions.hpp"
+#include "compare/judge/colours.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 
@@ -11,6 +14,7 @@ namespace ogc::compare {
 namespace {
 
 constexpr std::size_t largest_count = 16;
+constexpr int questions = 256;  // of stage block about one frame
 
 double mean_edge_length(const Topology& topology, const std::vector<Vec3f>& positions) {
   double total = 0;
@@ -27,6 +31,9 @@ States::States(const std::filesystem::path& folder) : folder_(folder.string()) {
   const RunReader run(folder);
   if (run.frame_count() == 0) throw InputError(folder_ + ": the run holds no frame yet; give a run that has stored at least one");
   const Scene& scene = run.scene();
+  auto rounded = std::make_shared<Scene>(scene);
+  round_to_single(*rounded);
+  scene_ = std::move(rounded);
   topology_ = std::make_shared<Topology>(build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges));
   if (topology_->edges.empty()) throw InputError(folder_ + ": the run's mesh has no edge; give a run of a mesh");
   groups_ = rigid_groups(scene);
@@ -37,7 +44,7 @@ States::States(const std::filesystem::path& folder) : folder_(folder.string()) {
   for (std::size_t i = 0; i < count; ++i) {
     Frame frame = run.frame(count == 1 ? 0 : i * (run.frame_count() - 1) / (count - 1));
     if (i == 0) cell_size_ = mean_edge_length(*topology_, frame.positions);
-    State state{std::move(frame.positions), std::move(frame.bounds), {}};
+    State state{std::move(frame.positions), std::move(frame.bounds), std::move(frame.velocities), frame.step, {}};
     for (std::size_t v = 0; v < state.positions.size(); ++v) state.cells.emplace_back(cell(state.positions[v]), static_cast<Index>(v));
     std::sort(state.cells.begin(), state.cells.end());
     states_.push_back(std::move(state));
@@ -66,15 +73,15 @@ Index States::neighbour(const State& state, Index v, Random& random) const {
   return v;
 }
 
-CaseData States::vertex_triangle(const State& state, Random& random) const {
+std::array<Index, 4> States::vertex_and_triangle(const State& state, Random& random) const {
   const Index v = random.below(topology_->vertex_count);
   const auto candidates = topology_->vertex_triangles[static_cast<std::size_t>(neighbour(state, v, random))];
   const auto any = static_cast<Index>(random.bits() % topology_->triangles.size());
   const Triangle t = topology_->triangles[candidates.empty() ? any : random.pick(candidates)];
-  return ClosestFaceCase{state.positions[v], {state.positions[t[0]], state.positions[t[1]], state.positions[t[2]]}};
+  return {v, t[0], t[1], t[2]};
 }
 
-CaseData States::edge_edge(const State& state, Random& random) const {
+std::array<Index, 4> States::pair_of_edges(const State& state, Random& random) const {
   const Index v = random.below(topology_->vertex_count);
   const auto edge_of = [&](Index vertex) {
     const auto candidates = topology_->vertex_edges[static_cast<std::size_t>(vertex)];
@@ -82,7 +89,44 @@ CaseData States::edge_edge(const State& state, Random& random) const {
   };
   const Index a = edge_of(v), b = edge_of(neighbour(state, v, random));
   const Edge e = topology_->edges[std::min(a, b)], f = topology_->edges[std::max(a, b)];
-  return ClosestPointsCase{{state.positions[e[0]], state.positions[e[1]]}, {state.positions[f[0]], state.positions[f[1]]}};
+  return {e[0], e[1], f[0], f[1]};
+}
+
+CaseData States::vertex_triangle(const State& state, Random& random) const {
+  const auto [v, a, b, c] = vertex_and_triangle(state, random);
+  return ClosestFaceCase{state.positions[v], {state.positions[a], state.positions[b], state.positions[c]}};
+}
+
+CaseData States::edge_edge(const State& state, Random& random) const {
+  const auto [a, b, c, d] = pair_of_edges(state, random);
+  return ClosestPointsCase{{state.positions[a], state.positions[b]}, {state.positions[c], state.positions[d]}};
+}
+
+FrictionForceCase States::contact(const State& state, Random& random) const {
+  FrictionForceCase c;
+  const bool edges = topology_->triangles.empty() || random.one_in(2);
+  const std::array<Index, 4> vertices = edges ? pair_of_edges(state, random) : vertex_and_triangle(state, random);
+  c.contact.sides = edges ? ContactSides::edge_edge : ContactSides::point_triangle;
+  c.contact.own = random.below(4);
+  const double h = scene_->settings.time_step;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3f &x = state.positions[vertices[k]], &v = state.velocities[vertices[k]];
+    c.contact.vertex[k] = {static_cast<float>(x.x + h * v.x), static_cast<float>(x.y + h * v.y), static_cast<float>(x.z + h * v.z)};
+    c.contact.detected[k] = c.start[k] = x;
+  }
+  if (edges && !topology_->triangles.empty()) {
+    const auto squared = [&](Index a, Index b) {
+      const Vec3 &p = scene_->rest_positions[a], &q = scene_->rest_positions[b];
+      return static_cast<float>((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
+    };
+    c.contact.rest_squared = {squared(vertices[0], vertices[1]), squared(vertices[2], vertices[3])};
+  }
+  const Material& material = scene_->bodies.front().material;
+  c.contact.contact_radius = contact_radius_;
+  c.contact.stiffness = static_cast<float>(material.contact_stiffness);
+  c.friction = static_cast<float>(material.friction);
+  c.slip_limit = static_cast<float>(scene_->settings.friction_velocity * h);
+  return c;
 }
 
 CaseData States::moved_vertex(std::size_t frame, Random& random) const {
@@ -90,6 +134,13 @@ CaseData States::moved_vertex(std::size_t frame, Random& random) const {
   const Index v = random.below(topology_->vertex_count);
   const float bound = before.bounds.empty() ? contact_radius_ : before.bounds[v];
   return TruncateCase{before.positions[v], after.positions[v], bound};
+}
+
+CaseData States::guessed_vertex(const State& state, Random& random) const {
+  const Index v = random.below(topology_->vertex_count);
+  const float bound = state.bounds.empty() ? contact_radius_ : state.bounds[v];
+  return InitialGuessCase{state.positions[v], state.velocities[v], to_single({scene_->gravity})[0], static_cast<float>(scene_->settings.time_step),
+                          state.positions[v], bound, random.one_in(8)};
 }
 
 CaseData States::bound(Random& random) const {
@@ -103,6 +154,43 @@ CaseData States::bound(Random& random) const {
   return c;
 }
 
+CaseData States::sweep(const State& state, Random& random) const {
+  SweepCase c;
+  c.scene = scene_;
+  c.colour = random_colours(random, *scene_, *topology_);
+  c.previous = c.start = c.target = state.positions;
+  const double h = scene_->settings.time_step;
+  const auto ahead = [h](double x, double v, double a) { return static_cast<float>(x + h * (v + h * a)); };
+  for (std::size_t v = 0; v < c.target.size(); ++v) {
+    if (groups_[v] >= 0) continue;
+    const Vec3f &x = state.positions[v], &speed = state.velocities[v];
+    const Vec3& a = scene_->gravity;
+    c.target[v] = {ahead(x.x, speed.x, a.x), ahead(x.y, speed.y, a.y), ahead(x.z, speed.z, a.z)};
+  }
+  for (const PrescribedMotion& motion : scene_->motions) {
+    const std::vector<Vec3f> targets = prescribed_targets(*scene_, motion, static_cast<double>(state.step + 1) * h);
+    for (std::size_t i = 0; i < targets.size(); ++i) c.target[static_cast<std::size_t>(motion.vertices[i])] = targets[i];
+  }
+  c.old = c.target;
+  c.largest_bound.assign(c.previous.size(), std::numeric_limits<float>::max());
+  c.query_radius = static_cast<float>(contact_radius_ * random.between(1, std::max(1.0f, query_radius_cap_)));
+  return c;
+}
+
+CaseData States::step(const State& state) const {
+  auto scene = std::make_shared<Scene>(*scene_);
+  scene->mesh.positions = to_double(state.positions);
+  scene->velocities = to_double(state.velocities);
+  const double now = static_cast<double>(state.step) * scene->settings.time_step;
+  for (PrescribedMotion& motion : scene->motions) {
+    const double elapsed = std::clamp(now, motion.start, motion.end) - motion.start;
+    motion.centre = {motion.centre.x + elapsed * motion.velocity.x, motion.centre.y + elapsed * motion.velocity.y, motion.centre.z + elapsed * motion.velocity.z};
+    motion.start = std::max(0.0, motion.start - now);
+    motion.end = std::max(0.0, motion.end - now);
+  }
+  return StepCase{std::move(scene), topology_};
+}
+
 CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
   if (!has(stage)) throw InputError(folder_ + ": the run has no states for the stage " + std::string(stage_name(stage)) + "; use its generators");
   const std::size_t frame = index % states_.size();
@@ -110,8 +198,15 @@ CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
   switch (stage) {
     case Stage::closest_face: return vertex_triangle(state, random);
     case Stage::closest_points: return edge_edge(state, random);
+    case Stage::contact_force: return contact(state, random).contact;
+    case Stage::friction_force: return contact(state, random);
     case Stage::truncate: return moved_vertex(frame, random);
+    case Stage::rest_state: return RestStateCase{scene_, topology_};
+    case Stage::initial_guess: return guessed_vertex(state, random);
+    case Stage::block: return BlockCase{topology_, state.positions, block_questions(random, *topology_, state.positions, questions)};
     case Stage::bound: return bound(random);
+    case Stage::sweep: return sweep(state, random);
+    case Stage::step: return step(state);
     default: break;
   }
   const float factor = random.one_in(4) ? 1 : static_cast<float>(random.between(1, std::max(1.0f, query_radius_cap_)));

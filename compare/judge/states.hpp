@@ -1,6 +1,7 @@
 // Cases from real states: the frames of a run folder, whole for detection, or pairs of neighbours drawn from them for the pair stages.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -15,8 +16,11 @@ class States {
  public:
   /// Throws InputError where the folder is no run or holds no frame.
   explicit States(const std::filesystem::path& folder);
-  /// Whether the run has cases for the stage: activation has no state, closest_face needs triangles.
-  bool has(Stage stage) const { return stage != Stage::activation && (stage != Stage::closest_face || !topology_->triangles.empty()); }
+  /// Whether the run has cases for the stage: activation, membrane and bending have no state, closest_face needs triangles.
+  bool has(Stage stage) const {
+    if (stage == Stage::activation || stage == Stage::membrane || stage == Stage::bending) return false;
+    return stage != Stage::closest_face || !topology_->triangles.empty();
+  }
   /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError where `has` says no.
   CaseData make(Stage stage, std::uint64_t index, Random& random) const;
   const std::string& folder() const { return folder_; }
@@ -26,17 +30,30 @@ class States {
   struct State {
     std::vector<Vec3f> positions;
     std::vector<float> bounds;
+    std::vector<Vec3f> velocities;
+    std::int64_t step = 0;
     std::vector<std::pair<std::uint64_t, Index>> cells;
   };
   std::uint64_t cell(const Vec3f& position) const;
   /// A vertex in the same cell or one of its neighbours; v itself where there is no other.
   Index neighbour(const State& state, Index v, Random& random) const;
+  /// A vertex and the corners of a triangle near it; the ends of two edges near each other, the lower-numbered first.
+  std::array<Index, 4> vertex_and_triangle(const State& state, Random& random) const;
+  std::array<Index, 4> pair_of_edges(const State& state, Random& random) const;
   CaseData vertex_triangle(const State& state, Random& random) const;
   CaseData edge_edge(const State& state, Random& random) const;
+  /// Of either kind of pair, found at the frame, after a step at the frame's velocities.
+  FrictionForceCase contact(const State& state, Random& random) const;
   CaseData moved_vertex(std::size_t frame, Random& random) const;
+  CaseData guessed_vertex(const State& state, Random& random) const;
   CaseData bound(Random& random) const;
+  /// The first sweep of the step that follows the frame.
+  CaseData sweep(const State& state, Random& random) const;
+  /// The step that follows the frame; motions go on from where they are.
+  CaseData step(const State& state) const;
 
   std::string folder_;
+  std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const Topology> topology_;
   std::vector<Index> groups_;
   float contact_radius_ = 0, query_radius_cap_ = 1, bound_relaxation_ = 0.45f;

@@ -41,8 +41,24 @@ constexpr std::array<MetricInfo, 1> bound_metrics{{{"bound", "u b", bound_below_
 constexpr std::array<MetricInfo, 3> activation_metrics{
     {{"energy", "u scale", activation_tolerance}, {"slope", "u scale", activation_tolerance}, {"curvature", "u scale", activation_tolerance}}};
 constexpr std::array<MetricInfo, 1> truncate_metrics{{{"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
+constexpr std::array<MetricInfo, 2> contact_metrics{{{"force", "u cond", contact_force_tolerance}, {"block", "u cond", contact_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> friction_metrics{{{"force", "u cond", friction_force_tolerance}, {"block", "u cond", friction_block_tolerance}}};
 constexpr std::array<MetricInfo, 2> membrane_metrics{{{"force", "u cond", membrane_force_tolerance}, {"block", "u cond", membrane_block_tolerance}}};
+constexpr std::array<MetricInfo, 3> step_metrics{{{"query_radius", "u r_q", step_query_radius_tolerance},
+                                                  {"target", "u scale", initial_guess_target_tolerance},
+                                                  {"velocity", "u |x − xᵗ|/h", step_velocity_tolerance}}};
+constexpr std::array<MetricInfo, 1> sweep_metrics{{{"position", "accepted error", 1}}};
 constexpr std::array<MetricInfo, 2> bending_metrics{{{"force", "u cond", bending_force_tolerance}, {"block", "u cond", bending_block_tolerance}}};
+
+constexpr std::array<MetricInfo, 7> rest_state_metrics{{{"mass", "u cond", rest_state_tolerance},
+                                                        {"area", "u cond", rest_state_tolerance},
+                                                        {"gradient", "u cond", rest_state_tolerance},
+                                                        {"edge_length_squared", "u cond", rest_state_tolerance},
+                                                        {"rest_angle", "u cond", rest_state_angle_tolerance},
+                                                        {"stiffness", "u cond", rest_state_tolerance},
+                                                        {"meeting", "u value", rest_state_tolerance}}};
+constexpr std::array<MetricInfo, 2> initial_guess_metrics{{{"target", "u scale", initial_guess_target_tolerance},
+                                                           {"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
 
 }  // namespace
 
@@ -77,10 +93,17 @@ std::span<const MetricInfo> metrics(Stage stage) {
     case Stage::closest_points: return points_metrics;
     case Stage::detect_vertex_facet: return facet_metrics;
     case Stage::detect_edge_edge: return edge_metrics;
+    case Stage::rest_state: return rest_state_metrics;
+    case Stage::block: return {};
+    case Stage::initial_guess: return initial_guess_metrics;
     case Stage::bound: return bound_metrics;
     case Stage::activation: return activation_metrics;
+    case Stage::contact_force: return contact_metrics;
+    case Stage::friction_force: return friction_metrics;
     case Stage::membrane: return membrane_metrics;
     case Stage::bending: return bending_metrics;
+    case Stage::sweep: return sweep_metrics;
+    case Stage::step: return step_metrics;
     default: return truncate_metrics;
   }
 }
@@ -128,6 +151,7 @@ void Tally::add(const Tally& other) {
     if (++kept[item.name.generator] <= listed) mismatches.push_back(item);
   for (const auto& [name, row] : other.generators) accumulate(generators[name], row);
   mismatched += other.mismatched;
+  failures += other.failures;
   contestant_seconds += other.contestant_seconds;
   authority_seconds += other.authority_seconds;
 }

@@ -35,7 +35,7 @@ struct MetricInfo {
   double tolerance;
 };
 
-/// The metrics of a stage; their positions are the numbers that Tally::error takes.
+/// The metrics of a stage, none where all its answers are discrete; their positions are the numbers that Tally::error takes.
 std::span<const MetricInfo> metrics(Stage stage);
 
 struct MetricTally {
@@ -53,7 +53,8 @@ struct GeneratorTally {
   std::uint64_t cases = 0, decisions = 0, grey = 0, mismatches = 0;
 };
 
-/// Counts of one stage. A case of a mesh stage is one vertex (bound, detect_vertex_facet) or edge (detect_edge_edge).
+/// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge (detect_edge_edge) or question (block),
+/// of step one vertex at one event.
 class Tally {
  public:
   explicit Tally(Stage stage);
@@ -70,6 +71,7 @@ class Tally {
   std::map<std::string, GeneratorTally> generators;
   std::vector<Mismatch> mismatches;       ///< the first of each generator, at most `listed`
   std::uint64_t mismatched = 0;           ///< all of them
+  std::uint64_t failures = 0;             ///< of them, cases to which the contestant gave no answer (ContestantFailure)
   double contestant_seconds = 0, authority_seconds = 0;
   static constexpr std::uint64_t listed = 20;
 

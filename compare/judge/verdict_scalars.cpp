@@ -1,7 +1,7 @@
-// Verdicts of activation and truncate.
+// Verdicts of activation, truncate and initial_guess.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "compare/judge/exact_sum.hpp"
 #include "compare/judge/units.hpp"
@@ -11,26 +11,16 @@ namespace ogc::compare {
 
 namespace {
 
-/// ‖x − p‖ ≤ b, exactly: x² − 2xp + p² by coordinate, products of two floats being exact in double.
-bool obeys(const Vec3f& x, const Vec3f& p, float b) {
-  ExactSum margin;
-  for (const auto [a, c] : {std::array{x.x, p.x}, std::array{x.y, p.y}, std::array{x.z, p.z}}) {
-    margin.add(double{a} * a);
-    margin.add(-2 * (double{a} * c));
-    margin.add(double{c} * c);
-  }
-  margin.add(-(double{b} * b));
-  return margin.sign() <= 0;
-}
-
 bool finite(const Vec3f& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
 
-void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, const Vec3& exact, const Vec3f& stored, bool exceeded, Tally& tally) {
+/// One vertex that truncation has answered about; `metric`: the number of the position's error.
+void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, const Vec3& exact, const Vec3f& stored, bool exceeded, std::size_t metric,
+                    Tally& tally) {
   if (!finite(stored)) {
     tally.mismatch("position: not finite");
     return;
   }
-  if (!obeys(stored, previous, bound)) {
+  if (!obeys_bound(stored, previous, bound)) {
     const double moved = std::hypot(double{stored.x} - previous.x, double{stored.y} - previous.y, double{stored.z} - previous.z);
     tally.mismatch(text("position: the stored position is %.17g from the previous one, bound %.9g", moved, bound));
     return;
@@ -41,7 +31,7 @@ void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, cons
   }
   const double error = std::hypot(stored.x - exact.x, stored.y - exact.y, stored.z - exact.z);
   const double size = std::max({std::abs(previous.x), std::abs(previous.y), std::abs(previous.z)});
-  tally.error(0, in_units(error, size + bound), [&] { return text("%.4g from the exact position, bound %.9g", error, bound); });
+  tally.error(metric, in_units(error, size + bound), [&] { return text("%.4g from the exact position, bound %.9g", error, bound); });
 }
 
 }  // namespace
@@ -78,7 +68,48 @@ void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& trut
       tally.mismatch("exceeded: " + std::to_string(out.exceeded[i]) + ", exact " + std::to_string(truth.exceeded[i]));
       continue;
     }
-    judge_position(in.previous[i], in.position[i], in.bound[i], truth.position[i], out.position[i], out.exceeded[i], tally);
+    judge_position(in.previous[i], in.position[i], in.bound[i], truth.position[i], out.position[i], out.exceeded[i], 0, tally);
+  }
+}
+
+TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out) {
+  TruncateIn cut;
+  for (std::size_t i = 0; i < in.cases.size(); ++i) {
+    const bool is_point = i < out.target.size() && finite(out.target[i]);
+    cut.previous.push_back(in.cases[i].previous);
+    cut.position.push_back(is_point ? out.target[i] : in.cases[i].previous);
+    cut.bound.push_back(in.cases[i].bound);
+  }
+  return cut;
+}
+
+void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const TruncateTruth& cut, const InitialGuessOut& out,
+                         Tally& tally) {
+  tally.begin(cases[0].name);
+  const std::size_t n = cases.size();
+  if (out.target.size() != n || out.position.size() != n || out.cut.size() != n) {
+    tally.mismatch("an array of the answer does not have one entry for each case");
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const InitialGuessCase& c = in.cases[i];
+    const Vec3f& y = out.target[i];
+    tally.begin(cases[i].name);
+    tally.count(1, 1, cut.grey[i] && !c.held);
+    const Vec3& exact = truth.target[i];
+    const double error = std::max({std::abs(y.x - exact.x), std::abs(y.y - exact.y), std::abs(y.z - exact.z)});
+    tally.error(0, finite(y) ? in_units(error, truth.target_scale[i]) : std::numeric_limits<double>::infinity(),
+                [&] { return text("a coordinate is %.4g from the exact one, terms of %.4g", error, truth.target_scale[i]); });
+    if (!finite(y)) continue;
+    if (c.held) {
+      if (out.cut[i] != 0 || !(out.position[i] == c.previous)) tally.mismatch("position: the vertex is held, but it was moved or counted as cut");
+      continue;
+    }
+    if (out.cut[i] > 1 || (out.cut[i] != cut.exceeded[i] && !cut.grey[i])) {
+      tally.mismatch("cut: " + std::to_string(out.cut[i]) + ", exact " + std::to_string(cut.exceeded[i]));
+      continue;
+    }
+    judge_position(c.previous, y, c.bound, cut.position[i], out.position[i], out.cut[i], 1, tally);
   }
 }
 

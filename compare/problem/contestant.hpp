@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,21 @@ enum StepStatus : std::uint32_t {
   step_list_grew = 1,          ///< a list was too small: it grew and the step was repeated
   step_not_finite = 2,         ///< a position became NaN or infinite: the run stops, the last good state stays
   step_bound_violated = 4,     ///< the motion certificate failed: ‖x − x_prev‖ > b_v in double
+  step_not_converged = 8,      ///< the solver's iterations ended above its tolerance: the run stops, the last good state stays
+  step_indefinite = 16,        ///< the solver's matrix is not positive definite, or no step lowers the energy: likewise
+};
+
+/// One row of iterations.csv, by solvers that keep one. The state is the one that the iteration begins with, or (the last row of a step) ends at.
+struct IterationMetrics {
+  std::int64_t step = 0, iteration = 0;       ///< from 1; from 0 in each step
+  double wall_ms = 0;                         ///< since the step began
+  double residual = 0;                        ///< Eq. 29 with the contacts of the last detection
+  double energy = 0;                          ///< incremental potential with these contacts [J]
+  double largest_change = 0;                  ///< ‖δ‖_∞ of the solve, before any truncation [m]
+  double share = 0;                           ///< of δ' that the line search took, 0 where no step was taken
+  std::int64_t vertices_at_bound = 0;         ///< cut in this iteration
+  std::int64_t detected = 0;                  ///< 1 where contacts were detected anew for this state
+  double condition_number = 0;                ///< of the matrix; not-a-number where it was not asked for
 };
 
 /// One row of steps.csv. Times [ms]; not-a-number where a quantity was not asked for.
@@ -53,6 +69,7 @@ struct StepMetrics {
   double smallest_distance = 0;               ///< smallest d_min at the last detection (r_q where nothing is near) [m]
   std::int64_t repeats = 0;                   ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
+  std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
   std::vector<double> stage_ms;               ///< with profile: time by stage, in the order of Simulation::stage_names()
 };
 
@@ -68,6 +85,8 @@ struct Snapshot {
 struct SimulationOptions {
   bool profile = false;    ///< record times by stage (adds synchronisations)
   bool energies = true;    ///< fill the energies of StepMetrics
+  bool iterations = false; ///< fill StepMetrics::iteration_rows, where the solver keeps them
+  bool condition = false;  ///< with a solver that factorises: the condition number in each iteration row (slow)
 };
 
 /// A simulation that lives where the contestant computes; nothing of it is copied to the host except on request.
@@ -82,6 +101,12 @@ class Simulation {
   virtual std::vector<std::string> stage_names() const { return {}; }
   /// One line on where it runs: "NVIDIA H200, CUDA 13.0" or "2 threads".
   virtual std::string device() const = 0;
+};
+
+/// A contestant that gave no answer: it crashed, hung, or wrote where it must not. The judge looks for the case that did it and goes on; whatever else a
+/// contestant throws ends the comparison.
+struct ContestantFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Empty functions are stages that the contestant does not have.

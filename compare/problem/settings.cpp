@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <type_traits>
 #include <vector>
 
 #include "compare/problem/error.hpp"
@@ -15,7 +16,10 @@ namespace {
 constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
-constexpr std::array<SettingInfo, 13> table{{
+constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
+constexpr std::array<std::string_view, 5> activation_names{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
+
+constexpr std::array<SettingInfo, 19> table{{
     {"time_step", "s", "h", 0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "steps of the run", 0, most_count, &Settings::steps},
     {"iterations", "1", "sweeps a step", 1, most_count, &Settings::iterations},
@@ -28,6 +32,12 @@ constexpr std::array<SettingInfo, 13> table{{
     {"friction_velocity", "m/s", "ε_v, below which friction is not fully developed", 0x1p-30, 0x1p10, &Settings::friction_velocity},
     {"frame_steps", "1", "steps between stored frames; 0: max(1, round(1/(60 h)))", 0, most_count, &Settings::frame_steps},
     {"lanes", "1", "W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size", 0, 32, &Settings::lanes},
+    {"newton_iterations", "1", "Newton: iterations a step at most", 1, most_count, &Settings::newton_iterations},
+    {"newton_tolerance", "1", "Newton: residual (Eq. 29) at which a step has converged; 0: all iterations are done", 0, 1, &Settings::newton_tolerance},
+    {"newton_step_tolerance", "m/s", "Newton: converged, too, where no vertex wants to move faster than this", 0, 0x1p10, &Settings::newton_step_tolerance},
+    {"friction_solves", "1", "Newton: solves a step, each with friction lagged to the one before", 1, 1 << 20, &Settings::friction_solves},
+    {"projection", "1", "Newton: what becomes of negative eigenvalues of a stencil's Hessian", 0, 2, &Settings::projection, projection_names},
+    {"activation", "1", "Newton: contact energy over distance", 0, 4, &Settings::activation, activation_names},
     {"seed", "1", "of whatever the scene draws at random", 0, most_seed, &Settings::seed},
 }};
 
@@ -45,11 +55,37 @@ bool parse(std::string_view text, Number& number) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+void set_number(Settings& settings, const SettingInfo& info, std::string_view value) {
+  const auto assign = [&]<class T>(T Settings::*field) {
+    if constexpr (!std::is_enum_v<T>) {
+      T number = settings.*field;
+      if (!parse(value, number) || !in_range(info, static_cast<double>(number)))
+        throw InputError("setting '" + std::string(info.name) + "' can't be '" + std::string(value) + "'; give " + describe_range(info));
+      settings.*field = number;
+    }
+  };
+  std::visit(assign, info.field);
+}
+
+void set_choice(Settings& settings, const SettingInfo& info, std::string_view value) {
+  const auto found = std::find(info.choices.begin(), info.choices.end(), value);
+  if (found == info.choices.end())
+    throw InputError("setting '" + std::string(info.name) + "' can't be '" + std::string(value) + "'; give " + describe_range(info));
+  std::visit([&]<class T>(T Settings::*field) { settings.*field = static_cast<T>(found - info.choices.begin()); }, info.field);
+}
+
 }  // namespace
 
 std::span<const SettingInfo> setting_table() { return table; }
 
 std::string describe_range(const SettingInfo& info) {
+  if (!info.choices.empty()) return "one of " + joined(info.choices) + " (" + std::string(info.meaning) + ")";
   const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
   const std::string kind = info.name == "lanes" ? "0 or a power of two" : whole ? "a whole number" : "a number";
   std::string text = kind + " from " + shortest(info.minimum) + " to " + shortest(info.maximum);
@@ -66,14 +102,14 @@ bool in_range(const SettingInfo& info, double value) {
 
 void set_setting(Settings& settings, std::string_view name, std::string_view value) {
   const SettingInfo& info = find_setting(name);
-  const auto assign = [&](auto field) {
-    auto number = settings.*field;
-    if (!parse(value, number) || !in_range(info, static_cast<double>(number))) {
-      throw InputError("setting '" + std::string(name) + "' can't be '" + std::string(value) + "'; give " + describe_range(info));
-    }
-    settings.*field = number;
-  };
-  std::visit(assign, info.field);
+  if (info.choices.empty()) set_number(settings, info, value);
+  else set_choice(settings, info, value);
+}
+
+std::string setting_text(const Settings& settings, const SettingInfo& info) {
+  const double value = get_setting(settings, info);
+  if (!info.choices.empty() && in_range(info, value)) return std::string(info.choices[static_cast<std::size_t>(value)]);
+  return shortest(as_typed(value));
 }
 
 double get_setting(const Settings& settings, const SettingInfo& info) {

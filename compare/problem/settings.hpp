@@ -9,6 +9,13 @@
 
 namespace ogc::compare {
 
+// Choices among named variants. As wide as every other setting, so that a test can see that the table reaches all of them.
+
+/// How Newton's method makes a stencil's Hessian positive semidefinite: not at all, negative eigenvalues to 0, or to their absolute values.
+enum class HessianProjection : std::int64_t { none, clamp, absolute };
+/// Contact energy over distance (method.md §4): Eq. 18 with Eq. 19 corrected, or one of the variants of the ablation.
+enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ipc_log, cubic };
+
 struct Settings {
   double time_step = 0.01;                    ///< h [s]
   std::int64_t steps = 100;                   ///< steps of the run
@@ -22,6 +29,12 @@ struct Settings {
   double friction_velocity = 0.01;            ///< ε_v [m/s]
   std::int64_t frame_steps = 0;               ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   std::int64_t lanes = 0;                     ///< W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
+  std::int64_t newton_iterations = 50;        ///< Newton: iterations a step at most
+  double newton_tolerance = 1e-4;             ///< Newton: residual (Eq. 29) at which a step has converged; 0: all iterations are done
+  double newton_step_tolerance = 0;           ///< Newton: a step has also converged where no vertex wants to move faster than this [m/s]
+  std::int64_t friction_solves = 1;           ///< Newton: solves a step, each with friction lagged to the one before
+  HessianProjection projection = HessianProjection::clamp;   ///< Newton: of each stencil's Hessian
+  ContactActivation activation = ContactActivation::ogc;     ///< Newton: contact energy over distance
   std::int64_t seed = 0;                      ///< of whatever the scene draws at random
   friend bool operator==(const Settings&, const Settings&) = default;
 };
@@ -30,7 +43,8 @@ struct Settings {
 struct SettingInfo {
   std::string_view name, unit, meaning;
   double minimum, maximum;  ///< inclusive
-  std::variant<double Settings::*, std::int64_t Settings::*> field;
+  std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*, ContactActivation Settings::*> field;
+  std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };
 
 /// All settings, in the order of the struct.
@@ -45,7 +59,10 @@ std::string describe_range(const SettingInfo& info);
 /// Whether the value lies within the row's bounds (and, for `lanes`, is 0 or a power of two); not-a-number does not.
 bool in_range(const SettingInfo& info, double value);
 
-/// Value of the row's setting as a double.
+/// The value as a user would type it: the name of a choice, otherwise the shortest decimal text.
+std::string setting_text(const Settings& settings, const SettingInfo& info);
+
+/// Value of the row's setting as a double; of a choice its number.
 double get_setting(const Settings& settings, const SettingInfo& info);
 
 /// Value of a setting as a double. Throws InputError for an unknown name.

@@ -46,6 +46,7 @@ Json settings_json(const Settings& settings) {
   for (const SettingInfo& info : setting_table()) {
     Json& entry = json[std::string(info.name)] = quantity(get_setting(settings, info), info.unit);
     if (const auto* whole = std::get_if<std::int64_t Settings::*>(&info.field)) entry["value"] = settings.**whole;
+    if (!info.choices.empty()) entry["value"] = setting_text(settings, info);
     entry["meaning"] = info.meaning;
   }
   return json;

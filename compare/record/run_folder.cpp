@@ -9,6 +9,7 @@
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/hdf5.hpp"
+#include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
 
 namespace ogc::compare {
@@ -52,7 +53,7 @@ void make_folder(const fs::path& folder) {
 
 void refuse_used_folder(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError(folder.string() + ": is a file: name a new folder for the run");
-  for (const char* name : {"run.json", "scene", "steps.csv", "frames", "trajectory.vtkhdf"})
+  for (const char* name : {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "trajectory.vtkhdf"})
     if (fs::exists(folder / name))
       throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
 }
@@ -95,7 +96,13 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& prov
 
 void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", manifest_text(manifest_, scene_)); }
 
-void RunWriter::add_steps(const std::vector<StepMetrics>& rows) { steps_->append(step_lines(rows, manifest_.stage_names.size())); }
+void RunWriter::add_steps(const std::vector<StepMetrics>& rows) {
+  steps_->append(step_lines(rows, manifest_.stage_names.size()));
+  const std::string iterations = iteration_lines(rows);
+  if (iterations.empty()) return;
+  if (!iterations_) iterations_.emplace(folder_ / "iterations.csv").append(iteration_header());
+  iterations_->append(iterations);
+}
 
 void RunWriter::add_frame(const Frame& frame) {
   const std::size_t count = scene_.mesh.positions.size();

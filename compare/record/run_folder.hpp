@@ -42,7 +42,7 @@ class RunWriter {
   /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it is empty. Stage names give
   /// columns of steps.csv; none for a run without profile. Throws InputError where the folder holds a run already, or what a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names);
-  /// Appends rows to steps.csv in one write. Throws std::invalid_argument where a row has times for another number of stages.
+  /// Appends rows to steps.csv in one write, and their iteration rows, if there are any, to iterations.csv. Throws std::invalid_argument where a row has times for another number of stages.
   void add_steps(const std::vector<StepMetrics>& rows);
   /// Stores a state; one of the same step is replaced. Throws std::invalid_argument where its arrays have not one entry for each vertex.
   void add_frame(const Frame& frame);
@@ -57,7 +57,7 @@ class RunWriter {
   std::filesystem::path folder_;
   Scene scene_;
   Manifest manifest_;
-  std::optional<LineAppender> steps_;
+  std::optional<LineAppender> steps_, iterations_;
 };
 
 /// Reads what a run has so far. Throws InputError that names the file.

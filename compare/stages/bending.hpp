@@ -24,8 +24,11 @@ struct BendingIn {
 /// In units of u · scale. A difference (1), a normal (a product and a difference, twice where it is squared), its square (3), the edge's length (4), a
 /// foot (4), a quotient (2), two such products and their sum (3), the angle (4 u of at most π, against a scale of at least 1: 12), moment and force (4).
 inline constexpr double bending_force_tolerance = 36;
-/// The gradient's 20, twice, a factor (2) and an outer product (2).
-inline constexpr double bending_block_tolerance = 44;
+/// Of the gradient ∇θ alone, the block's other factor: all of the above but the angle, moment and force.
+inline constexpr double bending_gradient = 20;
+/// The gradient's, twice, a factor (2) and an outer product (2). The scale of a block holds the square of the gradient's error, too: bending_gradient · u ·
+/// c (1 + k) · cond(∇θ)², which is what is left where ∇θ vanishes.
+inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// A hinge is grey where its angle, now or at the start, lies within this many units of u · scale of ±π: the answers with 2π more or less are accepted.
 inline constexpr double bending_grey = 16;
 /// A triangle may count as collapsed where the sine between the edge and a side, at either end, is below this many u. Formed from rounded differences the

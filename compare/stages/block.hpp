@@ -12,15 +12,20 @@ namespace ogc::compare {
 /// "Is x in U_a, apart from its distance?": the distance is a decision of its own (d < r, Alg. 1 line 7). A question names a face of the mesh and what x is.
 struct BlockQuestion {
   enum class Kind : std::uint8_t {
-    vertex_in_surface,  ///< x is vertex `of`; U_a of Eq. 8, 9, 10 for a vertex, edge or triangle
-    edge_in_edges,      ///< x is the point of edge `of` closest to a; U_a of Eq. 14, 15 for an edge or vertex of the edge-only manifold
+    /// x is vertex `of`; U_a of Eq. 8, 9, 10 for a vertex, edge (between its end planes too) or triangle.
+    vertex_in_surface,
+    /// x is the point of edge `of` closest to a; U_a of Eq. 14, 15 for an edge or vertex of the edge-only manifold. To a vertex one point is closest. To an
+    /// edge it is one unless the two are parallel, and nearly parallel ones (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) make a contact without this question: they are no
+    /// legal question of this stage (compare/stages/closest_points.hpp decides about them).
+    edge_in_edges,
   };
   Kind kind = Kind::vertex_in_surface;
   Index of = -1;  ///< a vertex, or an edge, that has no vertex in common with a
-  Face face;      ///< a
+  Face face;      ///< a; no triangle where kind is edge_in_edges
   friend bool operator==(const BlockQuestion&, const BlockQuestion&) = default;
 };
 
+/// Positions are finite, 0 or within 2⁻²⁰ … 2²⁰ m; collapsed triangles and edges are legal.
 struct BlockIn {
   const Topology* topology = nullptr;
   std::span<const Vec3f> positions;  ///< [m], length vertex_count
@@ -31,7 +36,8 @@ struct BlockOut {
   std::vector<std::uint8_t> inside;  ///< by question; boundaries open and closed as printed
 };
 
-/// grey: a margin that decides the answer lies in its grey zone; either answer is accepted there.
+/// grey: a margin that decides the answer lies in its grey zone; either answer is accepted there. For an edge in edges that includes the margins that say
+/// which point of `of` is closest.
 struct BlockTruth {
   std::vector<std::uint8_t> inside, grey;
 };

@@ -22,6 +22,10 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) w² n nᵀ (method.md §4). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
 /// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and force and block are 0. e_k = q(2 − q), q = c/ε for c < ε, else 1, with
 /// c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for other sides and where the rest lengths are 0.
+///
+/// Legal are triangles whose smallest height is 0 or at least 2⁻⁹ of their longest side, and edges of length 0 or at least 2⁻⁹ of the other one: a normal of
+/// height h is known to u/h, and the place of the foot across it to u d/h² of the width for a distance of d longest sides: a first order that holds for d up to 3
+/// needs that well below 1, and it is 3/64 at h = 2⁻⁹. Lengths are 0 or as in validate, d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;
   std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1
@@ -34,5 +38,18 @@ struct ContactForceCase {
 struct ContactForceIn {
   std::vector<ContactForceCase> cases;
 };
+
+/// In units of u · scale. On the longest way from an input to the force lie a difference (1), the first parameter of two edges (two cross products (4), their
+/// product (3) over the square of the one (2 + 3), a quotient (1)), from it the second (two products of vectors (6), a product, a difference, a quotient
+/// (3), the other square (3)), its complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the normal (2), the slope
+/// (4), its products with weight and normal (2): 42. e_k comes another way: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q),
+/// its product with k_c: 15.
+inline constexpr double contact_force_tolerance = 42;
+/// As far as the normal 36, the curvature (5), w² and its product (2), an outer product (2).
+inline constexpr double contact_block_tolerance = 45;
+/// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a root (1), twice for weights that are
+/// not quite those of the closest points. Contacts within it of r, of another feature or of touching are grey. Where they cannot be told from touching,
+/// neither distance nor normal is known: any answer within that of d = 2⁻²³ r is accepted.
+inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

@@ -18,4 +18,10 @@ struct FrictionForceIn {
   std::vector<FrictionForceCase> cases;
 };
 
+/// In units of u · scale. As far as the normal (contact_force) 36; the slip (a product of vectors (3), a product, a difference), its length (4), f₁/y (a
+/// quotient, a difference, a quotient), the strength (2), its products with weight and slip (2): 52.
+inline constexpr double friction_force_tolerance = 52;
+/// As far as the strength 50; w² and its product (2), an outer product (2), the difference from I (1).
+inline constexpr double friction_block_tolerance = 55;
+
 }  // namespace ogc::compare

@@ -9,6 +9,8 @@
 
 namespace ogc::compare {
 
+/// Coordinates of xᵗ, X_prev, vᵗ and a are 0 or within 2⁻¹⁰⁰ … 2²⁰, h within 2⁻²⁰ … 1, b_v 0 or within 2⁻¹⁰⁰ … 2⁴⁰: nothing overflows, and no product of
+/// two underflows.
 struct InitialGuessCase {
   Vec3f start, velocity, acceleration;  ///< xᵗ [m], vᵗ [m/s], a_ext [m/s²]
   float time_step = 0;                  ///< h [s]
@@ -32,5 +34,8 @@ struct InitialGuessTruth {
   std::vector<Vec3> target;
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
 };
+
+/// Largest error of y's coordinates in units of u · target_scale: h a passes four roundings (with h, with vᵗ, with h, with xᵗ), vᵗ three, xᵗ one.
+inline constexpr double initial_guess_target_tolerance = 4;
 
 }  // namespace ogc::compare

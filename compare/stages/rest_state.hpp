@@ -28,7 +28,8 @@ struct MeetingMaterial {
   float stiffness = 0, friction = 0;
 };
 
-/// Scene: rounded (`round_to_single`) and valid; topology: `build_topology(scene)`.
+/// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no fixed body holds has a triangle.
+/// Topology: `build_topology(scene)`.
 struct RestStateIn {
   const Scene* scene = nullptr;
   const Topology* topology = nullptr;
@@ -43,7 +44,8 @@ struct RestStateOut {
   std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
 };
 
-/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one vertex. `gradient` units are of ∇N₁, ∇N₂.
+/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one vertex. `gradient` units are of
+/// ∇N₁, ∇N₂; a mass's is the sum of those of its triangles; a meeting's is its value.
 struct RestStateTruth {
   RestStateOut exact;  ///< correctly rounded
   std::vector<double> mass, mass_scale;
@@ -53,5 +55,11 @@ struct RestStateTruth {
   std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;  ///< where |θ₀| is within its error of π either sign is accepted
   std::vector<double> meeting_stiffness, meeting_friction;
 };
+
+/// In units of u · scale. The one rounding to single precision: u of the value, and no scale is below its value but that of θ₀, for which |θ₀| ≤ π stands
+/// against at least 2 (each opposite vertex adds its distance from x0 over its height): π/2. Rest data are computed in double or better, so some thirty
+/// roundings of 2⁻⁵³, each of an input's size, add 2⁻²⁴ of the scale.
+inline constexpr double rest_state_tolerance = 1 + 0x1p-20;
+inline constexpr double rest_state_angle_tolerance = 1.6;
 
 }  // namespace ogc::compare

@@ -16,7 +16,7 @@ enum class StepEventKind : std::uint8_t {
 
 struct StepEvent {
   StepEventKind kind = StepEventKind::detection;
-  std::vector<Vec3f> position;  ///< x after the event [m]
+  std::vector<Vec3f> position;  ///< x after the event [m]; of a detection X_prev as later events read it
   Index cut = 0;                ///< guess, sweep: how many vertices were cut
   // detection alone
   DetectVertexFacetOut vertex_facet;
@@ -32,6 +32,7 @@ struct StepIn {
 
 struct StepOut {
   std::vector<Index> colour;        ///< of the sweeps
+  RestStateOut rest;                ///< of the sweeps
   float query_radius = 0;           ///< r_q [m]
   std::vector<Vec3f> target;        ///< y [m]
   std::vector<StepEvent> events;
@@ -40,11 +41,17 @@ struct StepOut {
 
 /// What follows from the answer's own positions and counts.
 struct StepTruth {
-  double query_radius = 0, query_radius_scale = 0;  ///< min(r + max ‖y − xᵗ‖, cap), in double
-  std::vector<Vec3f> prescribed_target;             ///< by vertex; only where prescribed
-  std::vector<StepEventKind> events;                ///< as Algorithm 3 orders them, given each event's count of cut vertices
+  double query_radius = 0, query_radius_scale = 0;  ///< min(r + max ‖y − xᵗ‖, cap), in double; the scale is the radius itself [m]
+  std::vector<Vec3f> prescribed_target;             ///< by vertex; only where prescribed, 0 elsewhere
+  std::vector<StepEventKind> events;                ///< as Algorithm 3 orders them, given each event's count of cut vertices (0 of those that the answer lacks)
   std::vector<Vec3> velocity;                       ///< [m/s]
-  std::vector<double> velocity_scale;
+  std::vector<double> velocity_scale;               ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
 };
+
+/// In units of u r_q: the rounded difference y − xᵗ (1), products and sums of its square (3, both halved by the root), the root (1), the addition of r (1);
+/// or the one rounding of cap · r. Together 4; one more for second order and for the vertex whose length is largest after rounding only.
+inline constexpr double step_query_radius_tolerance = 5;
+/// In units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
+inline constexpr double step_velocity_tolerance = 2.25;
 
 }  // namespace ogc::compare

@@ -15,7 +15,7 @@ namespace ogc::compare {
 
 /// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, contact and friction as in the stages of these names. Prescribed
 /// vertices (`is_prescribed`) go to y, truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at
-/// its old one; own position: old. Prescribed vertices come first.
+/// its old one; own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded at most once.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
   const Topology* topology = nullptr;
@@ -32,14 +32,28 @@ struct SweepOut {
   Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay beyond its bound
 };
 
-/// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m]: the error of f and H within the tolerances
-/// of their stages through H⁻¹, of the solve, of the truncation, of storing. `grey`: a contact of the vertex has more than one accepted answer, or the cut is
-/// in doubt; their spread is part of `accepted`.
+/// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m], in the direction in which this answer is:
+/// the error of f and H within the tolerances of their stages through H⁻¹, of the solve, of the truncation, of storing. 0 where the answer must be `position`
+/// bit for bit. `grey`: a stencil of the vertex has more than one accepted answer (`position` then comes from the combination nearest to the answer), or the
+/// vertex is *ill-conditioned*: the errors of H alone could make it singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2, or a hinge has no defined answer. No single-precision solve
+/// can then be held to a position, and a solver may fall back to a step down the gradient: `accepted` is infinite, unless the vertex was not cut and
+/// moved against its force beyond all error: then 0.
 struct SweepTruth {
   std::vector<Vec3> position;
   std::vector<double> accepted;
   std::vector<std::uint8_t> grey;
   Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
 };
+
+/// What the sweep adds to the tolerances of its stages, in their units u · scale: ∇N₀ of a triangle and k_d/h, ε_v h are rounded once by either side.
+inline constexpr double sweep_input_tolerance = 2;
+/// Additions of a stencil to the block, each rounded to u of a partial sum of moduli: at most four parts (membrane), the largest of which (friction's
+/// identity before the normal is taken out of it) is √(3/2) of the whole: less than 5. The force is added once.
+inline constexpr double sweep_block_additions = 5;
+/// Of the inertia: u w ‖y − x‖ times difference (1), weight w = m/h² (1), product (1); and u w √3 in the block.
+inline constexpr double sweep_inertia_tolerance = 3;
+/// Backward error of the solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for Cholesky's and LDLᵀ's factors and both substitutions (3n + 1, n = 3; two more
+/// for the divisions of LDLᵀ), whose norm is at most n ‖H‖₂.
+inline constexpr double sweep_solve_tolerance = 36;
 
 }  // namespace ogc::compare

@@ -65,6 +65,23 @@ TEST_CASE("a broken case file is refused with its name and what is wrong", "[uni
   REQUIRE_THROWS_WITH(load_case(path), Contains("contact_radius"));
 }
 
+TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is refused", "[unit]") {
+  using Catch::Matchers::Contains;
+  const Folder folder;
+  const auto path = folder.path / "case.json";
+  const auto block = [&](const std::string& question) {
+    write(path, R"({"format": 1, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": {"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
+      "positions": [["0", "0", "0"], ["1", "0", "0"]], "questions": [)" + question + "]}}");
+  };
+  block(R"({"kind": "vertex_in_surface", "of": 0, "face": "edge", "index": 9})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("index 9"));
+  block(R"({"kind": "vertex_in_surface", "of": 0, "face": "side", "index": 0})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("side"));
+  write(path, R"({"format": 1, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": [["0", "0", "0"], ["1", "0", "0"]],
+    "positions": [["0", "0", "0"], ["1", "0", "0"]], "triangles": [], "loose_edges": [], "bodies": [], "motions": []}})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("vertex"));
+}
+
 TEST_CASE("a batch file holds one problem a line, comments and empty lines apart", "[unit]") {
   using Catch::Matchers::Contains;
   const Folder folder;

@@ -24,10 +24,14 @@ struct Fault {
 /// All of them, at least one a stage.
 std::vector<Fault> faults();
 
-/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp, faults_forces.cpp.
+/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp, faults_contacts.cpp, faults_forces.cpp, faults_rest.cpp, faults_step.cpp, faults_sweep.cpp.
 std::vector<Fault> pair_faults();
 std::vector<Fault> set_faults();
 std::vector<Fault> scalar_faults();
+std::vector<Fault> contact_faults();
 std::vector<Fault> force_faults();
+std::vector<Fault> rest_faults();
+std::vector<Fault> step_faults();
+std::vector<Fault> sweep_faults();
 
 }  // namespace ogc::tests

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "compare/judge/corpus.hpp"
+#include "compare/judge/rest_cases.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
@@ -36,6 +38,49 @@ struct IsLegal {
     return all_finite(c.corner) && all_finite(c.start) && c.area > 0 && c.lame_lambda >= 0 && c.lame_mu > 0 && c.damping >= 0;
   }
   bool operator()(const BendingCase& c) const { return all_finite(c.vertex) && all_finite(c.start) && c.stiffness > 0 && c.damping >= 0 && c.own >= 0 && c.own < 4; }
+  bool operator()(const SweepCase& c) const {
+    const Topology topology = build_topology(*c.scene);
+    const std::vector<Index> groups = rigid_groups(*c.scene);
+    const auto coloured = [&](Index a, Index b) { return c.colour[a] < 0 || c.colour[a] != c.colour[b]; };
+    bool legal = validate(*c.scene).empty() && c.query_radius >= static_cast<float>(c.scene->settings.contact_radius);
+    for (std::size_t v = 0; v < groups.size(); ++v) legal = legal && (c.colour[v] >= 0) == (groups[v] < 0) && c.largest_bound[v] >= 0;
+    for (const Edge& e : topology.edges) legal = legal && coloured(e[0], e[1]);
+    for (const Hinge& hinge : topology.hinges) legal = legal && coloured(hinge.opposite[0], hinge.opposite[1]);
+    return legal && all_finite(c.old) && all_finite(c.start) && all_finite(c.target) && all_finite(c.previous);
+  }
+  bool operator()(const StepCase& c) const {
+    Scene rounded = *c.scene;
+    round_to_single(rounded);
+    return validate(*c.scene).empty() && rounded == *c.scene && c.topology->triangles == c.scene->mesh.triangles;
+  }
+  bool operator()(const ContactForceCase& c) const {
+    return all_finite(c.vertex) && all_finite(c.detected) && c.own >= 0 && c.own < vertex_count(c.sides) && c.contact_radius > 0 && c.stiffness > 0 &&
+           c.rest_squared[0] >= 0 && c.rest_squared[1] >= 0;
+  }
+  bool operator()(const FrictionForceCase& c) const { return (*this)(c.contact) && all_finite(c.start) && c.friction >= 0 && c.slip_limit > 0; }
+  bool operator()(const RestStateCase& c) const { return problems_of(c).empty(); }
+  static bool has_vertex(const BlockCase& c, const BlockQuestion& question, Index v) {
+    const auto has = [v](const auto& vertices) { return std::find(vertices.begin(), vertices.end(), v) != vertices.end(); };
+    const auto i = static_cast<std::size_t>(question.face.index);
+    if (question.face.kind == FaceKind::vertex) return question.face.index == v;
+    return question.face.kind == FaceKind::edge ? has(c.topology->edges[i]) : has(c.topology->triangles[i]);
+  }
+  bool operator()(const BlockCase& c) const {
+    return all_finite(c.positions) && std::all_of(c.questions.begin(), c.questions.end(), [&](const BlockQuestion& question) {
+             if (question.kind == BlockQuestion::Kind::vertex_in_surface) return !has_vertex(c, question, question.of);
+             const Edge& e = c.topology->edges[static_cast<std::size_t>(question.of)];
+             return question.face.kind != FaceKind::triangle && !has_vertex(c, question, e[0]) && !has_vertex(c, question, e[1]);
+           });
+  }
+  static bool within(const Vec3f& p, float least, float most) {
+    const auto inside = [&](float x) { return x == 0 || (std::abs(x) >= least && std::abs(x) <= most); };
+    return inside(p.x) && inside(p.y) && inside(p.z);
+  }
+  bool operator()(const InitialGuessCase& c) const {
+    constexpr float least = 0x1p-100f, most = 0x1p20f;
+    return within(c.start, least, most) && within(c.velocity, least, most) && within(c.acceleration, least, most) && within(c.previous, least, most) &&
+           c.time_step >= 0x1p-20f && c.time_step <= 1 && (c.bound == 0 || (c.bound >= least && c.bound <= 0x1p40f)) && c.held <= 1;
+  }
   bool operator()(const TruncateCase& c) const { return finite(c.previous) && finite(c.position) && c.bound >= 0; }
 };
 

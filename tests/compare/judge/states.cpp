@@ -32,6 +32,8 @@ TEST_CASE("frames of a run become cases, whole for detection and pair by pair", 
     REQUIRE(std::get<BoundCase>(make(Stage::bound, i)).d_min_vertex.size() == 10);
     REQUIRE(std::holds_alternative<ClosestFaceCase>(make(Stage::closest_face, i)));
     REQUIRE(std::holds_alternative<ClosestPointsCase>(make(Stage::closest_points, i)));
+    REQUIRE(std::get<SweepCase>(make(Stage::sweep, i)).previous == recorded_frame(static_cast<std::int64_t>(i % 3)).positions);
+    REQUIRE(to_single(std::get<StepCase>(make(Stage::step, i)).scene->mesh.positions) == recorded_frame(static_cast<std::int64_t>(i % 3)).positions);
     REQUIRE(std::holds_alternative<TruncateCase>(make(Stage::truncate, i)));
   }
   REQUIRE_THROWS_AS(make(Stage::activation, 0), InputError);

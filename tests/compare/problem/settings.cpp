@@ -42,6 +42,7 @@ TEST_CASE("bounds survive rounding to single precision, so rounding a setting ca
 
 TEST_CASE("a setting is read back as it was set, at both ends of its range", "[unit]") {
   for (const SettingInfo& info : setting_table()) {
+    if (!info.choices.empty()) continue;
     INFO(info.name);
     const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
     for (const double value : {info.minimum, info.maximum}) {
@@ -56,6 +57,7 @@ TEST_CASE("a setting is read back as it was set, at both ends of its range", "[u
 
 TEST_CASE("values out of range, of the wrong type or not numbers are refused and leave the setting alone", "[unit]") {
   for (const SettingInfo& info : setting_table()) {
+    if (!info.choices.empty()) continue;
     INFO(info.name);
     const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
     for (const double value : {info.minimum - 1, info.maximum * 2}) {
@@ -93,5 +95,23 @@ TEST_CASE("lanes is 0 or a power of two up to 32", "[unit]") {
     } else {
       CHECK_THROWS_WITH(set_setting(settings, "lanes", std::to_string(lanes)), Contains("power of two"));
     }
+  }
+}
+
+TEST_CASE("a choice is set and printed by its name; any other name is refused with the list", "[unit]") {
+  for (const SettingInfo& info : setting_table()) {
+    INFO(info.name);
+    CHECK(info.choices.empty() == !(std::holds_alternative<HessianProjection Settings::*>(info.field) || std::holds_alternative<ContactActivation Settings::*>(info.field)));
+    for (const std::string_view name : info.choices) {
+      Settings settings;
+      set_setting(settings, info.name, name);
+      CHECK(setting_text(settings, info) == name);
+      CHECK(info.choices[static_cast<std::size_t>(get_setting(settings, info))] == name);
+    }
+    if (info.choices.empty()) continue;
+    CHECK(info.maximum == static_cast<double>(info.choices.size() - 1));
+    Settings settings;
+    for (const char* name : {"", "0", "ogcc"}) CHECK_THROWS_WITH(set_setting(settings, info.name, name), Contains(std::string(info.choices.back())));
+    CHECK(settings == Settings{});
   }
 }

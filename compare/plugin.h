@@ -1,0 +1,324 @@
+/* Your kernel before the judge: a shared library that offers one or more stages, in C, so that any language and compiler will do.
+ *
+ *     #include "compare/plugin.h"
+ *     OGC_PLUGIN("mine", OGC_HOST_MEMORY)
+ *     int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out) { … return 0; }
+ *
+ *     g++ -O2 -shared -fPIC -I INCLUDE mine.cpp -o mine.so && ogc compare truncate --plugin ./mine.so
+ *
+ * The library offers the stages whose functions it defines. What a stage asks, to the last boundary case, stands in compare/stages/STAGE.hpp;
+ * the structures here are the same questions and answers as plain arrays. A page that starts from an empty file: experiments/plugins/README.md.
+ *
+ * Rules. A function answers all cases of `in`, writes every element of every array of `out` and nothing else, and returns 0; any other value means that it
+ * failed, and is reported. Arrays of `in` are read-only. All arrays lie in the memory that the library asked for: with OGC_DEVICE_MEMORY every pointer
+ * inside `in` and `out` is CUDA device memory of the primary context of device 0, current when the function is called; the two structures themselves are
+ * in host memory always. A function may return before the device has finished: the caller synchronises, and counts the time. Calls come from one thread,
+ * one after another; a function may keep what it likes from call to call. Nothing is freed by the library but what it has allocated.
+ *
+ * Units: metres, newtons, joules. float is IEEE single precision; indices are from 0; int64_t n is the number of cases. */
+#ifndef OGC_COMPARE_PLUGIN_H
+#define OGC_COMPARE_PLUGIN_H
+
+#include <stdint.h>
+
+/* Of this interface. A library built for a newer one is refused by name. */
+#define OGC_PLUGIN_VERSION 1
+
+#define OGC_HOST_MEMORY 0
+#define OGC_DEVICE_MEMORY 1
+
+#if defined(_WIN32)
+#define OGC_PLUGIN_EXPORT __declspec(dllexport)
+#else
+#define OGC_PLUGIN_EXPORT __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a library says of itself. `version` stays first in every version of this interface. */
+typedef struct ogc_plugin_info {
+  int32_t version; /* OGC_PLUGIN_VERSION */
+  int32_t memory;  /* OGC_HOST_MEMORY or OGC_DEVICE_MEMORY */
+  const char* name; /* for the report */
+} ogc_plugin_info;
+
+/* The one function that every library has; the macro defines it. */
+OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void);
+
+#ifdef __cplusplus
+#define OGC_PLUGIN(name, memory)                                                   \
+  extern "C" OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {           \
+    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)};    \
+    return &info;                                                                  \
+  }
+#else
+#define OGC_PLUGIN(name, memory)                                                   \
+  OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {                      \
+    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)};    \
+    return &info;                                                                  \
+  }
+#endif
+
+typedef struct ogc_vec3 {
+  float x, y, z;
+} ogc_vec3;
+
+/* ---- closest_face: which face of a closed triangle holds the point closest to a given point ---------------------------------------------------- */
+
+/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. On a plane between two of them the lower-dimensional one wins. */
+enum { OGC_CORNER_0, OGC_CORNER_1, OGC_CORNER_2, OGC_EDGE_01, OGC_EDGE_12, OGC_EDGE_20, OGC_INTERIOR };
+
+typedef struct ogc_closest_face_in {
+  int64_t n;
+  const ogc_vec3* point;         /* [n] */
+  const ogc_vec3 (*triangle)[3]; /* [n] */
+} ogc_closest_face_in;
+
+typedef struct ogc_closest_face_out {
+  uint8_t* feature;      /* [n] */
+  float (*weights)[3];   /* [n] barycentric weights of the closest point, >= 0 */
+  float* distance;       /* [n] nearest */
+  float* distance_below; /* [n] never above the exact distance */
+} ogc_closest_face_out;
+
+OGC_PLUGIN_EXPORT int ogc_closest_face(const ogc_closest_face_in* in, ogc_closest_face_out* out);
+
+/* ---- closest_points: the closest points of two closed edges ------------------------------------------------------------------------------------ */
+
+enum { OGC_END_0, OGC_END_1, OGC_EDGE_INTERIOR };
+
+typedef struct ogc_closest_points_in {
+  int64_t n;
+  const ogc_vec3 (*first)[2], (*second)[2]; /* [n] */
+} ogc_closest_points_in;
+
+typedef struct ogc_closest_points_out {
+  uint8_t *first_feature, *second_feature; /* [n] */
+  uint8_t* nearly_parallel;                /* [n] 0 or 1 */
+  float (*parameters)[2];                  /* [n] of the contact points, in [0, 1] from end 0 to end 1 */
+  float* contact_distance;                 /* [n] between the contact points, nearest */
+  float* distance_below;                   /* [n] never above the exact distance of the two edges */
+} ogc_closest_points_out;
+
+OGC_PLUGIN_EXPORT int ogc_closest_points(const ogc_closest_points_in* in, ogc_closest_points_out* out);
+
+/* ---- meshes ------------------------------------------------------------------------------------------------------------------------------------ */
+
+/* Row i is items[offsets[i]] … items[offsets[i + 1] - 1], ascending. */
+typedef struct ogc_rows {
+  const int32_t* offsets; /* [rows + 1] */
+  const int32_t* items;
+} ogc_rows;
+
+/* Edges are numbered by smaller, then larger vertex. */
+typedef struct ogc_topology {
+  int32_t vertex_count, edge_count, triangle_count;
+  const int32_t (*edges)[2];          /* [edge_count] smaller vertex first */
+  const int32_t (*triangles)[3];      /* [triangle_count] */
+  const int32_t (*triangle_edges)[3]; /* [triangle_count] from corner k to corner k+1 */
+  ogc_rows vertex_edges, vertex_triangles, vertex_neighbours; /* rows by vertex */
+  ogc_rows edge_triangles, edge_opposite;                     /* rows by edge; edge_opposite: vertices that share a triangle with it */
+} ogc_topology;
+
+/* ---- detect_vertex_facet, detect_edge_edge: contact sets and smallest distances ------------------------------------------------------------------ */
+
+/* Values of `kind` of a face. */
+enum { OGC_FACE_VERTEX, OGC_FACE_EDGE, OGC_FACE_TRIANGLE };
+
+typedef struct ogc_detect_in {
+  ogc_topology topology;
+  const int32_t* rigid_groups; /* [vertex_count] a pair whose vertices all carry one number >= 0 is left out */
+  const ogc_vec3* positions;   /* [vertex_count] */
+  float contact_radius;        /* r */
+  float query_radius;          /* r_q >= r */
+} ogc_detect_in;
+
+typedef struct ogc_vertex_facet_contact {
+  int32_t vertex;
+  int32_t kind, face; /* the face, by kind and number */
+  int32_t owner;      /* the lowest-numbered triangle that contains the face */
+} ogc_vertex_facet_contact;
+
+/* `contacts` has room for `capacity`; set `count` to the number found. Where that is more than the capacity, nothing need be written: the function is
+ * called once more with room for as many. In any order, each contact once. */
+typedef struct ogc_detect_vertex_facet_out {
+  ogc_vertex_facet_contact* contacts;
+  int64_t capacity, count;
+  float* d_min_vertex;   /* [vertex_count] over non-adjacent triangles, at most r_q, never above the exact value */
+  float* d_min_triangle; /* [triangle_count] over non-adjacent vertices, likewise */
+} ogc_detect_vertex_facet_out;
+
+OGC_PLUGIN_EXPORT int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out* out);
+
+/* Two faces of the edge-only manifold, vertices or edges, the lower (by kind, then number) first; the lowest-numbered edges that generate the pair. */
+typedef struct ogc_edge_edge_contact {
+  int32_t first_kind, first_face;
+  int32_t second_kind, second_face;
+  int32_t first_edge, second_edge;
+} ogc_edge_edge_contact;
+
+typedef struct ogc_detect_edge_edge_out {
+  ogc_edge_edge_contact* contacts; /* as above */
+  int64_t capacity, count;
+  float* d_min_edge; /* [edge_count] over non-adjacent edges, at most r_q, never above the exact value */
+} ogc_detect_edge_edge_out;
+
+OGC_PLUGIN_EXPORT int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_edge_edge_out* out);
+
+/* ---- bound: how far each vertex may move without touching anything ------------------------------------------------------------------------------- */
+
+typedef struct ogc_bound_in {
+  ogc_topology topology;
+  const float *d_min_vertex, *d_min_edge, *d_min_triangle; /* [vertex_count], [edge_count], [triangle_count] */
+  float bound_relaxation;                                  /* gamma_p */
+} ogc_bound_in;
+
+typedef struct ogc_bound_out {
+  float* bound; /* [vertex_count] never above gamma_p times the smallest distance of the vertex, its edges and its triangles */
+} ogc_bound_out;
+
+OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
+
+/* ---- activation: contact energy over distance ---------------------------------------------------------------------------------------------------- */
+
+typedef struct ogc_activation_in {
+  int64_t n;
+  const float *distance, *contact_radius, *stiffness; /* [n] d > 0, r, k_c */
+} ogc_activation_in;
+
+typedef struct ogc_activation_out {
+  float *energy, *slope, *curvature; /* [n] g, g', g''; 0 for d >= r */
+} ogc_activation_out;
+
+OGC_PLUGIN_EXPORT int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out);
+
+/* ---- truncate: a vertex kept within its bound ---------------------------------------------------------------------------------------------------- */
+
+typedef struct ogc_truncate_in {
+  int64_t n;
+  const ogc_vec3 *previous, *position; /* [n] */
+  const float* bound;                  /* [n] b >= 0 */
+} ogc_truncate_in;
+
+typedef struct ogc_truncate_out {
+  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound exactly; bit for bit what came in where nothing is exceeded */
+  uint8_t* exceeded;  /* [n] 1 where the given position was farther than the bound */
+} ogc_truncate_out;
+
+OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out);
+
+/* ---- membrane, bending, …: force and block of one vertex of one stencil -------------------------------------------------------------------------- */
+
+typedef struct ogc_membrane_case {
+  ogc_vec3 corner[3], start[3]; /* asked about corner 0 */
+  float gradient[2][2];         /* of N_1, N_2; that of N_0 is minus their sum */
+  float area, lame_lambda, lame_mu, damping;
+} ogc_membrane_case;
+
+typedef struct ogc_membrane_in {
+  int64_t n;
+  const ogc_membrane_case* cases; /* [n] */
+} ogc_membrane_in;
+
+typedef struct ogc_bending_case {
+  ogc_vec3 vertex[4], start[4];
+  float stiffness, rest_angle, damping;
+  int32_t own; /* which vertex is asked about */
+} ogc_bending_case;
+
+typedef struct ogc_bending_in {
+  int64_t n;
+  const ogc_bending_case* cases; /* [n] */
+} ogc_bending_in;
+
+typedef struct ogc_force_out {
+  ogc_vec3* force;   /* [n] minus the energy's derivative */
+  float (*block)[6]; /* [n] xx, xy, xz, yy, yz, zz */
+} ogc_force_out;
+
+OGC_PLUGIN_EXPORT int ogc_membrane(const ogc_membrane_in* in, ogc_force_out* out);
+OGC_PLUGIN_EXPORT int ogc_bending(const ogc_bending_in* in, ogc_force_out* out);
+
+/* The faces that meet in a contact, and their vertices: first side | second side. */
+enum { OGC_POINT_POINT /* 0 | 1 */, OGC_POINT_EDGE /* 0 | 1 2 */, OGC_EDGE_EDGE /* 0 1 | 2 3 */, OGC_POINT_TRIANGLE /* 0 | 1 2 3 */ };
+
+typedef struct ogc_contact_force_case {
+  uint8_t sides;
+  int32_t own;
+  ogc_vec3 vertex[4], detected[4];
+  float rest_squared[2];
+  float contact_radius, stiffness;
+} ogc_contact_force_case;
+
+typedef struct ogc_contact_force_in {
+  int64_t n;
+  const ogc_contact_force_case* cases; /* [n] */
+} ogc_contact_force_in;
+
+typedef struct ogc_friction_force_case {
+  ogc_contact_force_case contact;
+  ogc_vec3 start[4];
+  float friction, slip_limit;
+} ogc_friction_force_case;
+
+typedef struct ogc_friction_force_in {
+  int64_t n;
+  const ogc_friction_force_case* cases; /* [n] */
+} ogc_friction_force_in;
+
+OGC_PLUGIN_EXPORT int ogc_contact_force(const ogc_contact_force_in* in, ogc_force_out* out);
+OGC_PLUGIN_EXPORT int ogc_friction_force(const ogc_friction_force_in* in, ogc_force_out* out);
+
+/* ---- initial_guess: one round of the guess loop for one vertex ----------------------------------------------------------------------------------- */
+
+typedef struct ogc_initial_guess_case {
+  ogc_vec3 start, velocity, acceleration;
+  float time_step;
+  ogc_vec3 previous;
+  float bound;
+  uint8_t held;
+} ogc_initial_guess_case;
+
+typedef struct ogc_initial_guess_in {
+  int64_t n;
+  const ogc_initial_guess_case* cases; /* [n] */
+} ogc_initial_guess_in;
+
+typedef struct ogc_initial_guess_out {
+  ogc_vec3 *target, *position; /* [n] y, and x */
+  uint8_t* cut;                /* [n] */
+} ogc_initial_guess_out;
+
+OGC_PLUGIN_EXPORT int ogc_initial_guess(const ogc_initial_guess_in* in, ogc_initial_guess_out* out);
+
+/* ---- block: is a point in the block of a face? --------------------------------------------------------------------------------------------------- */
+
+enum { OGC_VERTEX_IN_SURFACE, OGC_EDGE_IN_EDGES };
+
+typedef struct ogc_block_question {
+  uint8_t kind;
+  int32_t of;
+  uint8_t face_kind;
+  int32_t face;
+} ogc_block_question;
+
+typedef struct ogc_block_in {
+  ogc_topology topology;
+  const ogc_vec3* positions; /* [vertex_count] */
+  int64_t n;
+  const ogc_block_question* questions; /* [n] */
+} ogc_block_in;
+
+typedef struct ogc_block_out {
+  uint8_t* inside; /* [n] 0 or 1 */
+} ogc_block_out;
+
+OGC_PLUGIN_EXPORT int ogc_block(const ogc_block_in* in, ogc_block_out* out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
