@@ -1,5 +1,6 @@
 // `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and saved failures.
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -11,10 +12,13 @@
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/judge.hpp"
 #include "compare/judge/report.hpp"
+#include "compare/judge/shrink.hpp"
 #include "compare/judge/states.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/output.hpp"
+#include "experiments/plugins/contestant.hpp"
+#include "experiments/plugins/report.hpp"
 #include "experiments/progress.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
@@ -30,11 +34,14 @@ using compare::StageReport;
 // A generator; one that fails everywhere must not hide the others.
 constexpr std::size_t printed_mismatches = 3;
 constexpr std::ptrdiff_t saved_cases = 4;
+// Of all failing cases together, and of one [s].
+constexpr double shrinking_seconds = 30, shrinking_one = 2;
 
 struct CompareOptions {
   std::vector<std::string> stages;
-  std::string backend = "cpu", generator, states, problem, batch, replay, report;
+  std::string backend = "cpu", generator, states, problem, batch, replay, report, plugin;
   std::uint64_t cases = 100000, seed = 1;
+  unsigned time_limit = 10;
 };
 
 fast::Backend backend_of(const std::string& name) {
@@ -56,6 +63,37 @@ class OpenStates {
  private:
   std::map<std::string, std::unique_ptr<compare::States>> open_;
 };
+
+/// Who is judged: our backend, or a plug-in with our backend timed beside it.
+struct Judged {
+  compare::Contestant contestant;
+  std::shared_ptr<PluginProcess> plugin;  ///< null where there is none
+  std::shared_ptr<Times> times = std::make_shared<Times>();
+  std::string backend;
+};
+
+Judged judged_of(const CompareOptions& options) {
+  Judged judged{fast::contestant(backend_of(options.backend)), nullptr, std::make_shared<Times>(), options.backend};
+  if (options.plugin.empty()) return judged;
+  PluginOptions plugin;
+  plugin.file = options.plugin;
+  plugin.limit_seconds = options.time_limit;
+  judged.plugin = std::make_shared<PluginProcess>(plugin);
+  judged.contestant = timed_beside(plugin_contestant(judged.plugin), judged.contestant, judged.times);
+  return judged;
+}
+
+/// What a plug-in has decides which stages are judged where none is named; one that is named must be there.
+void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
+  if (judged.plugin->offered().empty())
+    throw InputError(options.plugin + ": it has no stage's function; write one, such as ogc_truncate (compare/plugin.h)");
+  for (const std::string& name : options.stages)
+    if (compare::find_stage(name) && !judged.plugin->has(name))
+      throw InputError(options.plugin + ": it has no function ogc_" + name + "; its stages: " + judged.plugin->offered());
+  if (!options.stages.empty()) return;
+  for (const Stage stage : compare::all_stages)
+    if (judged.plugin->has(compare::stage_name(stage))) options.stages.emplace_back(compare::stage_name(stage));
+}
 
 /// The stages asked for, in the order of all_stages; all of those that the generator and both sides have where none is named.
 std::vector<Stage> stages_of(const CompareOptions& options) {
@@ -114,9 +152,33 @@ compare::TestCase case_again(const compare::CaseName& name, std::span<const comp
   return compare::generate(name, states.of(name.states));
 }
 
-/// Saves the first failing cases of each generator; returns the paths.
+/// Makes failing cases small, as long as there is time.
+class Shrinking {
+ public:
+  Shrinking(const compare::Contestant& contestant, const compare::Authority& authority) : contestant_(contestant), authority_(authority) {}
+
+  /// The case, and its message with what became of it.
+  std::pair<compare::TestCase, std::string> small(const compare::TestCase& test, const std::string& message) {
+    const auto start = std::chrono::steady_clock::now();
+    compare::ShrinkOptions options;
+    options.seconds = std::min(shrinking_one, shrinking_seconds - spent_);
+    if (options.seconds <= 0) return {test, message};
+    compare::TestCase shrunk = compare::shrink_failure(test, message, contestant_, authority_, options);
+    spent_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::size_t before = compare::primitive_count(test.data), after = compare::primitive_count(shrunk.data);
+    if (before == after) return {std::move(shrunk), message};
+    return {std::move(shrunk), message + " (message of the whole case; shrunk from " + std::to_string(before) + " to " + counted(after, "primitive") + ")"};
+  }
+
+ private:
+  const compare::Contestant& contestant_;
+  const compare::Authority& authority_;
+  double spent_ = 0;
+};
+
+/// Saves the first failing cases of each generator, shrunk; returns the paths.
 std::vector<std::string> save_failures(const std::vector<StageReport>& reports, std::span<const compare::TestCase> given, OpenStates& states,
-                                       const std::filesystem::path& folder) {
+                                       const std::filesystem::path& folder, Shrinking shrinking) {
   std::vector<std::string> paths;
   for (const StageReport& report : reports) {
     std::vector<compare::CaseName> saved;
@@ -125,7 +187,8 @@ std::vector<std::string> save_failures(const std::vector<StageReport>& reports, 
       if (std::count_if(saved.begin(), saved.end(), same_generator) == saved_cases) continue;
       if (std::find(saved.begin(), saved.end(), mismatch.name) != saved.end()) continue;
       saved.push_back(mismatch.name);
-      paths.push_back(compare::save_case(folder, case_again(mismatch.name, given, states), mismatch.message).string());
+      const auto [test, message] = shrinking.small(case_again(mismatch.name, given, states), mismatch.message);
+      paths.push_back(compare::save_case(folder, test, message).string());
     }
   }
   return paths;
@@ -142,39 +205,54 @@ void write_report(const std::filesystem::path& folder, const std::vector<StageRe
   if (!lines || !table) throw compare::ResourceError(folder.string() + ": the report cannot be written; check the folder and the space on its disk");
 }
 
-void print_reports(const std::vector<StageReport>& reports, const std::vector<std::string>& saved, const CommandContext& context) {
+void print_reports(const std::vector<StageReport>& reports, const std::optional<PluginSeen>& plugin, const std::vector<std::string>& saved,
+                   const CommandContext& context) {
   if (context.json) {
     Json all = Json::array();
     for (const StageReport& report : reports) all.push_back(compare::report_json(report));
-    print_result(Json{{"stages", all}, {"saved", saved}});
+    Json result{{"stages", all}, {"saved", saved}};
+    if (plugin) result["plugin"] = plugin_json(*plugin, reports);
+    print_result(result);
     return;
   }
   std::string text = compare::report_table(reports);
+  if (plugin) text += "\n" + plugin_text(*plugin, reports);
   for (const StageReport& report : reports)
     if (report.tally.mismatched > 0) text += "\n" + compare::report_mismatches(report, printed_mismatches);
   if (!saved.empty()) text += "\n" + counted(saved.size(), "failing case") + " saved; replay one with: ogc compare --replay " + saved.front() + "\n";
   print_result(text);
 }
 
-int run(const CompareOptions& options, const CommandContext& context) {
-  const compare::Contestant contestant = fast::contestant(backend_of(options.backend));
+int run(CompareOptions options, const CommandContext& context) {
+  const Judged judged = judged_of(options);
+  if (judged.plugin) choose_stages_of_plugin(options, judged);
   const compare::Authority authority = reference::authority();
   OpenStates states;
   const bool is_given = !options.problem.empty() || !options.batch.empty() || !options.replay.empty();
   const std::vector<compare::TestCase> given = given_cases(options, states);
   if (is_given && given.empty()) throw InputError(options.batch + ": holds no problem; write one problem string a line");
-  const std::vector<StageReport> reports =
-      is_given ? compare::judge_cases(given, contestant, authority) : judge_generated(options, states, contestant, authority);
+  std::vector<StageReport> reports =
+      is_given ? compare::judge_cases(given, judged.contestant, authority) : judge_generated(options, states, judged.contestant, authority);
+  if (judged.plugin)  // the judge's clock ran while the question travelled, and while ours answered
+    for (StageReport& report : reports) report.tally.contestant_seconds = judged.plugin->seconds(compare::stage_name(report.tally.stage));
+  std::optional<PluginSeen> plugin;
+  if (judged.plugin) plugin = PluginSeen{judged.plugin->name(), judged.backend, *judged.times, judged.plugin->notes()};
   const std::filesystem::path folder = options.report.empty() ? "ogc-compare" : options.report;
-  const std::vector<std::string> saved = options.replay.empty() ? save_failures(reports, given, states, folder / "failures") : std::vector<std::string>{};
+  const std::vector<std::string> saved = options.replay.empty() ? save_failures(reports, given, states, folder / "failures", {judged.contestant, authority}) : std::vector<std::string>{};
   if (!options.report.empty()) write_report(folder, reports);
-  print_reports(reports, saved, context);
-  bool judged = false, passed = true;
+  print_reports(reports, plugin, saved, context);
+  bool any = false, passed = true;
   for (const StageReport& report : reports) {
-    judged |= !report.skipped;
+    any |= !report.skipped;
     passed &= report.skipped ? options.stages.empty() : report.passed();
   }
-  return judged && passed ? exit_success : exit_check_failed;
+  return any && passed ? exit_success : exit_check_failed;
+}
+
+std::string all_stage_names() {
+  std::string names;
+  for (const Stage stage : compare::all_stages) names += (names.empty() ? "" : ", ") + std::string(compare::stage_name(stage));
+  return names;
 }
 
 }  // namespace
@@ -183,25 +261,29 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "Differential test of the fast stages against the exact reference");
   command->add_option("STAGE", options->stages,
-                      "closest_face, closest_points, detect_vertex_facet, detect_edge_edge, bound, activation, truncate, membrane, bending; none: all that both "
-                      "sides have");
+                      all_stage_names() + "; none: all that both sides have");
   command->add_option("--backend", options->backend, "cpu or cuda")->capture_default_str();
-  command->add_option("--cases", options->cases, "Cases a stage; for meshes a case is a vertex or an edge")->capture_default_str()->check(CLI::PositiveNumber);
+  command->add_option("--cases", options->cases, "Cases a stage; for meshes a case is a vertex or an edge, for steps a vertex at an event")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command->add_option("--seed", options->seed, "Of the generators")->capture_default_str();
   command->add_option("--generator", options->generator, "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
   command->add_option("--states", options->states, "A run folder, whose frames become cases too");
   auto* problem = command->add_option("--problem", options->problem, "One case by its problem string, as printed in messages");
   auto* batch = command->add_option("--batch", options->batch, "A file with one problem string a line");
-  auto* replay = command->add_option("--replay", options->replay, "A failing case as saved");
+  auto* replay = command->add_option("--replay", options->replay, "A failing case as saved: shrunk, with every bit");
   problem->excludes(replay);
   batch->excludes(replay);
+  command->add_option("--plugin", options->plugin, "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
+  command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")->capture_default_str()->check(CLI::Range(1, 3600));
   command->add_option("--report", options->report, "Folder for report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer("Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of compare/stages.\n"
-                  "Exit status 1: a mismatch, or too many grey decisions.\n\n"
+                  "Exit status 1: a mismatch, too many grey decisions, or a plug-in that crashes, hangs or writes out of range.\n\n"
                   "Examples:\n"
                   "  ogc compare --cases 1000000\n"
                   "  ogc compare closest_face truncate --backend cuda --report reports/cuda\n"
+                  "  ogc compare truncate --plugin ./mine.so\n"
                   "  ogc compare --problem \"stage=closest_face gen=ladder.needle seed=7 index=1234\"");
   command->callback([options, &context] { context.status = run(*options, context); });
 }

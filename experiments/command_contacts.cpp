@@ -59,7 +59,9 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
   command->add_option("--engine", options->engine, "exact (the reference), cpu or cuda (the fast path)")
       ->check(CLI::IsMember({"exact", "cpu", "cuda"}))->capture_default_str();
   command->add_flag("--json", context.json, "Print all contacts, smallest distances and bounds as JSON on standard output");
-  command->footer("A smallest distance of r_q in the JSON means that nothing is nearer. Lengths are in metres; coordinates are rounded to single\n"
+  command->footer("The exact engine's JSON has two things more: `margin` of a vertex-facet contact, the smallest distance to a boundary of the face's\n"
+                  "block, and `vertex_kind`, convex, mixed or saddle.\n"
+                  "A smallest distance of r_q in the JSON means that nothing is nearer. Lengths are in metres; coordinates are rounded to single\n"
                   "precision first.\n\n"
                   "Examples:\n"
                   "  ogc contacts shirt.obj --radius 0.002\n"

@@ -71,7 +71,7 @@ void show(const std::string& name, const CommandContext& context) {
     rows.push_back({size.scale, std::to_string(size.vertices), std::to_string(size.triangles), std::to_string(size.steps)});
   std::vector<std::vector<std::string>> settings;
   for (const compare::SettingInfo& setting : compare::setting_table())
-    settings.push_back({std::string(setting.name), number(compare::get_setting(scene.settings, setting.name), 6),
+    settings.push_back({std::string(setting.name), setting.choices.empty() ? number(compare::get_setting(scene.settings, setting), 6) : compare::setting_text(scene.settings, setting),
                         setting.unit == "1" ? "" : std::string(setting.unit)});
   print_result(name + " (" + std::string(info.figure) + "): " + std::string(info.summary) + "\n\n" + table(rows, 1) + "\nsettings at small\n" +
                table(settings, 3));

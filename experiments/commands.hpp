@@ -17,9 +17,11 @@ struct CommandContext {
 
 void add_scenes_command(CLI::App& app, CommandContext& context);
 void add_run_command(CLI::App& app, CommandContext& context);
+void add_ablate_command(CLI::App& app, CommandContext& context);
 void add_contacts_command(CLI::App& app, CommandContext& context);
 void add_audit_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
 void add_export_command(CLI::App& app, CommandContext& context);
+void add_illustrate_command(CLI::App& app, CommandContext& context);
 
 }  // namespace ogc::experiments

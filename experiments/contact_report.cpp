@@ -44,6 +44,18 @@ compare::ClosestPointsIn edge_edge_cases(const ContactReport& report, const std:
   return cases;
 }
 
+/// What only the reference knows: how far each contact is from ending, and what kind of vertex each one is.
+void fill_geometry(ContactReport& report, const std::vector<Vec3f>& positions) {
+  constexpr std::array<const char*, 3> kinds{"convex", "mixed", "saddle"};
+  const reference::Complex mesh{report.topology, positions};
+  for (const compare::VertexFacetContact& contact : report.vertex_facet.contacts) {
+    const auto margins = reference::block_margins(mesh, contact.face, mesh.at(contact.vertex), report.contact_radius);
+    report.vertex_facet_margin.push_back(std::ranges::min(margins, {}, &reference::BlockMargin::length).length);
+  }
+  for (compare::Index v = 0; v < report.topology.vertex_count; ++v)
+    report.vertex_kind.push_back(kinds[static_cast<std::size_t>(reference::classify(mesh, v))]);
+}
+
 void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation) {
   const compare::Authority authority = reference::authority();
   report.vertex_facet = authority.detect_vertex_facet(in).exact;
@@ -52,6 +64,7 @@ void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::v
                                   bound_relaxation}).exact.bound;
   report.vertex_facet_distance = authority.closest_face(vertex_facet_cases(report, positions)).distance;
   report.edge_edge_distance = authority.closest_points(edge_edge_cases(report, positions)).contact_distance;
+  fill_geometry(report, positions);
 }
 
 void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation, fast::Backend backend) {
@@ -155,10 +168,12 @@ Json to_json(const ContactReport& report) {
             {"d_min_edge", report.edge_edge.d_min_edge},
             {"d_min_triangle", report.vertex_facet.d_min_triangle},
             {"bound", report.bound}};
+  if (!report.vertex_kind.empty()) json["vertex_kind"] = report.vertex_kind;
   for (std::size_t i = 0; i < report.vertex_facet.contacts.size(); ++i) {
     const compare::VertexFacetContact& contact = report.vertex_facet.contacts[i];
     json["vertex_facet"].push_back({{"vertex", contact.vertex}, {"face", to_json(contact.face, report.topology)}, {"owner", contact.owner},
                                     {"distance", report.vertex_facet_distance[i]}});
+    if (!report.vertex_facet_margin.empty()) json["vertex_facet"].back()["margin"] = report.vertex_facet_margin[i];
   }
   for (std::size_t i = 0; i < report.edge_edge.contacts.size(); ++i) {
     const compare::EdgeEdgeContact& contact = report.edge_edge.contacts[i];

@@ -20,6 +20,8 @@ struct ContactReport {
   compare::DetectEdgeEdgeOut edge_edge;
   std::vector<double> vertex_facet_distance, edge_edge_distance;  ///< [m], one each contact: of the vertex and the owner; between the contact points
   std::vector<float> bound;                                       ///< b_v, Eq. 21 [m]
+  std::vector<double> vertex_facet_margin;  ///< one each contact: the smallest distance to a boundary of the face's block [m]; empty unless exact
+  std::vector<const char*> vertex_kind;     ///< "convex", "mixed", "saddle" (Fig. 5) by vertex; empty unless exact
 };
 
 /// Throws compare::ResourceError where the engine is not available. The mesh must be valid.

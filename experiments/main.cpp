@@ -3,9 +3,11 @@
 #include <exception>
 #include <new>
 
+#include "compare/problem/contestant.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/output.hpp"
+#include "experiments/plugins/worker.hpp"
 #include "experiments/version.hpp"
 
 namespace {
@@ -22,10 +24,13 @@ std::string command_line(int count, char** words) {
 void add_commands(CLI::App& app, CommandContext& context) {
   experiments::add_scenes_command(app, context);
   experiments::add_run_command(app, context);
+  experiments::add_ablate_command(app, context);
   experiments::add_contacts_command(app, context);
   experiments::add_audit_command(app, context);
   experiments::add_compare_command(app, context);
   experiments::add_export_command(app, context);
+  experiments::add_illustrate_command(app, context);
+  experiments::add_plugin_worker_command(app, context);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
     if (command->get_option_no_throw("--json") == nullptr)
       command->add_flag("--json", context.json, "Print the result as JSON on standard output");
@@ -73,6 +78,8 @@ int main(int count, char** words) {
     return failure(error.what(), experiments::exit_bad_input);
   } catch (const compare::ResourceError& error) {
     return failure(error.what(), experiments::exit_out_of_resource);
+  } catch (const compare::ContestantFailure& failed) {
+    return failure("the plug-in can't be judged: " + std::string(failed.what()), experiments::exit_check_failed);
   } catch (const std::bad_alloc&) {
     return failure("out of memory; take a smaller scale or mesh", experiments::exit_out_of_resource);
   } catch (const std::exception& error) {

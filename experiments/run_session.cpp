@@ -79,6 +79,13 @@ std::string step_failure(const StepMetrics& row) {
            "; the last good state is kept. Try a smaller time_step, more iterations, or softer materials";
   if (row.status & compare::step_bound_violated)
     return "a vertex moved further than its bound" + where + ": the guarantee is broken; the last good state is kept. Please report it";
+  if (row.status & compare::step_indefinite)
+    return "Newton's matrix is not positive definite" + where +
+           "; the last good state is kept. Set projection to clamp or absolute, or a smaller time_step";
+  if (row.status & compare::step_not_converged)
+    return "Newton's method did not converge" + where + ": residual " + number(row.residual) + " after " +
+           counted(static_cast<std::size_t>(row.iterations), "iteration") +
+           "; the last good state is kept. Try more newton_iterations, a larger newton_tolerance (0: do all iterations and go on), or a smaller time_step";
   return "";
 }
 
@@ -122,7 +129,7 @@ void RunSession::check_start() const {
 }
 
 void RunSession::open_folder() {
-  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile, .energies = true});
+  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile, .energies = true, .iterations = request_.iterations, .condition = request_.condition});
   if (request_.from_state) simulation_->restore(start_);
   summary_.scene = request_.scene.name;
   summary_.scale = request_.scale;

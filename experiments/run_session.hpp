@@ -25,6 +25,7 @@ struct RunRequest {
   bool audit_beside = false;          ///< see Auditor
   std::optional<std::filesystem::path> from_state;
   bool profile = false;
+  bool iterations = false, condition = false;  ///< see compare::SimulationOptions
   std::filesystem::path folder;
   std::string command_line;
 };

@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "compare/judge/exact_sum.hpp"
+#include "compare/judge/verdict.hpp"
+#include "reference/solvers/step.hpp"
+#include "reference/solvers/sweep.hpp"
 
 namespace ogc::tests {
 
@@ -42,6 +45,21 @@ ForceOut rounded(const ForceTruth& truth) {
   return out;
 }
 
+/// The exact targets rounded; position and cut are those of the rounded ones.
+InitialGuessOut exact_guess(const InitialGuessIn& in, const InitialGuessTruth& truth, const std::function<TruncateOut(const TruncateIn&)>& truncate) {
+  InitialGuessOut out;
+  for (const Vec3& y : truth.target) out.target.push_back({static_cast<float>(y.x), static_cast<float>(y.y), static_cast<float>(y.z)});
+  TruncateOut cut = truncate(cut_question(in, out));
+  for (std::size_t i = 0; i < in.cases.size(); ++i) {
+    if (!in.cases[i].held) continue;
+    cut.position[i] = in.cases[i].previous;
+    cut.exceeded[i] = 0;
+  }
+  out.position = std::move(cut.position);
+  out.cut = std::move(cut.exceeded);
+  return out;
+}
+
 }  // namespace
 
 Contestant exact_contestant(const Authority& authority) {
@@ -63,14 +81,22 @@ Contestant exact_contestant(const Authority& authority) {
       if (truth.exceeded[i]) out.position[i] = stored(truth.position[i], in.previous[i], in.bound[i]);
     return out;
   };
+  exact.contact_force = [authority](const ContactForceIn& in) { return rounded(authority.contact_force(in)); };
+  exact.friction_force = [authority](const FrictionForceIn& in) { return rounded(authority.friction_force(in)); };
+  exact.rest_state = [authority](const RestStateIn& in) { return authority.rest_state(in).exact; };
+  exact.block = [authority](const BlockIn& in) { return BlockOut{authority.block(in).inside}; };
+  exact.initial_guess = [authority, truncate = exact.truncate](const InitialGuessIn& in) { return exact_guess(in, authority.initial_guess(in), truncate); };
   exact.membrane = [authority](const MembraneIn& in) { return rounded(authority.membrane(in)); };
   exact.bending = [authority](const BendingIn& in) { return rounded(authority.bending(in)); };
+  exact.sweep = [](const SweepIn& in) { return reference::reference_sweep(in, reference::SweepStencils(in)); };
+  exact.step = reference::reference_step;
   return exact;
 }
 
 std::vector<Fault> faults() {
   std::vector<Fault> all = pair_faults();
-  for (const auto& more : {set_faults(), scalar_faults(), force_faults()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {set_faults(), scalar_faults(), contact_faults(), force_faults(), rest_faults(), step_faults(), sweep_faults()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

@@ -4,6 +4,7 @@
 
 #include "compare/files/scene_files.hpp"
 #include "compare/record/run_folder.hpp"
+#include "compare/record/steps_csv.hpp"
 #include "experiments/output.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "tests/catch.hpp"
@@ -147,12 +148,45 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails("twist --scale smoke --set iterations", {"key=value"});
   fails("twist --scale huge", {"huge", "smoke"});
   fails("twist --scale smoke --steps 0", {"--steps"});
-  fails("twist --scale smoke --solver newton", {"newton", "not exist yet", "vbd"});
+  fails("twist --scale smoke --solver ipc", {"ipc", "not exist yet", "vbd", "newton"});
+  fails("twist --scale smoke --solver newton --backend cuda", {"newton", "CPU"});
+  fails("twist --scale smoke --iterations", {"--iterations", "newton"});
+  fails("twist --scale smoke --solver newton --set activation=barrier", {"activation", "ipc_log"});
   fails("twist --scale smoke --solver magic", {"--solver"});
   fails((folder / "missing.json").string(), {"missing.json"});
   fails("twist --scale smoke --from-state " + (folder / "missing.h5").string(), {"missing.h5"});
   const std::string file = compare::write_scene(folder / "scene", two_triangles(false)).string();
   fails(file + " --scale smoke", {"--scale"});
+}
+
+TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee and records its iterations", "[figure]") {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --solver newton --steps 8 --audit every --condition --json --out " + run);
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto summary = nlohmann::json::parse(result.out);
+  CHECK(summary["solver"] == "newton");
+  CHECK(summary["guarantee_kept"] == true);
+  CHECK(summary["audit"]["states"] == 8);
+  const compare::StepTable table = compare::read_steps(run);
+  REQUIRE(table.rows.size() == 8);
+  for (const compare::StepMetrics& row : table.rows) CHECK(row.residual < 1e-2);
+  std::ifstream iterations(folder / "run" / "iterations.csv");
+  std::string header, first;
+  std::getline(iterations, header);
+  std::getline(iterations, first);
+  CHECK(header.find("residual [1]") != std::string::npos);
+  CHECK(first.find("nan") == std::string::npos);  // the condition number is there
+}
+
+TEST_CASE("a step of Newton's that does not converge exits 1, says what to do and keeps the state before it", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --solver newton --steps 12 --set newton_iterations=1 --out " + run);
+  CHECK(result.status == 1);
+  CHECK(contains(result.err, {"did not converge", "newton_iterations", "last good state"}));
+  CHECK(compare::RunReader(run).frame_count() > 0);
 }
 
 TEST_CASE("a scene file whose mesh holds a NaN exits 2 and names the file", "[unit]") {

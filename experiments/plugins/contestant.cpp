@@ -1,0 +1,252 @@
+// The judge's questions as arrays, in the order of stages.cpp, and the arrays that come back as answers.
+#include "experiments/plugins/contestant.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace ogc::experiments {
+
+namespace {
+
+using namespace ogc::compare;
+
+// One layout on both sides: a question's structures are the plug-in's.
+static_assert(sizeof(Vec3f) == sizeof(ogc_vec3));
+static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) && offsetof(MembraneCase, damping) == offsetof(ogc_membrane_case, damping));
+static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) && offsetof(BendingCase, own) == offsetof(ogc_bending_case, own));
+static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) && offsetof(ContactForceCase, stiffness) == offsetof(ogc_contact_force_case, stiffness));
+static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) && offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
+static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) && offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
+static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) && offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));
+
+using Plugin = std::shared_ptr<PluginProcess>;
+
+QuestionSizes sizes_of(const Topology& topology) {
+  return {0, topology.vertex_count, static_cast<std::int32_t>(topology.edges.size()), static_cast<std::int32_t>(topology.triangles.size()), 0, 0};
+}
+
+QuestionSizes sizes_of(std::size_t cases) {
+  QuestionSizes sizes;
+  sizes.cases = static_cast<std::int64_t>(cases);
+  return sizes;
+}
+
+std::vector<Bytes> inputs_of(const Topology& topology) {
+  std::vector<Bytes> inputs{bytes_of(topology.edges), bytes_of(topology.triangles), bytes_of(topology.triangle_edges)};
+  for (const CompressedRows* rows : {&topology.vertex_edges, &topology.vertex_triangles, &topology.vertex_neighbours, &topology.edge_triangles,
+                                     &topology.edge_opposite}) {
+    inputs.push_back(bytes_of(rows->offsets));
+    inputs.push_back(bytes_of(rows->items));
+  }
+  return inputs;
+}
+
+/// Outputs become vectors one after another.
+class Outputs {
+ public:
+  explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
+  template <class T>
+  void to(std::vector<T>& items) {
+    const auto& bytes = answer_.outputs[next_++];
+    items.resize(bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(items.data()), bytes.data(), items.size() * sizeof(T));
+  }
+
+ private:
+  const PluginProcess::Answer& answer_;
+  std::size_t next_ = 0;
+};
+
+/// A face as the plug-in wrote it.
+Face face(std::int32_t kind, std::int32_t index) {
+  if (kind < 0 || kind > 2) throw ContestantFailure("a contact names a face of kind " + std::to_string(kind) + "; known: 0 vertex, 1 edge, 2 triangle");
+  return {static_cast<FaceKind>(kind), index};
+}
+
+ClosestFaceOut ask_closest_face(PluginProcess& plugin, const ClosestFaceIn& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.point), bytes_of(in.triangle)};
+  const auto answer = plugin.ask("closest_face", sizes_of(in.point.size()), inputs);
+  ClosestFaceOut out;
+  Outputs outputs(answer);
+  outputs.to(out.feature);
+  outputs.to(out.weights);
+  outputs.to(out.distance);
+  outputs.to(out.distance_below);
+  return out;
+}
+
+ClosestPointsOut ask_closest_points(PluginProcess& plugin, const ClosestPointsIn& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.first), bytes_of(in.second)};
+  const auto answer = plugin.ask("closest_points", sizes_of(in.first.size()), inputs);
+  ClosestPointsOut out;
+  Outputs outputs(answer);
+  outputs.to(out.first_feature);
+  outputs.to(out.second_feature);
+  outputs.to(out.nearly_parallel);
+  outputs.to(out.parameters);
+  outputs.to(out.contact_distance);
+  outputs.to(out.distance_below);
+  return out;
+}
+
+PluginProcess::Answer ask_detection(PluginProcess& plugin, std::string_view stage, const DetectIn& in) {
+  std::vector<Bytes> inputs = inputs_of(*in.topology);
+  inputs.push_back(bytes_of(in.rigid_groups));
+  inputs.push_back(bytes_of(in.positions));
+  QuestionSizes sizes = sizes_of(*in.topology);
+  sizes.first = in.contact_radius;
+  sizes.second = in.query_radius;
+  return plugin.ask(stage, sizes, inputs);
+}
+
+DetectVertexFacetOut ask_detect_vertex_facet(PluginProcess& plugin, const DetectIn& in) {
+  const auto answer = ask_detection(plugin, "detect_vertex_facet", in);
+  DetectVertexFacetOut out;
+  std::vector<ogc_vertex_facet_contact> contacts;
+  Outputs outputs(answer);
+  outputs.to(contacts);
+  outputs.to(out.d_min_vertex);
+  outputs.to(out.d_min_triangle);
+  for (const auto& c : contacts) out.contacts.push_back({c.vertex, face(c.kind, c.face), c.owner});
+  return out;
+}
+
+DetectEdgeEdgeOut ask_detect_edge_edge(PluginProcess& plugin, const DetectIn& in) {
+  const auto answer = ask_detection(plugin, "detect_edge_edge", in);
+  DetectEdgeEdgeOut out;
+  std::vector<ogc_edge_edge_contact> contacts;
+  Outputs outputs(answer);
+  outputs.to(contacts);
+  outputs.to(out.d_min_edge);
+  for (const auto& c : contacts) out.contacts.push_back({face(c.first_kind, c.first_face), face(c.second_kind, c.second_face), c.first_edge, c.second_edge});
+  return out;
+}
+
+BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
+  std::vector<Bytes> inputs = inputs_of(*in.topology);
+  for (const auto& distances : {in.d_min_vertex, in.d_min_edge, in.d_min_triangle}) inputs.push_back(bytes_of(distances));
+  QuestionSizes sizes = sizes_of(*in.topology);
+  sizes.first = in.bound_relaxation;
+  const auto answer = plugin.ask("bound", sizes, inputs);
+  BoundOut out;
+  Outputs(answer).to(out.bound);
+  return out;
+}
+
+ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness)};
+  const auto answer = plugin.ask("activation", sizes_of(in.distance.size()), inputs);
+  ActivationOut out;
+  Outputs outputs(answer);
+  outputs.to(out.energy);
+  outputs.to(out.slope);
+  outputs.to(out.curvature);
+  return out;
+}
+
+TruncateOut ask_truncate(PluginProcess& plugin, const TruncateIn& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.previous), bytes_of(in.position), bytes_of(in.bound)};
+  const auto answer = plugin.ask("truncate", sizes_of(in.bound.size()), inputs);
+  TruncateOut out;
+  Outputs outputs(answer);
+  outputs.to(out.position);
+  outputs.to(out.exceeded);
+  return out;
+}
+
+template <class In>
+ForceOut ask_force(PluginProcess& plugin, std::string_view stage, const In& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.cases)};
+  const auto answer = plugin.ask(stage, sizes_of(in.cases.size()), inputs);
+  ForceOut out;
+  Outputs outputs(answer);
+  outputs.to(out.force);
+  outputs.to(out.block);
+  return out;
+}
+
+InitialGuessOut ask_initial_guess(PluginProcess& plugin, const InitialGuessIn& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.cases)};
+  const auto answer = plugin.ask("initial_guess", sizes_of(in.cases.size()), inputs);
+  InitialGuessOut out;
+  Outputs outputs(answer);
+  outputs.to(out.target);
+  outputs.to(out.position);
+  outputs.to(out.cut);
+  return out;
+}
+
+BlockOut ask_block(PluginProcess& plugin, const BlockIn& in) {
+  std::vector<Bytes> inputs = inputs_of(*in.topology);
+  inputs.push_back(bytes_of(in.positions));
+  inputs.push_back(bytes_of(in.questions));
+  QuestionSizes sizes = sizes_of(*in.topology);
+  sizes.cases = static_cast<std::int64_t>(in.questions.size());
+  const auto answer = plugin.ask("block", sizes, inputs);
+  BlockOut out;
+  Outputs(answer).to(out.inside);
+  return out;
+}
+
+/// The members of a contestant that a plug-in can have, with their names.
+template <class Visit>
+void visit_stages(Visit visit) {
+  visit("closest_face", &Contestant::closest_face);
+  visit("closest_points", &Contestant::closest_points);
+  visit("block", &Contestant::block);
+  visit("detect_vertex_facet", &Contestant::detect_vertex_facet);
+  visit("detect_edge_edge", &Contestant::detect_edge_edge);
+  visit("bound", &Contestant::bound);
+  visit("initial_guess", &Contestant::initial_guess);
+  visit("activation", &Contestant::activation);
+  visit("contact_force", &Contestant::contact_force);
+  visit("friction_force", &Contestant::friction_force);
+  visit("membrane", &Contestant::membrane);
+  visit("bending", &Contestant::bending);
+  visit("truncate", &Contestant::truncate);
+}
+
+template <class Out, class In>
+std::function<Out(const In&)> timed(std::function<Out(const In&)> plugin, const std::function<Out(const In&)>& ours, std::string name,
+                                    std::shared_ptr<Times> times) {
+  if (!plugin || !ours) return plugin;
+  return [plugin, ours, name, times](const In& in) {
+    Out answer = plugin(in);
+    const auto start = std::chrono::steady_clock::now();
+    ours(in);
+    (*times)[name] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return answer;
+  };
+}
+
+}  // namespace
+
+Contestant plugin_contestant(Plugin plugin) {
+  Contestant c;
+  c.name = plugin->name();
+  c.closest_face = [plugin](const ClosestFaceIn& in) { return ask_closest_face(*plugin, in); };
+  c.closest_points = [plugin](const ClosestPointsIn& in) { return ask_closest_points(*plugin, in); };
+  c.block = [plugin](const BlockIn& in) { return ask_block(*plugin, in); };
+  c.detect_vertex_facet = [plugin](const DetectIn& in) { return ask_detect_vertex_facet(*plugin, in); };
+  c.detect_edge_edge = [plugin](const DetectIn& in) { return ask_detect_edge_edge(*plugin, in); };
+  c.bound = [plugin](const BoundIn& in) { return ask_bound(*plugin, in); };
+  c.initial_guess = [plugin](const InitialGuessIn& in) { return ask_initial_guess(*plugin, in); };
+  c.activation = [plugin](const ActivationIn& in) { return ask_activation(*plugin, in); };
+  c.contact_force = [plugin](const ContactForceIn& in) { return ask_force(*plugin, "contact_force", in); };
+  c.friction_force = [plugin](const FrictionForceIn& in) { return ask_force(*plugin, "friction_force", in); };
+  c.membrane = [plugin](const MembraneIn& in) { return ask_force(*plugin, "membrane", in); };
+  c.bending = [plugin](const BendingIn& in) { return ask_force(*plugin, "bending", in); };
+  c.truncate = [plugin](const TruncateIn& in) { return ask_truncate(*plugin, in); };
+  visit_stages([&](const char* name, auto member) {
+    if (!plugin->has(name)) c.*member = nullptr;
+  });
+  return c;
+}
+
+Contestant timed_beside(Contestant plugin, const Contestant& ours, std::shared_ptr<Times> times) {
+  visit_stages([&](const char* name, auto member) { plugin.*member = timed(plugin.*member, ours.*member, name, times); });
+  return plugin;
+}
+
+}  // namespace ogc::experiments

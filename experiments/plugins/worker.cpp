@@ -1,0 +1,199 @@
+#include "experiments/plugins/worker.hpp"
+
+#include <dlfcn.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "experiments/plugins/channel.hpp"
+#include "experiments/plugins/memory.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+struct Refusal : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::string plural(std::int64_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
+
+/// The library, its stages, and the memory that it asks for.
+class Library {
+ public:
+  explicit Library(const std::string& file) {
+    void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library) throw Refusal(std::string("it can't be loaded: ") + dlerror());
+    const ogc_plugin_info* (*describe)() = nullptr;
+    void* const symbol = dlsym(library, "ogc_plugin");
+    if (!symbol) throw Refusal("it has no function ogc_plugin, so it is no plug-in; write OGC_PLUGIN(\"name\", OGC_HOST_MEMORY) into it (compare/plugin.h)");
+    std::memcpy(&describe, &symbol, sizeof symbol);
+    const ogc_plugin_info* const info = describe();
+    if (!info) throw Refusal("ogc_plugin() returns a null pointer");
+    if (info->version != OGC_PLUGIN_VERSION)
+      throw Refusal("it was built for version " + std::to_string(info->version) + " of compare/plugin.h, and this program knows version " +
+                    std::to_string(OGC_PLUGIN_VERSION) + "; build it with this program's header");
+    if (info->memory != OGC_HOST_MEMORY && info->memory != OGC_DEVICE_MEMORY)
+      throw Refusal("it asks for memory " + std::to_string(info->memory) + "; known: OGC_HOST_MEMORY (0), OGC_DEVICE_MEMORY (1)");
+    name = info->name ? info->name : "";
+    for (const PluginStage& stage : plugin_stages()) functions.push_back(dlsym(library, ("ogc_" + std::string(stage.name)).c_str()));
+    memory = info->memory == OGC_HOST_MEMORY ? host_memory() : device_memory();
+  }
+
+  std::string name;
+  std::vector<void*> functions;  ///< of plugin_stages(), null where the library lacks it
+  std::unique_ptr<PluginMemory> memory;
+};
+
+/// One question, from its arrays to the outputs.
+class Call {
+ public:
+  Call(Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs)
+      : library_(library), memory_(*library.memory), stage_(plugin_stages()[request.stage]), function_(library.functions[request.stage]), request_(request) {
+    capacity_ = 64 + 4 * (std::int64_t{request.sizes.vertices} + request.sizes.edges);
+    for (const auto& input : inputs) inputs_.push_back(memory_.input(input));
+  }
+  ~Call() {
+    try {
+      memory_.release();
+    } catch (const std::runtime_error&) {  // a device that has given up, which was reported before
+    }
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  /// Throws std::runtime_error that says what the plug-in did wrong.
+  CallResult run() {
+    CallResult result = attempt();
+    if (result.contacts > capacity_) {
+      const std::int64_t first = result.contacts;
+      capacity_ = first;
+      result = attempt();
+      if (result.contacts > capacity_)
+        throw std::runtime_error("it found " + plural(first, "contact") + ", and, given room for as many, " + std::to_string(result.contacts));
+    }
+    return result;
+  }
+
+  std::vector<std::vector<std::byte>> outputs(const CallResult& result) {
+    std::vector<std::vector<std::byte>> all;
+    for (std::size_t k = 0; k < stage_.outputs.size(); ++k)
+      all.push_back(memory_.content(first_ + k, group_bytes(stage_.outputs[k]) * groups(stage_.outputs[k], request_.sizes, result.contacts)));
+    return all;
+  }
+
+ private:
+  CallResult attempt() {
+    std::vector<void*> outputs;
+    first_ += made_;
+    made_ = stage_.outputs.size();
+    for (const OutputInfo& info : stage_.outputs)
+      outputs.push_back(memory_.output(group_bytes(info) * groups(info, request_.sizes, capacity_), bytes_of(info.element)));
+    CallArrays arrays(request_.sizes, inputs_, outputs, capacity_);
+    memory_.synchronize();
+    const auto start = std::chrono::steady_clock::now();
+    const int status = stage_.call(function_, arrays);
+    memory_.synchronize();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (status != 0) throw std::runtime_error("ogc_" + std::string(stage_.name) + " returned " + std::to_string(status) + " instead of 0");
+    check_guards();
+    if (arrays.count < 0) throw std::runtime_error("it did not set `count`, or to a negative number (" + std::to_string(arrays.count) + ")");
+    return {CallResult::Status::answered, arrays.count, seconds};
+  }
+
+  void check_guards() {
+    for (std::size_t k = 0; k < stage_.outputs.size(); ++k) {
+      const Damage damage = memory_.damage(first_ + k);
+      if (damage == Damage::none) continue;
+      throw std::runtime_error("it wrote out of range: " + std::string(damage == Damage::before ? "before the beginning of `" : "behind the end of `") +
+                               std::string(stage_.outputs[k].name) + "`");
+    }
+  }
+
+  Library& library_;
+  PluginMemory& memory_;
+  const PluginStage& stage_;
+  void* function_;
+  const CallRequest& request_;
+  std::int64_t capacity_ = 0;
+  std::vector<const void*> inputs_;
+  std::size_t first_ = 0, made_ = 0;
+};
+
+bool send_text(Channel& channel, const std::string& text) { return channel.send(bytes_of(text)); }
+
+bool answer(Channel& channel, Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs) {
+  CallResult result;
+  std::vector<std::vector<std::byte>> outputs;
+  std::string why;
+  alarm(request.limit_seconds + 2);
+  try {
+    Call call(library, request, inputs);
+    result = call.run();
+    outputs = call.outputs(result);
+  } catch (const std::exception& error) {
+    result.status = library.memory->can_go_on() ? CallResult::Status::failed : CallResult::Status::broken;
+    why = error.what();
+  }
+  alarm(0);
+  bool sent = channel.send(bytes_of_one(result)) && send_text(channel, why);
+  if (result.status == CallResult::Status::answered)
+    for (const auto& output : outputs) sent = sent && channel.send(output);
+  return sent;
+}
+
+/// Until the other side is gone.
+void serve(Channel& channel, Library& library) {
+  std::vector<std::byte> block;
+  while (channel.receive(block, -1) == Received::block) {
+    CallRequest request;
+    std::memcpy(&request, block.data(), sizeof request);
+    std::vector<std::vector<std::byte>> inputs(plugin_stages()[request.stage].inputs);
+    for (auto& input : inputs)
+      if (channel.receive(input, -1) != Received::block) return;
+    if (!answer(channel, library, request, inputs)) _exit(worker_lost_socket);
+  }
+}
+
+bool greet(Channel& channel, LoadStatus status, const std::string& text) { return channel.send(bytes_of_one(status)) && send_text(channel, text); }
+
+int work(const std::string& file) {
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  dup2(STDERR_FILENO, STDOUT_FILENO);  // what the plug-in prints must not stand in a result
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  Channel channel(worker_descriptor);
+  std::unique_ptr<Library> library;
+  try {
+    library = std::make_unique<Library>(file);
+  } catch (const Refusal& refusal) {
+    greet(channel, LoadStatus::refused, refusal.what());
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    greet(channel, LoadStatus::failed, error.what());
+    return exit_out_of_resource;
+  }
+  std::vector<std::uint8_t> has;
+  for (const void* function : library->functions) has.push_back(function != nullptr);
+  if (greet(channel, LoadStatus::loaded, library->name) && channel.send(bytes_of(has))) serve(channel, *library);
+  // Without the library's destructors: the answers are given, and what fails now would say nothing.
+  _exit(exit_success);
+}
+
+}  // namespace
+
+void add_plugin_worker_command(CLI::App& app, CommandContext& context) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("plugin-worker", "Answers `ogc compare --plugin`; not to be called by hand")->group("");
+  command->add_option("FILE", *file, "The shared library")->required();
+  command->callback([file, &context] { context.status = work(*file); });
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,42 @@
+// The process in which a plug-in lives: `ogc plugin-worker FILE`, started by PluginProcess and by nobody else. It loads the library, says what it found, and
+// answers questions until the other side closes the socket. What the library breaks, it breaks here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "experiments/commands.hpp"
+#include "experiments/plugins/stages.hpp"
+
+namespace ogc::experiments {
+
+/// The socket's descriptor in the worker.
+inline constexpr int worker_descriptor = 3;
+
+enum class LoadStatus : std::uint8_t {
+  loaded,   ///< a block with the name follows, one with a byte for each of plugin_stages(): 1 where the library has it
+  refused,  ///< wrong file, version or memory: a block with the reason follows
+  failed,   ///< a device that is missing: likewise
+};
+
+/// What a call came to. A block of text follows (why it failed), then, where it was answered, the outputs.
+struct CallResult {
+  enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;  ///< broken: a fresh process is needed
+  std::int64_t contacts = 0;  ///< length of the first output where the stage lists contacts
+  double seconds = 0;         ///< of the plug-in's function, the device's work included
+};
+
+/// The question: a stage of plugin_stages(), sizes, time limit; its arrays follow.
+struct CallRequest {
+  std::uint64_t stage = 0;
+  QuestionSizes sizes;
+  unsigned limit_seconds = 0;  ///< the worker ends itself soon after, should nobody be left to end it
+};
+
+/// Exit status of a worker that could not send its answer.
+inline constexpr int worker_lost_socket = 70;
+
+/// The hidden subcommand.
+void add_plugin_worker_command(CLI::App& app, CommandContext& context);
+
+}  // namespace ogc::experiments

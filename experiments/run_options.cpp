@@ -1,0 +1,111 @@
+#include "experiments/run_options.hpp"
+
+#include <map>
+
+#include "compare/files/scene_files.hpp"
+#include "compare/problem/error.hpp"
+#include "experiments/scenes/registry.hpp"
+#include "fast/contestant.hpp"
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+std::string value_text(const compare::Settings& settings, const compare::SettingInfo& info) {
+  return info.choices.empty() ? number(compare::get_setting(settings, info)) : compare::setting_text(settings, info);
+}
+
+std::string choices(const compare::SettingInfo& info) {
+  std::string text;
+  for (const std::string_view name : info.choices) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
+
+compare::Scene load_scene(const RunOptions& options, std::string& scale) {
+  if (is_scene_file(options.scene)) {
+    if (!options.scale.empty()) throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a scene file has one size");
+    return compare::read_scene(options.scene);
+  }
+  scale = options.scale.empty() ? "small" : options.scale;
+  return make_scene(options.scene, parse_scale(scale));
+}
+
+void apply_settings(compare::Settings& settings, const RunOptions& options) {
+  for (const std::string& assignment : options.assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw compare::InputError("--set " + assignment + ": give key=value, for example --set iterations=20");
+    compare::set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  if (options.steps > 0) compare::set_setting(settings, "steps", std::to_string(options.steps));
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
+  command.add_option("--solver", options->solver, "How a step is solved")->check(CLI::IsMember({"vbd", "newton", "ipc", "penalty"}))->capture_default_str();
+  command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember({"cpu", "cuda"}))->capture_default_str();
+  command.add_option("--scale", options->scale, "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
+  command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")->check(CLI::PositiveNumber);
+  command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")->take_all()->type_size(1)->expected(1);
+  command.add_option("--audit", options->audit,
+                      "Which states are judged: each step, stored frames, the last one, none")
+      ->check(CLI::IsMember({"every", "frame", "end", "off"}))->capture_default_str();
+  command.add_option("--from-state", options->from_state, "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
+  command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
+  command.add_flag("--iterations", options->iterations, "With newton: write iterations.csv, a row an iteration");
+  command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
+  command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
+}
+
+std::string scene_names() {
+  std::string names;
+  for (const SceneInfo& info : scenes()) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  return names;
+}
+
+std::string settings_help() {
+  std::vector<std::vector<std::string>> rows{{"  setting", "unit", "default", "range", "meaning"}};
+  const compare::Settings defaults;
+  for (const compare::SettingInfo& info : compare::setting_table())
+    rows.push_back({"  " + std::string(info.name), std::string(info.unit), value_text(defaults, info),
+                    info.choices.empty() ? number(info.minimum) + " … " + number(info.maximum) : choices(info), std::string(info.meaning)});
+  return "Settings for --set (a scene brings its own values; defaults are those of a scene file that says nothing):\n" + table(rows, 5);
+}
+
+RunRequest request_of(const RunOptions& options, const CommandContext& context) {
+  if (options.solver != "vbd" && options.solver != "newton")
+    throw compare::InputError("--solver " + options.solver +
+                              " does not exist yet; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact)");
+  if (options.solver == "newton" && options.backend != "cpu") throw compare::InputError("--solver newton runs on the CPU; leave --backend out");
+  if (options.solver != "newton" && (options.iterations || options.condition))
+    throw compare::InputError("--iterations and --condition belong to --solver newton");
+  RunRequest request;
+  request.scene = load_scene(options, request.scale);
+  apply_settings(request.scene.settings, options);
+  request.solver = options.solver;
+  request.backend = options.backend;
+  request.iterations = options.iterations || options.condition;
+  request.condition = options.condition;
+  request.audit_beside = options.backend == "cuda";
+  const std::map<std::string, AuditMode> modes{
+      {"every", AuditMode::every}, {"frame", AuditMode::frame}, {"end", AuditMode::end}, {"off", AuditMode::off}};
+  request.audit = modes.at(options.audit);
+  if (!options.from_state.empty()) request.from_state = options.from_state;
+  request.profile = options.profile;
+  const std::string scale = request.scale.empty() ? "" : "-" + request.scale;
+  request.folder = options.out.empty() ? "runs/" + request.scene.name + scale + "-" + utc_stamp() : options.out;
+  request.command_line = context.command_line;
+  return request;
+}
+
+compare::Contestant contestant_of(const RunOptions& options) {
+  if (options.solver == "newton") return reference::newton();
+  return fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu);
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,32 @@
+// The options of a run: `ogc run` takes them once, `ogc ablate` once for each point of its grid.
+#pragma once
+
+#include <memory>
+
+#include "experiments/commands.hpp"
+#include "experiments/run_session.hpp"
+
+namespace ogc::experiments {
+
+struct RunOptions {
+  std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out;
+  std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
+  std::int64_t steps = 0;                ///< 0: the scene's
+  bool profile = false, iterations = false, condition = false;
+  int threads = 0;                       ///< 0: all
+};
+
+/// Adds all of them but --threads.
+void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options);
+
+/// Names of the built-in scenes, separated by commas.
+std::string scene_names();
+/// The table of settings, for help.
+std::string settings_help();
+
+/// Throws compare::InputError that says what to give instead.
+RunRequest request_of(const RunOptions& options, const CommandContext& context);
+/// Who computes it.
+compare::Contestant contestant_of(const RunOptions& options);
+
+}  // namespace ogc::experiments

@@ -1,0 +1,101 @@
+// Faults of the step: its parts are right, their order or what they are given is not.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+/// The right step of a scene that is changed first.
+Fault asked_wrongly(const std::string& name, const std::function<void(Scene&)>& change) {
+  return {"step: " + name, Stage::step, [change](Contestant& contestant, const Authority&) {
+            contestant.step = [right = contestant.step, change](const StepIn& in) {
+              Scene other = *in.scene;
+              change(other);
+              return right({&other, in.topology});
+            };
+          }};
+}
+
+/// The right step, spoiled.
+Fault spoiled(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
+  return {"step: " + name, Stage::step, [spoil](Contestant& contestant, const Authority&) {
+            contestant.step = [right = contestant.step, spoil](const StepIn& in) {
+              StepOut out = right(in);
+              spoil(in, out);
+              return out;
+            };
+          }};
+}
+
+/// max(1, ⌊γ_e K⌋) in place of ⌈γ_e K⌉: as γ_e a little above (⌊γ_e K⌋ − 1)/K.
+void round_threshold_down(Scene& scene) {
+  const std::vector<Index> groups = rigid_groups(scene);
+  const auto moving = static_cast<double>(std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; }));
+  const double floor = std::floor(scene.settings.redetect_fraction * moving);
+  if (floor >= 1) scene.settings.redetect_fraction = (floor - 0.5) / moving;
+}
+
+bool is_detection(const StepEvent& event) { return event.kind == StepEventKind::detection; }
+
+/// Detections between iterations are left out, whatever was cut.
+void detect_before_iterations_only(const StepIn&, StepOut& out) {
+  const auto first_sweep = std::find_if(out.events.begin(), out.events.end(), [](const StepEvent& event) { return event.kind == StepEventKind::sweep; });
+  out.events.erase(std::remove_if(first_sweep, out.events.end(), is_detection), out.events.end());
+}
+
+void keep_first_previous(const StepIn&, StepOut& out) {
+  for (StepEvent& event : out.events)
+    if (is_detection(event)) event.position = out.events.front().position;
+}
+
+/// Vertices that touch something stay in the first round, too.
+void hold_in_first_round(const StepIn& in, StepOut& out) {
+  const std::vector<VertexFacetContact>& contacts = out.events[0].vertex_facet.contacts;
+  StepEvent& guess = out.events[1];
+  for (const VertexFacetContact& contact : contacts) {
+    const auto v = static_cast<std::size_t>(contact.vertex);
+    const Vec3 x = in.scene->mesh.positions[v];
+    guess.position[v] = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)};
+  }
+}
+
+void velocity_from_last_detection(const StepIn& in, StepOut& out) {
+  const auto last = std::find_if(out.events.rbegin(), out.events.rend(), is_detection);
+  const double h = in.scene->settings.time_step;
+  for (std::size_t v = 0; v < out.position.size(); ++v) {
+    const Vec3f &x = out.position[v], &p = last->position[v];
+    out.velocity[v] = {static_cast<float>((double{x.x} - p.x) / h), static_cast<float>((double{x.y} - p.y) / h), static_cast<float>((double{x.z} - p.z) / h)};
+  }
+}
+
+}  // namespace
+
+std::vector<Fault> step_faults() {
+  return {
+      asked_wrongly("threshold rounded down", round_threshold_down),
+      asked_wrongly("r_q without its cap", [](Scene& scene) { scene.settings.query_radius_cap = 1000; }),
+      asked_wrongly("one iteration too few", [](Scene& scene) { --scene.settings.iterations; }),
+      asked_wrongly("prescribed targets of the next step", [](Scene& scene) {
+        for (PrescribedMotion& motion : scene.motions) motion.start -= scene.settings.time_step, motion.end -= scene.settings.time_step;
+      }),
+      spoiled("no detection between iterations", detect_before_iterations_only),
+      spoiled("X_prev of the first detection kept", keep_first_previous),
+      spoiled("guess loop holds contacts in its first round", hold_in_first_round),
+      spoiled("velocity since the last detection", velocity_from_last_detection),
+      spoiled("a vertex that was cut not counted",
+              [](const StepIn&, StepOut& out) {
+                for (StepEvent& event : out.events) event.cut = std::max(0, event.cut - 1);
+              }),
+      spoiled("two neighbours of one colour",
+              [](const StepIn&, StepOut& out) {
+                for (Index& colour : out.colour) colour = std::min(colour, 1);
+              }),
+  };
+}
+
+}  // namespace ogc::tests

@@ -1,0 +1,149 @@
+// Faults of the sweep: what published solvers get wrong in the order of reading and writing, or leave out of one vertex.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "reference/solvers/sweep.hpp"
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+/// What a changed question points to.
+struct SweepCopy {
+  SweepIn in;
+  Scene scene;
+  std::vector<Index> colour;
+  std::vector<Vec3f> start, target;
+  std::vector<float> bound;
+
+  explicit SweepCopy(const SweepIn& from)
+      : in(from), scene(*from.scene), colour(from.colour.begin(), from.colour.end()), start(from.start.begin(), from.start.end()),
+        target(from.target.begin(), from.target.end()), bound(from.bound.begin(), from.bound.end()) {
+    in.scene = &scene;
+    in.colour = colour;
+    in.start = start;
+    in.target = target;
+    in.bound = bound;
+  }
+  SweepCopy(const SweepCopy&) = delete;
+  SweepCopy& operator=(const SweepCopy&) = delete;
+};
+
+/// The right answer to a question that is changed first.
+Fault asked_wrongly(const std::string& name, const std::function<void(SweepCopy&)>& change) {
+  return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
+            contestant.sweep = [right = contestant.sweep, change](const SweepIn& in) {
+              SweepCopy other(in);
+              change(other);
+              return right(other.in);
+            };
+          }};
+}
+
+/// The right sweep over stencils that are changed first.
+Fault gathered_wrongly(const std::string& name, const std::function<void(reference::SweepStencils&)>& change) {
+  return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
+            contestant.sweep = [change](const SweepIn& in) {
+              reference::SweepStencils stencils(in);
+              change(stencils);
+              return reference::reference_sweep(in, stencils);
+            };
+          }};
+}
+
+void change_free(SweepCopy& copy, const std::function<Index(Index)>& to) {
+  for (Index& c : copy.colour)
+    if (c >= 0) c = to(c);
+}
+
+/// By colour, then number: inside a colour, too, each vertex sees those before it.
+void order_within_colours(SweepCopy& copy) {
+  std::vector<std::size_t> order(copy.colour.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::vector<Index> before = copy.colour;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return before[a] < before[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (before[order[i]] >= 0) copy.colour[order[i]] = static_cast<Index>(i);
+}
+
+void forget_one_inertia(SweepCopy& copy) {
+  const auto free = std::find_if(copy.colour.begin(), copy.colour.end(), [](Index c) { return c >= 0; });
+  if (free == copy.colour.end()) return;
+  const auto v = static_cast<std::size_t>(free - copy.colour.begin());
+  copy.target[v] = copy.in.old[v];
+}
+
+void forget_damping(SweepCopy& copy) {
+  for (Body& body : copy.scene.bodies) body.material.membrane_damping = body.material.bending_damping = 0;
+}
+
+/// As printed in Algorithm 3: positions are cut when the iteration is over.
+Fault truncated_late() {
+  return {"sweep: truncation after the iteration", Stage::sweep, [](Contestant& contestant, const Authority&) {
+            contestant.sweep = [right = contestant.sweep](const SweepIn& in) {
+              SweepCopy other(in);
+              std::fill(other.bound.begin(), other.bound.end(), std::numeric_limits<float>::max());
+              SweepOut out = right(other.in);
+              for (std::size_t v = 0; v < in.old.size(); ++v) {
+                const Vec3f &x = out.position[v], &p = in.previous[v];
+                const double step[]{double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z};
+                const double length = std::hypot(step[0], step[1], step[2]);
+                if (length <= in.bound[v]) continue;
+                ++out.cut;
+                const double s = in.bound[v] / length;
+                out.position[v] = reference::stored_within({p.x + s * step[0], p.y + s * step[1], p.z + s * step[2]}, p, in.bound[v]);
+              }
+              return out;
+            };
+          }};
+}
+
+/// Forces of vertex–facet contacts reach the vertex alone.
+void forget_facets(reference::SweepStencils& stencils) {
+  for (auto& contacts : stencils.vertex_facet) std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
+}
+
+void forget_last_triangle(reference::SweepStencils& stencils) {
+  const auto row = std::find_if(stencils.triangles.rbegin(), stencils.triangles.rend(), [](const auto& triangles) { return !triangles.empty(); });
+  if (row != stencils.triangles.rend()) row->pop_back();
+}
+
+}  // namespace
+
+std::vector<Fault> sweep_faults() {
+  return {
+      asked_wrongly("one contact dropped",
+                    [](SweepCopy& copy) {
+                      if (!copy.in.vertex_facet.empty()) copy.in.vertex_facet = copy.in.vertex_facet.first(copy.in.vertex_facet.size() - 1);
+                    }),
+      asked_wrongly("plain Jacobi", [](SweepCopy& copy) { change_free(copy, [](Index) { return 0; }); }),
+      asked_wrongly("neighbours of higher colour read from the new buffer",
+                    [](SweepCopy& copy) {
+                      const Index last = *std::max_element(copy.colour.begin(), copy.colour.end());
+                      change_free(copy, [last](Index c) { return last - c; });
+                    }),
+      asked_wrongly("contacts read fresh within a colour", order_within_colours),
+      asked_wrongly("inertia missing on one vertex", forget_one_inertia),
+      asked_wrongly("damping forgotten", forget_damping),
+      asked_wrongly("friction and damping since the last iteration", [](SweepCopy& copy) { copy.start.assign(copy.in.old.begin(), copy.in.old.end()); }),
+      asked_wrongly("prescribed vertices stay", [](SweepCopy& copy) { copy.scene.motions.clear(); }),
+      gathered_wrongly("contact forces on one side only", forget_facets),
+      gathered_wrongly("a triangle missing at one vertex", forget_last_triangle),
+      {"sweep: one cut not counted", Stage::sweep,
+       [](Contestant& contestant, const Authority&) {
+         contestant.sweep = [right = contestant.sweep](const SweepIn& in) {
+           SweepOut out = right(in);
+           if (out.cut > 0) --out.cut;
+           return out;
+         };
+       }},
+      truncated_late(),
+  };
+}
+
+}  // namespace ogc::tests

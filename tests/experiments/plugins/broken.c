@@ -1,0 +1,71 @@
+/* A plug-in in C that is right, and breaks as the environment variable OGC_BROKEN says where it meets a case with d = r (or, of a mesh, always). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "compare/plugin.h"
+
+OGC_PLUGIN("broken", OGC_HOST_MEMORY)
+
+static int breaks(const char* how) {
+  const char* const wanted = getenv("OGC_BROKEN");
+  return wanted && strcmp(wanted, how) == 0;
+}
+
+/* In a library that crashes or hangs while it is loaded. */
+__attribute__((constructor)) static void load(void) {
+  if (breaks("crash while loading")) abort();
+  if (breaks("hang while loading"))
+    for (;;) pause();
+}
+
+static void break_activation(const ogc_activation_in* in, ogc_activation_out* out, int64_t i) {
+  volatile float* const nowhere = NULL;
+  if (breaks("crash")) *nowhere = 1;
+  if (breaks("hang"))
+    for (;;) pause();
+  if (breaks("exit")) exit(7);
+  if (breaks("nan")) out->slope[i] = NAN;
+  if (breaks("before")) out->energy[-1] = 0;
+  if (breaks("behind")) out->curvature[in->n] = 0;
+  if (breaks("far behind")) out->curvature[in->n + 100000] = 0;
+  if (breaks("input")) ((float*)in->distance)[i] = 0;
+  if (breaks("close"))
+    for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
+}
+
+int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out) {
+  printf("a plug-in may print\n");
+  for (int64_t i = 0; i < in->n; ++i) {
+    const double d = in->distance[i], r = in->contact_radius[i], k = in->stiffness[i], tau = r / 2, inner = tau * k * (r - tau);
+    const int is_far = d >= r, is_quadratic = d >= tau;
+    if (breaks("unwritten") && d == r) continue;
+    out->energy[i] = (float)(is_far ? 0 : is_quadratic ? k / 2 * (r - d) * (r - d) : k / 2 * (r - tau) * (r - tau) + inner * log(tau / d));
+    out->slope[i] = (float)(is_far ? 0 : is_quadratic ? -k * (r - d) : -inner / d);
+    out->curvature[i] = (float)(is_far ? 0 : is_quadratic ? k : inner / d / d);
+    if (d == r) break_activation(in, out, i);
+  }
+  for (int64_t i = 0; breaks("status") && i < in->n; ++i)
+    if (in->distance[i] == in->contact_radius[i]) return 5;
+  return 0;
+}
+
+/* No answer is right here: it counts contacts, and does not write them. */
+int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out* out) {
+  for (int32_t v = 0; v < in->topology.vertex_count; ++v) out->d_min_vertex[v] = 0;
+  for (int32_t t = 0; t < in->topology.triangle_count; ++t) out->d_min_triangle[t] = 0;
+  if (breaks("no count")) return 0;
+  out->count = breaks("growing") ? out->capacity + 1 : breaks("few") ? 3 : 0;
+  if (breaks("few")) out->contacts[0] = (ogc_vertex_facet_contact){0, 0, 0, 0};
+  return 0;
+}
+
+/* A face of a kind that does not exist. */
+int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_edge_edge_out* out) {
+  for (int32_t e = 0; e < in->topology.edge_count; ++e) out->d_min_edge[e] = 0;
+  out->count = 1;
+  out->contacts[0] = (ogc_edge_edge_contact){7, 0, 0, 0, 0, 0};
+  return 0;
+}

@@ -1,0 +1,112 @@
+// Plug-ins that break, before the judge: each is reported as what it is, the judge goes on or ends cleanly, and standard output holds results alone.
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/catch.hpp"
+#include "tests/experiments/program.hpp"
+
+using namespace ogc::tests;
+
+namespace {
+
+const std::string broken = OGC_TEST_PLUGINS "/libplugin_broken.so";
+
+/// `ogc compare` with the broken plug-in; `how` it breaks.
+ProgramResult compare_broken(const std::string& how, const std::string& arguments) {
+  static const TemporaryFolder scratch;  // failing cases are saved below it
+  const std::string folder = (scratch / "").string();
+  return run_ogc("compare " + arguments + " --time-limit 3 --plugin " + broken, "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
+}
+
+/// A case with d = r, at which it breaks, and one with d < r.
+const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'", harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
+
+}  // namespace
+
+TEST_CASE("a right plug-in passes, in C, and is timed beside ours", "[agreement]") {
+  const ProgramResult result = compare_broken("", "activation --cases 3000 --json");
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  CHECK(json.at("stages").at(0).at("mismatches") == 0);
+  const auto& plugin = json.at("plugin");
+  CHECK(plugin.at("name") == "broken");
+  CHECK(plugin.at("times").at(0).at("plugin_seconds") > 0);
+  CHECK(plugin.at("times").at(0).at("our_seconds") > 0);
+  CHECK(plugin.at("times").at(0).at("plugin_seconds") == json.at("stages").at(0).at("contestant_seconds"));
+  CHECK(plugin.at("not_a_number").empty());
+  CHECK(contains(result.err, {"a plug-in may print"}));
+}
+
+TEST_CASE("a plug-in that gives no answer is reported as what it did, with exit status 1", "[agreement]") {
+  const auto [how, what] = GENERATE(table<std::string, std::string>({{"crash", "it crashed: signal 11"},
+                                                                     {"hang", "it hangs: no answer within 3 seconds"},
+                                                                     {"exit", "it ended the process, exit status 7"},
+                                                                     {"before", "it wrote out of range: before the beginning of `energy`"},
+                                                                     {"behind", "it wrote out of range: behind the end of `curvature`"},
+                                                                     {"far behind", "it crashed: signal 11"},
+                                                                     {"input", "it crashed: signal 11"},
+                                                                     {"close", "it closed the worker's socket"},
+                                                                     {"status", "ogc_activation returned 5 instead of 0"}}));
+  INFO(how);
+  CHECK(compare_broken(how, harmless).status == 0);
+  const ProgramResult result = compare_broken(how, breaking);
+  INFO(result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {"no answer: " + what, "gen=ladder.radius seed=1 index=1\n"}));
+}
+
+TEST_CASE("the case at which a plug-in crashes is found in its batch, and the cases before it are judged", "[agreement]") {
+  const ProgramResult result = compare_broken("behind", "activation --generator ladder.radius --cases 400 --json");
+  INFO(result.out << result.err);
+  REQUIRE(result.status == 1);
+  const auto json = nlohmann::json::parse(result.out);
+  const auto& stage = json.at("stages").at(0);
+  REQUIRE(stage.at("listed").size() == 3);  // failures_allowed; no case but those with d = r
+  CHECK(stage.at("mismatches") == 3);
+  CHECK(stage.at("listed").at(0).at("problem") == "stage=activation gen=ladder.radius seed=1 index=1");
+  CHECK(stage.at("cases") > 3);
+  CHECK(json.at("saved").size() == 3);
+}
+
+TEST_CASE("what a plug-in leaves unwritten or answers with NaN is a mismatch and is named", "[agreement]") {
+  const ProgramResult nan = compare_broken("nan", breaking);
+  CHECK(nan.status == 1);
+  CHECK(contains(nan.out, {"broken returned NaN: 1 element of activation.slope"}));
+  const ProgramResult unwritten = compare_broken("unwritten", breaking);
+  CHECK(unwritten.status == 1);
+  CHECK(contains(unwritten.out, {"broken left unwritten: 1 element of activation.energy"}));
+}
+
+TEST_CASE("lists of contacts that a plug-in miscounts or does not write are no answers", "[agreement]") {
+  const std::string facet = "--problem 'stage=detect_vertex_facet gen=lattice seed=3 index=402'", edge = "--problem 'stage=detect_edge_edge gen=ladder.stack seed=3 index=16'";
+  CHECK(contains(compare_broken("no count", facet).out, {"no answer: it did not set `count`"}));
+  CHECK(contains(compare_broken("growing", facet).out, {"and, given room for as many, "}));
+  CHECK(contains(compare_broken("few", facet).out, {"it counted 3 contacts, and did not write all of them"}));
+  CHECK(contains(compare_broken("", edge).out, {"a contact names a face of kind 7"}));
+  CHECK(contains(compare_broken("", facet).out, {"is missing"}));  // the list is empty, and well formed
+}
+
+TEST_CASE("a library that is no plug-in for this program is refused with exit status 2, and one that breaks while it is loaded with 1", "[agreement]") {
+  const auto refuses = [](const std::string& library, const std::string& stage, const std::string& what) {
+    const ProgramResult result = run_ogc("compare " + stage + " --cases 10 --plugin " + library);
+    INFO(library << ": " << result.out << result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, {what}));
+  };
+  const std::string folder = OGC_TEST_PLUGINS;
+  refuses("nowhere.so", "", "there is no such file");
+  refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
+  refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 2");
+  refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
+  refuses(folder + "/libplugin_empty.so", "", "no stage's function");
+  refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");
+  refuses(broken, "bond", "there is no stage 'bond'");
+  const ProgramResult crash = compare_broken("crash while loading", harmless), hang = compare_broken("hang while loading", harmless);
+  CHECK(crash.status == 1);
+  CHECK(contains(crash.err, {"it crashed: signal 6"}));
+  CHECK(hang.status == 1);
+  CHECK(contains(hang.err, {"it hangs"}));
+}
