@@ -17,6 +17,7 @@
 
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/team.hpp"
+#include "fast/stages/backend.hpp"
 
 namespace ogc::fast {
 
@@ -82,7 +83,7 @@ class CpuBackend {
   }
 
   template <int W, class F>
-  void for_each_team(int n, F f) {
+  void for_each_team(int n, F f, Start) {
     for_each(n, [&f](int i) { f(i, SerialTeam<W>{}); });
   }
 
@@ -112,9 +113,15 @@ class CpuBackend {
     });
   }
 
-  template <class Body>
-  void when(const int* flag, Body body) {
+  template <class F, class Body>
+  void when(F decide, const int* flag, Body body) {
+    decide(0);
     if (*flag != 0) body();
+  }
+
+  template <class F, class Body, class G>
+  void repeat(F decide, const int* flag, Body body, G decide_again) {
+    for (decide(0); *flag != 0; decide_again(0)) body();
   }
 
   /// The host has nothing to record.

@@ -5,12 +5,6 @@
 #include "fast/cuda/cuda.hpp"
 
 namespace ogc::fast {
-namespace {
-
-__global__ void set_condition(cudaGraphConditionalHandle handle, const int* flag) { cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u); }
-
-}  // namespace
-
 void CudaRecording::clear() noexcept {
   if (graph_ != nullptr) cudaGraphExecDestroy(graph_);
   graph_ = nullptr;
@@ -80,23 +74,26 @@ void CudaBackend::abandon_recording() noexcept {
   cudaGetLastError();
 }
 
-// Adds an IF node after what `current_` has captured so far, and makes a stream that captures into the node's body the current one.
-cudaStream_t CudaBackend::begin_condition(const int* flag) {
+cudaGraphConditionalHandle CudaBackend::new_condition() {
   cudaStreamCaptureStatus status = cudaStreamCaptureStatusNone;
   cudaGraph_t graph = nullptr;
   OGC_CUDA_CHECK(cudaStreamGetCaptureInfo(current_, &status, nullptr, &graph, nullptr, nullptr, nullptr));
   cudaGraphConditionalHandle handle{};
   OGC_CUDA_CHECK(cudaGraphConditionalHandleCreate(&handle, graph, 0, cudaGraphCondAssignDefault));
-  set_condition<<<1, 1, 0, current_>>>(handle, flag);
-  OGC_CUDA_CHECK(cudaGetLastError());
+  return handle;
+}
 
+// Adds a node after what `current_` has captured so far, and makes a stream that captures into the node's body the current one.
+cudaStream_t CudaBackend::begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type) {
+  cudaStreamCaptureStatus status = cudaStreamCaptureStatusNone;
+  cudaGraph_t graph = nullptr;
   const cudaGraphNode_t* before = nullptr;
   std::size_t before_count = 0;
   OGC_CUDA_CHECK(cudaStreamGetCaptureInfo(current_, &status, nullptr, &graph, &before, nullptr, &before_count));
   cudaGraphNodeParams parameters{};
   parameters.type = cudaGraphNodeTypeConditional;
   parameters.conditional.handle = handle;
-  parameters.conditional.type = cudaGraphCondTypeIf;
+  parameters.conditional.type = type;
   parameters.conditional.size = 1;
   cudaGraphNode_t node = nullptr;
   OGC_CUDA_CHECK(cudaGraphAddNode(&node, graph, before, nullptr, before_count, &parameters));

@@ -1,13 +1,13 @@
 // The backend of fast/stages/backend.hpp on one CUDA device.
 //
 //   stream_        a blocking stream: Buffer copies (legacy stream) order themselves with it, nothing else waits
-//   current_       where work is enqueued: stream_, or the body of an IF node while `when` records it
+//   current_       where work is enqueued: stream_, or the body of a node while `when` or `repeat` records it
 //   scratch_       temporary memory of scan and sort, shared by all of them: they run one after the other
 //
 // A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs. So `replay` records what a body
 // enqueues into a graph, once, and launches the graph once for each repetition. It records again when a Buffer has moved, since a graph holds pointers.
-// `when` becomes a conditional IF node there (4.6 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel of a detection's 20 to 60). Outside
-// a recording (probes, --profile) it reads the flag on the host. Conditional nodes need a driver of CUDA 12.4; this runtime (13) asks for a newer one.
+// `when` becomes a conditional IF node there (4.6 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel of a detection's 20 to 60), `repeat` a
+// WHILE node. Outside a recording (probes, --profile) both read the flag on the host. Conditional nodes need a driver of CUDA 12.4; this runtime (13) asks for a newer one.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +23,7 @@
 #include "fast/cuda/collectives.cuh"
 #include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
+#include "fast/stages/backend.hpp"
 
 namespace ogc::fast {
 
@@ -43,11 +44,18 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_counted(const int* n
   for (int i = static_cast<int>(blockIdx.x) * cuda_block_size + static_cast<int>(threadIdx.x); i < count; i += stride) f(i);
 }
 
+/// One thread that decides what a conditional node does.
+template <class F>
+__global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const int* flag) {
+  decide(0);
+  cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
+}
+
+/// A block is 32/W teams; a team beyond the last works on the last item and writes nothing.
 template <int W, class F>
-__global__ void __launch_bounds__(cuda_block_size) run_each_team(int n, F f) {
-  constexpr int teams = cuda_block_size / W;
-  const int stride = static_cast<int>(gridDim.x) * teams;
-  for (int i = static_cast<int>(blockIdx.x) * teams + static_cast<int>(threadIdx.x) / W; i < n; i += stride) f(i, LaneTeam<W>{});
+__global__ void __launch_bounds__(32 * F::parts) run_each_team(int n, F f) {
+  const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
+  f(min(i, n - 1), LaneTeam<W>(i < n));
 }
 
 /// A body recorded as a graph. Empty at first; `CudaBackend::replay` fills and renews it.
@@ -94,9 +102,18 @@ class CudaBackend {
   }
 
   template <int W, class F>
-  void for_each_team(int n, F f) {
+  void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
-    run_each_team<W><<<blocks(static_cast<std::int64_t>(n) * W), cuda_block_size, 0, current_>>>(n, f);
+    cudaLaunchAttribute overlap{};
+    overlap.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+    overlap.val.programmaticStreamSerializationAllowed = 1;
+    cudaLaunchConfig_t launch{};
+    launch.gridDim = dim3(static_cast<unsigned>((n + 32 / W - 1) / (32 / W)));
+    launch.blockDim = dim3(32 * F::parts);
+    launch.stream = current_;
+    launch.attrs = &overlap;
+    launch.numAttrs = start == Start::overlapping ? 1 : 0;
+    cudaLaunchKernelEx(&launch, run_each_team<W, F>, n, f);
     check_launch(typeid(F));
   }
 
@@ -111,14 +128,31 @@ class CudaBackend {
   void exclusive_scan(const int* in, int* out, int n) { fast::exclusive_scan(current_, scratch_, in, out, n); }
   void sort_pairs(std::uint64_t* keys, int* values, int n) { fast::sort_pairs(current_, scratch_, keys, values, n); }
 
-  template <class Body>
-  void when(const int* flag, Body body) {
+  template <class F, class Body>
+  void when(F decide, const int* flag, Body body) {
     if (!recording_) {
+      for_each(1, decide);
       if (read_flag(flag)) body();
       return;
     }
-    const cudaStream_t outer = begin_condition(flag);
+    const cudaGraphConditionalHandle handle = new_condition();
+    set_condition(handle, decide, flag);
+    const cudaStream_t outer = begin_condition(handle, cudaGraphCondTypeIf);
     body();
+    end_condition(outer);
+  }
+
+  template <class F, class Body, class G>
+  void repeat(F decide, const int* flag, Body body, G decide_again) {
+    if (!recording_) {
+      for (for_each(1, decide); read_flag(flag); for_each(1, decide_again)) body();
+      return;
+    }
+    const cudaGraphConditionalHandle handle = new_condition();
+    set_condition(handle, decide, flag);
+    const cudaStream_t outer = begin_condition(handle, cudaGraphCondTypeWhile);
+    body();
+    set_condition(handle, decide_again, flag);
     end_condition(outer);
   }
 
@@ -162,7 +196,13 @@ class CudaBackend {
     if (error != cudaSuccess) throw_cuda_error(error, ("the launch of " + readable_type(functor.name())).c_str(), __FILE__, __LINE__);
   }
   bool read_flag(const int* flag);
-  cudaStream_t begin_condition(const int* flag);
+  cudaGraphConditionalHandle new_condition();
+  template <class F>
+  void set_condition(cudaGraphConditionalHandle handle, F decide, const int* flag) {
+    run_decision<<<1, 1, 0, current_>>>(handle, decide, flag);
+    check_launch(typeid(F));
+  }
+  cudaStream_t begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type);
   void end_condition(cudaStream_t outer);
   void begin_recording();
   void end_recording(Recording& recording);

@@ -1,55 +1,91 @@
-// A team of W neighbouring lanes of a warp, with the bits of SerialTeam<W>. Item k goes to lane k mod W in the order of k, as there. The tree is a
-// butterfly: at distance s every lane adds its partner l xor s. By induction all lanes l with the same l mod s hold the same bits after that round: the
-// two partners add the same two numbers, in opposite order, and IEEE addition is commutative. Lane l < s adds lanes[l] + lanes[l + s], which is
+// Teams of W neighbouring lanes, with the bits of SerialTeam<W>. A block is as many warps as a sum has parts: warp p runs part p of 32/W teams, so that no
+// warp waits for another sort of term and the chain of dependent instructions, which is what a small sum costs, is the longest part's and not all of
+// them. Lanes leave what they have in shared memory, warp 0 adds the parts in their order and then the lanes.
+//
+// The tree is a butterfly: at distance s every lane adds its partner l xor s. By induction all lanes l with the same l mod s hold the same bits after that
+// round: the two partners add the same two numbers, in opposite order, and IEEE addition is commutative. Lane l < s adds lanes[l] + lanes[l + s], which is
 // SerialTeam's tree, so every lane ends with SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction cannot
 // change them either.
 //
-// The mask of a shuffle names the team's own lanes and no others: teams of one warp may take different branches or leave early.
+// A launch may overlap the one before it (programmatic dependent launch): what a part loads is read at once, then `sum` waits for that launch to end. The
+// next launch is let in only after this wait, so whatever came two launches before has ended too.
 #pragma once
 
 #include <cstring>
 #include <type_traits>
+
+#include <cuda_runtime.h>
 
 #include "fast/kernels/qualifiers.hpp"
 
 namespace ogc::fast {
 
 template <int W>
-struct LaneTeam {
+class LaneTeam {
+ public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;
 
-  /// As SerialTeam::sum; every lane of the team must call it, and gets the total.
-  template <class Accumulator, class Item>
-  __device__ Accumulator sum(int count, Item item) const {
+  /// `present`: false for a team that only fills a block.
+  __device__ explicit LaneTeam(bool present) : present_(present) {}
+
+  /// As SerialTeam::sum. Once in a kernel, by every thread of the block, and with as many parts as the block has warps.
+  template <class Accumulator, class... Parts>
+  __device__ Accumulator sum(const Parts&... parts) const {
+    constexpr int others = sizeof...(Parts) - 1;
+    __shared__ unsigned memory[others > 0 ? others : 1][32 * words<Accumulator>()];  // a shared object may not have an initialiser
+    const auto shared = [](int p) { return reinterpret_cast<Accumulator*>(memory[p]) + threadIdx.x % 32; };
+    Accumulator own{};
+    int p = 0;
+    ((p++ == warp() ? add_part(parts, own) : void()), ...);
+    if (warp() > 0) *shared(warp() - 1) = own;
+    if constexpr (others > 0) __syncthreads();
     Accumulator total{};
-    for (int k = lane(); k < count; k += W) item(k, total);
+    if (warp() > 0) return total;
+    total += own;
+    for (int k = 0; k < others; ++k) total += *shared(k);
 #pragma unroll
     for (int s = W / 2; s > 0; s /= 2) total += from_partner(total, s);
     return total;
   }
 
-  __device__ bool leader() const { return lane() == 0; }
+  __device__ bool leader() const { return present_ && warp() == 0 && lane() == 0; }
 
  private:
+  __device__ static int warp() { return static_cast<int>(threadIdx.x) / 32; }
   __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
-  __device__ static unsigned mask() {
-    if constexpr (W == 32) return 0xffffffffu;
-    return ((1u << (W & 31)) - 1u) << (threadIdx.x & 31u & ~static_cast<unsigned>(W - 1));
+
+  template <class Accumulator>
+  __device__ static constexpr int words() {
+    static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0, "an accumulator is made of 4-byte words");
+    static_assert(alignof(Accumulator) <= alignof(unsigned));
+    return sizeof(Accumulator) / sizeof(unsigned);
+  }
+
+  template <class Part, class Accumulator>
+  __device__ static void add_part(const Part& part, Accumulator& own) {
+    int k = lane();
+    const bool any = k < part.count;
+    decltype(part.load(0)) loaded{};
+    if (any) loaded = part.load(k);
+    cudaGridDependencySynchronize();
+    cudaTriggerProgrammaticLaunchCompletion();
+    if (any) part.add(loaded, own);
+    for (k += W; k < part.count; k += W) part.add(part.load(k), own);
   }
 
   template <class Accumulator>
   __device__ static Accumulator from_partner(const Accumulator& mine, int distance) {
-    static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0, "an accumulator is made of 4-byte words");
-    constexpr int words = sizeof(Accumulator) / sizeof(unsigned);
-    unsigned word[words];
+    unsigned word[words<Accumulator>()];
     std::memcpy(word, &mine, sizeof(mine));
 #pragma unroll
-    for (int k = 0; k < words; ++k) word[k] = __shfl_xor_sync(mask(), word[k], distance);
+    for (int k = 0; k < words<Accumulator>(); ++k) word[k] = __shfl_xor_sync(0xffffffffu, word[k], distance);
     Accumulator partner;
     std::memcpy(&partner, word, sizeof(partner));
     return partner;
   }
+
+  bool present_;
 };
 
 }  // namespace ogc::fast

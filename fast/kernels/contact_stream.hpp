@@ -71,14 +71,26 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
 /// for_each over slots. A detection that failed leaves the old stream, which is whole: the sweeps that follow are not committed.
 struct CopyContactRows {
   const int* incidence_offsets;
+  const Incidence* incidences;
   const SweepVertex* vertices;
   ContactRow* rows;
   const StepControl* control;
 
   OGC_HD void operator()(int slot) const {
     if (control->active == 0) return;
-    const int v = vertices[slot].vertex, begin = incidence_offsets[v];
-    rows[slot] = {begin, incidence_offsets[v + 1] - begin};
+    const int v = vertices[slot].vertex, begin = incidence_offsets[v], end = incidence_offsets[v + 1];
+    rows[slot] = {begin, first_edge_edge(begin, end) - begin, end - begin};
+  }
+
+ private:
+  /// In a row, codes ascend and those of edge–edge contacts have the highest bit.
+  OGC_HD int first_edge_edge(int low, int high) const {
+    while (low < high) {
+      const int middle = low + (high - low) / 2;
+      if (incidences[middle].code >> 31 != 0) high = middle;
+      else low = middle + 1;
+    }
+    return low;
   }
 };
 

@@ -35,6 +35,7 @@ struct ControlSettings {
   int cut_threshold = 1;       ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
   int redetect_every = 0;
   int guess_rounds = 16;
+  int sort_every = 1;          ///< steps that keep the order of the trees
   float contact_radius = 0;    ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 };
@@ -44,8 +45,10 @@ struct StepControl {
   int active = 0;     ///< 1: steps take place; 0: they are no-ops
   int status = 0;     ///< compare::StepStatus bits that stopped the frame
   int steps_done = 0; ///< committed since the frame began: number of the row and of the row of targets
+  int since_sort = 1 << 30;  ///< steps begun in the order that the trees have; the host carries it from frame to frame
   // Of the step. Flags that `when` reads hold `active` too.
   int attempted = 0;
+  int sort = 0;       ///< a new order of the trees
   int guess = 0;      ///< another round of the guess loop
   int detect = 0;     ///< detection before the next iteration
   float query_radius = 0;  ///< r_q [m]
@@ -69,10 +72,13 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
 
 struct BeginStep {
   StepControl* control;
+  ControlSettings settings;
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     c.attempted = c.guess = c.active;
+    c.sort = c.active != 0 && c.since_sort >= settings.sort_every ? 1 : 0;
+    c.since_sort = c.sort != 0 ? 1 : c.since_sort + 1;
     c.detect = 0;
     c.largest_move = c.largest_lag = 0;
     c.smallest_bound = 3.40282347e38f;

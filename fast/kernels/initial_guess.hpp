@@ -69,17 +69,17 @@ struct BeginHinge {
   }
 };
 
-/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored positions), then X_prev ← x.
+/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored positions), then X_prev ← x. Before the
+/// first detection of a step X_prev and b_v are those of an earlier one, and certified.
 struct BeginBounds {
   const Vec* position;
   const float* bound;
   Vec* previous;
   StepControl* control;
-  bool check;  ///< false where X_prev and b_v are those of an earlier step
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (check && bound_violated(x, previous[v], bound[v])) control->count_violation();
+    if (control->rounds > 0 && bound_violated(x, previous[v], bound[v])) control->count_violation();
     previous[v] = x;
   }
 };
@@ -91,13 +91,12 @@ struct GuessVertex {
   const Vec* previous;
   const float* bound;
   const int* incidence_offsets;
-  bool hold_contacts;
   Vec* position;
   StepControl* control;
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
-    if (hold_contacts && incidence_offsets[v + 1] > incidence_offsets[v]) return;
+    if (control->rounds > 0 && incidence_offsets[v + 1] > incidence_offsets[v]) return;
     const Truncated kept = truncate(previous[v], target[v], bound[v]);
     position[v] = kept.position;
     if (kept.exceeded) control->count_cut();

@@ -237,18 +237,8 @@ struct FillIncidences {
   }
 };
 
-/// Index over vertices.
-struct SortIncidences {
-  ListsView lists;
-
-  OGC_HD void operator()(int v) const {
-    if (*lists.overflow != 0) return;
-    sort_segment(lists.incidences + lists.incidence_offsets[v], lists.incidence_offsets[v + 1] - lists.incidence_offsets[v]);
-  }
-};
-
-/// The same result from rows in another array, index over all incidences: each counts those of its row that come before it. Rows are short, and no thread
-/// waits for the longest of them.
+/// Each row in ascending order, from rows in another array; index over all incidences. Each counts those of its row that come before it: rows are short, and
+/// no thread waits for the longest of them.
 struct RankIncidences {
   ListsView lists;
   const Incidence* unordered;

@@ -16,6 +16,7 @@
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/membrane.hpp"
 #include "fast/kernels/solve3.hpp"
+#include "fast/kernels/team.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -52,9 +53,9 @@ struct alignas(16) ContactIncidence {
   std::uint8_t own = 0;
 };
 
-/// The contacts of a vertex in the stream.
+/// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
 struct ContactRow {
-  int begin = 0, count = 0;
+  int begin = 0, vertex_facet = 0, count = 0;
 };
 
 /// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
@@ -83,8 +84,7 @@ struct SweepView {
   OGC_HD Vec read(int index) const { return (index < 0 ? fresh : old)[decoded(index)]; }
 };
 
-// What a stencil reads beside its incidence. Reading and adding are apart, so that an update can start all reads before it waits for the first: their
-// latency, not arithmetic, is what a vertex costs on a device.
+// What a stencil reads beside its incidence, all at once: the latency of reads, not arithmetic, is what a vertex costs on a device.
 
 struct MembraneReads {
   Vec b, c;
@@ -165,30 +165,21 @@ OGC_HD inline void add_contact_incidence(const SweepView& view, const ContactInc
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, sum);
 }
 
-/// The sum over all stencils of one vertex, inertia left out. The k-th term is the k-th triangle, the k-th hinge and the k-th contact: whatever the team's
-/// width, its lanes do the same thing at the same time, and each has the reads of three stencils under way at once.
+/// The sum over all stencils of one vertex, inertia left out, in four parts: triangles, hinges, vertex–facet contacts, edge–edge contacts.
 template <class Team>
 OGC_HD ForceAndBlock gather(const SweepView& view, const SweepVertex& vertex, const ContactRow& row, const Vec& own, const Team& team) {
   const SurfaceMaterial material = view.materials[vertex.body];
-  const int stencils = vertex.membrane_count > vertex.hinge_count ? vertex.membrane_count : vertex.hinge_count;
-  return team.template sum<ForceAndBlock>(stencils > row.count ? stencils : row.count, [&](int k, ForceAndBlock& sum) {
-    const bool has_membrane = k < vertex.membrane_count, has_hinge = k < vertex.hinge_count, has_contact = k < row.count;
-    MembraneIncidence membrane;
-    HingeIncidence hinge;
-    ContactIncidence contact;
-    if (has_membrane) membrane = view.membrane[vertex.membrane_begin + k];
-    if (has_hinge) hinge = view.hinges[vertex.hinge_begin + k];
-    if (has_contact) contact = view.contacts[row.begin + k];
-    MembraneReads of_membrane;
-    HingeReads of_hinge;
-    ContactReads of_contact;
-    if (has_membrane) of_membrane = read_membrane(view, membrane, material);
-    if (has_hinge) of_hinge = read_hinge(view, hinge, material);
-    if (has_contact) of_contact = read_contact(view, contact);
-    if (has_membrane) add_membrane_incidence(membrane, of_membrane, material, own, sum);
-    if (has_hinge) add_hinge_incidence(hinge, of_hinge, material, own, sum);
-    if (has_contact) add_contact_incidence(view, contact, of_contact, sum);
-  });
+  const auto load_contact = [&view, begin = row.begin](int k) { return view.contacts[begin + k]; };
+  const auto load_edge_edge = [&view, begin = row.begin + row.vertex_facet](int k) { return view.contacts[begin + k]; };
+  const auto add_one = [&view](const ContactIncidence& contact, ForceAndBlock& sum) { add_contact_incidence(view, contact, read_contact(view, contact), sum); };
+  return team.template sum<ForceAndBlock>(
+      part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
+           [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
+             add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, own, sum);
+           }),
+      part(vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
+           [&](const HingeIncidence& hinge, ForceAndBlock& sum) { add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum); }),
+      part(row.vertex_facet, load_contact, add_one), part(row.count - row.vertex_facet, load_edge_edge, add_one));
 }
 
 /// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written: the vertex stays and the step fails.
@@ -205,6 +196,7 @@ OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& prop
 
 /// for_each_team over the slots of one colour.
 struct UpdateVertex {
+  static constexpr int parts = 4;  ///< of its sum
   SweepView view;
   int first_slot = 0;
 

@@ -1,22 +1,38 @@
-// The sum of a team of lanes, run by one thread. Item k belongs to lane k mod W and the lanes are added by a fixed tree, so a team of any size, on any
-// backend, that keeps this rule gives the same bits; only W can change one.
+// The sum of a team of lanes, run by one thread. A sum has parts, one for each sort of term. Item k of a part belongs to lane k mod W; a lane adds its items
+// of one part in their order, then its parts in theirs; the lanes are added by a fixed tree. A team of any size, on any backend, that keeps this rule
+// gives the same bits, whether one thread or several warps run the parts; only W can change one.
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"
 
 namespace ogc::fast {
 
-/// W lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`.
+/// Terms k of a sum, 0 ≤ k < count: load(k) reads what nobody changes during the launch before this one, add(loaded, acc) reads the rest and adds. They are
+/// apart so that a device can load while that launch still runs.
+template <class Load, class Add>
+struct Part {
+  int count;
+  Load load;
+  Add add;
+};
+
+template <class Load, class Add>
+OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
+  return {count, load, add};
+}
+
+/// W lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum is -0 only of two -0, so leaving out the
+/// empty lanes of a part changes no bit.
 template <int W>
 struct SerialTeam {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;
 
-  /// Σ over 0 ≤ k < count, where item(k, acc) adds the k-th term to acc. Every lane of the team gets the total.
-  template <class Accumulator, class Item>
-  OGC_HD Accumulator sum(int count, Item item) const {
+  /// Σ over all terms of all parts. The leader of a team gets the total.
+  template <class Accumulator, class... Parts>
+  OGC_HD Accumulator sum(const Parts&... parts) const {
     Accumulator lanes[W] = {};
-    for (int k = 0; k < count; ++k) item(k, lanes[k & (W - 1)]);
+    (add_part(parts, lanes), ...);
     for (int s = W / 2; s > 0; s /= 2) {
       for (int l = 0; l < s; ++l) lanes[l] += lanes[l + s];
     }
@@ -25,6 +41,16 @@ struct SerialTeam {
 
   /// Whether this lane writes the team's result.
   OGC_HD bool leader() const { return true; }
+
+ private:
+  template <class Part, class Accumulator>
+  OGC_HD static void add_part(const Part& part, Accumulator (&lanes)[W]) {
+    for (int l = 0; l < W && l < part.count; ++l) {
+      Accumulator own{};
+      for (int k = l; k < part.count; k += W) part.add(part.load(k), own);
+      lanes[l] += own;
+    }
+  }
 };
 
 }  // namespace ogc::fast

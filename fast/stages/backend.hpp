@@ -8,13 +8,14 @@
 //
 //   for_each(int n, F f)                 // f(i) for 0 ≤ i < n, in any order; no result may depend on the order
 //   for_each_counted(const int* n, int capacity, F f)   // the same with a count that lives on the device, n ≤ capacity
-//   for_each_team<W>(int n, F f)         // f(i, team): team.sum<Accumulator>(count, item) adds item(k, acc) for 0 ≤ k < count: item k goes to lane
-//                                        // k mod W, the lanes are added by a fixed tree (lane l += lane l + s, s = W/2 … 1): only W can change a bit
-//                                        // every lane gets the total; the lane where team.leader() holds writes it
+//   for_each_team<W>(int n, F f, Start start)   // f(i, team): team.sum<Accumulator>(parts...) once, with F::parts parts; the order of its additions
+//                                        // is that of fast/kernels/team.hpp, so only W can change a bit; the lane where team.leader() holds has the total
+//                                        // and writes it. Start::overlapping: all that f reads before a Part's `add` is not written by the launch before
 //   search(Searches first, Searches second)             // two kinds of searches (fast/kernels/search.hpp) side by side
 //   exclusive_scan(const int* in, int* out, int n)      // n + 1 outputs; out[n] is the total
 //   sort_pairs(std::uint64_t* keys, int* values, int n) // stable, ascending
-//   when(const int* flag, Body body)     // body() enqueues work that takes place only if *flag != 0 when its turn comes; not nested
+//   when(F decide, const int* flag, Body body)   // decide(0), then what body() enqueues if *flag is not 0 then; not nested
+//   repeat(F decide, const int* flag, Body body, G decide_again)   // decide(0), then while *flag is not 0 what body() enqueues and decide_again(0)
 //   Recording recording;                 // empty at first; recording.clear() after a change of what the body enqueues
 //   replay(recording, int times, Body body)   // enqueues body()'s work `times` times. A device backend runs body() on the host once, records it as a
 //                                        // graph and launches that, again in later calls, until a Buffer has moved or the recording is cleared: the
@@ -26,3 +27,17 @@
 // Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies waits. Functors get raw pointers and
 // values, never a Buffer. Atomics: fast/kernels/atomic.hpp, integers and minima of non-negative floats only, whose result no order can change.
 #pragma once
+
+#include "fast/kernels/qualifiers.hpp"
+
+namespace ogc::fast {
+
+/// For `when` where the flag is known already.
+struct Decided {
+  OGC_HD void operator()(int) const {}
+};
+
+/// Whether a launch begins when the one before it has ended, or may begin before.
+enum class Start { after_previous, overlapping };
+
+}  // namespace ogc::fast

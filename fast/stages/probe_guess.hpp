@@ -50,14 +50,14 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   std::vector<int> offsets{0};
   for (const Case& c : in.cases) offsets.push_back(offsets.back() + c.held);
   std::vector<StepControl> controls(n);
-  for (StepControl& control : controls) control.active = 1;
+  for (StepControl& control : controls) control.active = control.rounds = 1;
   typename Backend::template Buffer<StepControl> control;
   control.upload(controls.data(), n);
   Vec *target = memory.template out<Vec>(out.target, n), *position = memory.template out<Vec>(out.position, n);
   const BeginVertex begin{memory.template in<Vec>(column(in, &Case::start)), memory.template in<Vec>(column(in, &Case::velocity)),
                           memory.template in<int>(std::vector<int>(n, -1)), nullptr, 0, {}, 0, position, target, nullptr};
   const GuessVertex guess{target, memory.template in<Vec>(column(in, &Case::previous)), memory.template in<float>(column(in, &Case::bound)),
-                          memory.template in<int>(offsets), true, position, nullptr};
+                          memory.template in<int>(offsets), position, nullptr};
   backend.for_each(static_cast<int>(n), ProbeGuess{begin, guess, memory.template in<Vec>(column(in, &Case::acceleration)),
                                                    memory.template in<float>(column(in, &Case::time_step)), control.data(),
                                                    memory.template out<std::uint8_t>(out.cut, n)});

@@ -1,5 +1,5 @@
 // The judge's way in to the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of the question in place of its own.
-// Incidences are filled and sorted by the functors of the detection (FillIncidences, SortIncidences), so the sums have the order that they have in a step.
+// Incidences are filled and ordered by the functors of the detection (FillIncidences, RankIncidences), so the sums have the order that they have in a step.
 #pragma once
 
 #include <span>
@@ -42,7 +42,7 @@ class ProbeContacts {
     filled_.resize(static_cast<std::size_t>(vertex_count));
     filled_.fill_zero();
     count_ = records.offsets.back();
-    incidences_.resize(static_cast<std::size_t>(count_));
+    for (Buffer<Incidence>* all : {&unordered_, &incidences_}) all->resize(static_cast<std::size_t>(count_));
     fill(facets + edges);
   }
 
@@ -72,11 +72,12 @@ class ProbeContacts {
     lists.edge_edge = edge_edge_.data();
     lists.incidence_offsets = offsets_.data();
     lists.incidence_filled = filled_.data();
-    lists.incidences = incidences_.data();
+    lists.incidences = unordered_.data();
     SurfaceView surface;
     surface.vertex_count = vertex_count_;
     backend_.for_each(records, FillIncidences{lists, surface});
-    backend_.for_each(vertex_count_, SortIncidences{lists});
+    lists.incidences = incidences_.data();
+    backend_.for_each(count_, RankIncidences{lists, unordered_.data()});
   }
 
   Backend& backend_;
@@ -85,7 +86,7 @@ class ProbeContacts {
   Buffer<int> starts_, offsets_, filled_;
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
-  Buffer<Incidence> incidences_;
+  Buffer<Incidence> unordered_, incidences_;
 };
 
 /// Gᵗ and θᵗ as the start of a step leaves them.

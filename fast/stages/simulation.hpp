@@ -169,12 +169,14 @@ class ResidentSimulation : public compare::Simulation {
   StepControl run(int count, std::int64_t& repeats, std::vector<compare::StepMetrics>& rows) {
     StepControl control;
     control.active = 1;
+    control.since_sort = since_sort_;
     state_.control.upload(&control, 1);
     upload_targets(count);
     std::vector<double> wall_ms;
     std::vector<std::vector<double>> stage_ms;
     enqueue(count, wall_ms, stage_ms);
     state_.control.download(&control, 1);
+    since_sort_ = control.since_sort;
     const bool failed = (control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0;
     std::vector<StepRow> device_rows(static_cast<std::size_t>(longest_frame));
     state_.rows.download(device_rows.data(), device_rows.size());
@@ -268,6 +270,7 @@ class ResidentSimulation : public compare::Simulation {
   typename Backend::template Buffer<float> bounds_;
   std::int64_t step_number_ = 0;
   float query_radius_ = 0;
+  int since_sort_ = StepControl{}.since_sort;
 };
 
 }  // namespace ogc::fast

@@ -1,13 +1,13 @@
 // The step of Algorithm 3 with the guess loop of method.md §5, as one sequence of calls that is the same for every step: what happens is decided by flags on
 // the device, so the sequence can be recorded once and nothing in it waits for the host.
 //
-//   begin       y, r_q, Gᵗ, θᵗ; trees sorted anew
-//   guess loop  when(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times
-//   iterations  when(detect): X_prev ← x, detect; prescribed vertices, colours in order; flag from the number of cut vertices
+//   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
+//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times
+//   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; when(detect): X_prev ← x, detect
 //   finish      certificate; commit and sums only if clean; one row
 //
 // A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or is thrown away, and xᵗ, vᵗ stay.
-// Only detections stand inside `when`, which costs a device as much as ten kernels; all else works on arrays that are whole even then.
+// Only detections and sorts stand inside `when` and `repeat`, which cost a device as much as ten kernels; all else works on arrays that are whole even then.
 #pragma once
 
 #include <cmath>
@@ -33,6 +33,9 @@ struct StepSettings {
   ControlSettings control;
 };
 
+/// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order ages slowly (fast/PERFORMANCE.md).
+inline constexpr int steps_between_sorts = 16;
+
 /// `moving`: K, the number of free and prescribed vertices.
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
@@ -49,6 +52,7 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.control.cut_threshold = std::max(1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
   to.control.redetect_every = static_cast<int>(from.redetect_every);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
+  to.control.sort_every = steps_between_sorts;
   return to;
 }
 
@@ -100,12 +104,8 @@ class Step {
     Vec* old = state_.first.data();
     Vec* fresh = state_.second.data();
     for (int i = 0; i < settings_.iterations; ++i) {
-      if (i > 0) {
-        clock_.time(StepStage::detection, [&] { backend_.when(flag(&StepControl::detect), [&] { detect_again(old); }); });
-        observe(compare::StepEventKind::detection, old);
-      }
-      clock_.time(StepStage::sweep, [&] { iterate(old, fresh); });
-      observe(compare::StepEventKind::sweep, fresh);
+      const bool last = i + 1 == settings_.iterations;
+      iterate(old, fresh, last);
       std::swap(old, fresh);
     }
     clock_.time(StepStage::metrics, [&] { finish(old); });
@@ -120,7 +120,7 @@ class Step {
 
   void begin() {
     StepState<Backend>& s = state_;
-    backend_.for_each(1, BeginStep{control()});
+    backend_.when(BeginStep{control(), settings_.control}, flag(&StepControl::sort), [&] { detection_.rebuild(s.start.data()); });
     backend_.for_each(s.vertex_count,
                       BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(), s.prescribed_targets.data(), s.prescribed_count,
                                   settings_.acceleration, settings_.step, s.first.data(), s.target.data(), control()});
@@ -128,42 +128,35 @@ class Step {
       backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
       backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
     }
-    backend_.for_each(1, ChooseQueryRadius{control(), settings_.control});
-    detection_.rebuild(s.first.data());
   }
 
   /// Bounds that end here are certified, then X_prev ← x and everything is found anew.
-  void detect(const Vec* position, bool certify) {
-    backend_.for_each(state_.vertex_count, BeginBounds{position, detection_.view().bound, state_.previous.data(), control(), certify});
+  void detect(const Vec* position) {
+    backend_.for_each(state_.vertex_count, BeginBounds{position, detection_.view().bound, state_.previous.data(), control()});
     detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation);
     backend_.for_each(1, EndDetection{control(), detection_.overflow()});
   }
 
   void detect_again(const Vec* position) {
-    detect(position, true);
+    detect(position);
     sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
   }
 
-  void guess(bool hold_contacts) {
+  void guess() {
     const ContactView view = detection_.view();
-    backend_.for_each(state_.vertex_count, GuessVertex{state_.target.data(), state_.previous.data(), view.bound, view.incidence_offsets, hold_contacts,
-                                                       state_.first.data(), control()});
-    backend_.for_each(1, EndRound{control(), settings_.control});
+    backend_.for_each(state_.vertex_count,
+                      GuessVertex{state_.target.data(), state_.previous.data(), view.bound, view.incidence_offsets, state_.first.data(), control()});
   }
 
   void guess_loop() {
     const int* again = flag(&StepControl::guess);
-    for (int round = 0; round < settings_.control.guess_rounds; ++round) {
-      const auto find = [&] { detect(state_.first.data(), round > 0); };
-      const auto move = [&] { guess(round > 0); };
-      if (clock_.on()) {
-        clock_.time(StepStage::detection, [&] { backend_.when(again, find); });
-        observe(compare::StepEventKind::detection, state_.first.data());
-        clock_.time(StepStage::initial_guess, [&] { backend_.when(again, move); });
-        observe(compare::StepEventKind::guess, state_.first.data());
-      } else {
-        backend_.when(again, [&] { find(), move(); });
-      }
+    const ChooseQueryRadius choose{control(), settings_.control};
+    const EndRound end{control(), settings_.control};
+    if (!clock_.on()) {
+      backend_.repeat(choose, again, [&] { detect(state_.first.data()), guess(); }, end);
+    } else {
+      backend_.for_each(1, choose);
+      for (int round = 0; round < settings_.control.guess_rounds; ++round) timed_round(again, end);
     }
     clock_.time(StepStage::initial_guess, [&] {
       sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
@@ -172,7 +165,31 @@ class Step {
     });
   }
 
-  void iterate(const Vec* old, Vec* fresh) {
+  /// A round of the guess loop for a clock and an observer, which want its parts.
+  void timed_round(const int* again, const EndRound& end) {
+    clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, again, [&] { detect(state_.first.data()); }); });
+    observe(compare::StepEventKind::detection, state_.first.data());
+    clock_.time(StepStage::initial_guess, [&] { backend_.when(Decided{}, again, [&] { guess(), backend_.for_each(1, end); }); });
+    observe(compare::StepEventKind::guess, state_.first.data());
+  }
+
+  /// An iteration, and before the next one a detection where it is due.
+  void iterate(const Vec* old, Vec* fresh, bool last) {
+    const EndIteration end{control(), settings_.control};
+    const int* due = flag(&StepControl::detect);
+    const auto find = [&] { detect_again(fresh); };
+    clock_.time(StepStage::sweep, [&] {
+      sweep(old, fresh);
+      if (last || clock_.on()) backend_.for_each(1, end);
+    });
+    observe(compare::StepEventKind::sweep, fresh);
+    if (last) return;
+    if (!clock_.on()) return backend_.when(end, due, find);
+    clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, due, find); });
+    observe(compare::StepEventKind::detection, fresh);
+  }
+
+  void sweep(const Vec* old, Vec* fresh) {
     StepState<Backend>& s = state_;
     SweepView view;
     sweep_.complete(view);
@@ -188,7 +205,6 @@ class Step {
     view.radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
     sweep_.iterate(view);
-    backend_.for_each(1, EndIteration{control(), settings_.control});
   }
 
   void finish(const Vec* position) {

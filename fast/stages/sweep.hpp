@@ -7,6 +7,8 @@
 
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep.hpp"
+#include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
 
@@ -131,7 +133,7 @@ class Sweep {
 
   /// The contact stream of a detection at `detected`.
   void resolve_contacts(const ContactView& view, const Vec* detected, const StepControl* control) {
-    backend_.for_each(static_cast<int>(vertices_.size()), CopyContactRows{view.incidence_offsets, vertices_.data(), contact_rows_.data(), control});
+    backend_.for_each(static_cast<int>(vertices_.size()), CopyContactRows{view.incidence_offsets, view.incidences, vertices_.data(), contact_rows_.data(), control});
     backend_.for_each_counted(view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
                               ResolveContact{view, tables(detected), colour_.data(), contacts_.data(), control});
   }
@@ -151,7 +153,7 @@ class Sweep {
     backend_.for_each(static_cast<int>(prescribed_host_.size()), UpdatePrescribed{view, prescribed_.data()});
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
-      update(colour_begin_[k + 1] - colour_begin_[k], UpdateVertex{view, colour_begin_[k]});
+      update(colour_begin_[k + 1] - colour_begin_[k], UpdateVertex{view, colour_begin_[k]}, c == 0 ? Start::after_previous : Start::overlapping);
     }
   }
 
@@ -161,14 +163,14 @@ class Sweep {
     buffer.upload(items.data(), items.size());
   }
 
-  void update(int count, const UpdateVertex& kernel) {
+  void update(int count, const UpdateVertex& kernel, Start start) {
     switch (lanes_) {
-      case 1: return backend_.template for_each_team<1>(count, kernel);
-      case 2: return backend_.template for_each_team<2>(count, kernel);
-      case 4: return backend_.template for_each_team<4>(count, kernel);
-      case 8: return backend_.template for_each_team<8>(count, kernel);
-      case 16: return backend_.template for_each_team<16>(count, kernel);
-      default: return backend_.template for_each_team<32>(count, kernel);
+      case 1: return backend_.template for_each_team<1>(count, kernel, start);
+      case 2: return backend_.template for_each_team<2>(count, kernel, start);
+      case 4: return backend_.template for_each_team<4>(count, kernel, start);
+      case 8: return backend_.template for_each_team<8>(count, kernel, start);
+      case 16: return backend_.template for_each_team<16>(count, kernel, start);
+      default: return backend_.template for_each_team<32>(count, kernel, start);
     }
   }
 

@@ -44,7 +44,7 @@ class SerialBackend {
     for_each(std::min(*n, capacity), f);
   }
   template <int W, class F>
-  void for_each_team(int n, F f) {
+  void for_each_team(int n, F f, ogc::fast::Start) {
     for_each(n, [&f](int i) { f(i, ogc::fast::SerialTeam<W>{}); });
   }
   template <class First, class Second>
@@ -61,9 +61,14 @@ class SerialBackend {
     std::stable_sort(items.begin(), items.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (int i = 0; i < n; ++i) std::tie(keys[i], values[i]) = items[static_cast<std::size_t>(i)];
   }
-  template <class Body>
-  void when(const int* flag, Body body) {
+  template <class F, class Body>
+  void when(F decide, const int* flag, Body body) {
+    decide(0);
     if (*flag != 0) body();
+  }
+  template <class F, class Body, class G>
+  void repeat(F decide, const int* flag, Body body, G decide_again) {
+    for (decide(0); *flag != 0; decide_again(0)) body();
   }
   struct Recording {
     void clear() {}

@@ -47,6 +47,12 @@ struct Assign {
   OGC_HD void operator()(int) const { *target = value; }
 };
 
+struct Subtract {
+  int* target;
+  int value;
+  OGC_HD void operator()(int) const { *target -= value; }
+};
+
 // Sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives other bits.
 struct Sums {
   float large = 0, small = 0;
@@ -59,15 +65,19 @@ struct Sums {
   }
 };
 
+// A row as three parts of unequal length; the first is empty in some rows.
 struct RowSums {
+  static constexpr int parts = 3;
   const int* offsets;
   const float* terms;
   Sums* out;
   template <class Team>
   OGC_HD void operator()(int row, Team team) const {
-    if (row % 5 == 3) return;  // teams of one warp may leave early
-    const float* mine = terms + offsets[row];
-    const Sums sums = team.template sum<Sums>(offsets[row + 1] - offsets[row], [mine](int k, Sums& acc) { acc += Sums{mine[k], mine[k] * mine[k], 1}; });
+    const int begin = offsets[row], count = offsets[row + 1] - begin, first = count / 5, second = first + count / 2;
+    const auto load_from = [this](int start) { return [from = terms + start](int k) { return from[k]; }; };
+    const auto add = [](float term, Sums& sums) { sums += Sums{term, term * term, 1}; };
+    const Sums sums = team.template sum<Sums>(part(first, load_from(begin), add), part(second - first, load_from(begin + first), add),
+                                              part(count - second, load_from(begin + second), add));
     if (team.leader()) out[row] = sums;
   }
 };
@@ -101,11 +111,14 @@ void check_team() {
   const CudaBuffer<float> terms = on_device(rows.terms);
   CudaBuffer<Sums> out;
   out.resize(count);
-  backend.for_each_team<W>(count, RowSums{offsets.data(), terms.data(), out.data()});
-  const std::vector<Sums> found = on_host(out);
-  int different = 0;
-  for (std::size_t row = 0; row < found.size(); ++row) different += std::memcmp(&found[row], &expected[row], sizeof(Sums)) != 0;
-  CHECK(different == 0);
+  for (const Start start : {Start::after_previous, Start::overlapping}) {
+    out.fill_zero();
+    backend.for_each_team<W>(count, RowSums{offsets.data(), terms.data(), out.data()}, start);
+    const std::vector<Sums> found = on_host(out);
+    int different = 0;
+    for (std::size_t row = 0; row < found.size(); ++row) different += std::memcmp(&found[row], &expected[row], sizeof(Sums)) != 0;
+    CHECK(different == 0);
+  }
 }
 
 }  // namespace
@@ -190,16 +203,14 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
   CudaBuffer<int> values, sums;
   sums.resize(4);
   const auto body = [&] {
-    backend.for_each(1, Assign{flag.data(), 0});
-    backend.when(flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
-    backend.for_each(1, Assign{flag.data(), 1});
-    backend.when(flag.data(), [&] {
+    backend.when(Assign{flag.data(), 0}, flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
+    backend.when(Assign{flag.data(), 1}, flag.data(), [&] {
       backend.for_each(1, AddOne{count.data()});
       backend.sort_pairs(device_keys.data(), values.data(), 3);
       backend.exclusive_scan(values.data(), sums.data(), 3);
       backend.for_each(1, Assign{flag.data(), 0});
     });
-    backend.when(flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
+    backend.when(Decided{}, flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
   };
   CudaRecording recording;
   for (const int times : {0, 1, 5}) {
@@ -216,6 +227,27 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
     CHECK((on_host(values) == std::vector<int>{20, 30, 10}));
     CHECK((on_host(sums) == std::vector<int>{0, 20, 50, 60}));
     if (times > 0) CHECK(backend.replay_milliseconds().size() == static_cast<std::size_t>(times));
+  }
+}
+
+TEST_CASE("repeat goes on until its flag falls, both at once and in a replay, and not at all where it is down", "[gpu]") {
+  CudaBackend backend;
+  CudaBuffer<int> left, count;
+  left.resize(1);
+  count.resize(1);
+  CudaRecording recording;
+  for (const int rounds : {0, 1, 7}) {
+    for (const bool recorded : {false, true}) {
+      count.fill_zero();
+      recording.clear();
+      const auto body = [&] {
+        backend.repeat(Assign{left.data(), rounds}, left.data(), [&] { backend.for_each(1, AddOne{count.data()}); }, Subtract{left.data(), 1});
+      };
+      if (recorded) backend.replay(recording, 3, body);
+      else body();
+      backend.synchronize();
+      CHECK(on_host(count)[0] == (recorded ? 3 * rounds : rounds));
+    }
   }
 }
 
@@ -245,7 +277,7 @@ TEST_CASE("a body that throws while it is recorded leaves the backend usable", "
   CudaBuffer<int> items;
   items.resize(4);
   CudaRecording recording;
-  CHECK_THROWS_AS(backend.replay(recording, 1, [&] { backend.when(items.data(), [&] { throw std::runtime_error("body"); }); }), std::runtime_error);
+  CHECK_THROWS_AS(backend.replay(recording, 1, [&] { backend.when(Decided{}, items.data(), [&] { throw std::runtime_error("body"); }); }), std::runtime_error);
   backend.replay(recording, 1, [&] { backend.for_each(4, SetToNumber{items.data()}); });
   backend.synchronize();
   CHECK((on_host(items) == std::vector<int>{1, 2, 3, 4}));

@@ -1,5 +1,7 @@
 #include "fast/kernels/control.hpp"
 
+#include <vector>
+
 #include "tests/catch.hpp"
 
 using namespace ogc;
@@ -10,7 +12,7 @@ namespace {
 StepControl running() {
   StepControl c;
   c.active = 1;
-  BeginStep{&c}(0);
+  BeginStep{&c, ControlSettings{}}(0);
   return c;
 }
 
@@ -65,7 +67,7 @@ TEST_CASE("a list that was too small, a violation or a number that is not finite
   CHECK(c.status == compare::step_list_grew);
   CHECK(c.active == 0);
   CHECK(c.guess == 0);
-  BeginStep{&c}(0);
+  BeginStep{&c, ControlSettings{}}(0);
   CHECK(c.attempted == 0);
   CHECK(c.guess == 0);
   c = running();
@@ -78,6 +80,21 @@ TEST_CASE("a list that was too small, a violation or a number that is not finite
   EndIteration{&c, ControlSettings{}}(0);
   CHECK(c.status == compare::step_not_finite);
   CHECK(c.detect == 0);
+}
+
+TEST_CASE("the trees are sorted in the first step and then every few steps, and not while steps are no-ops", "[unit]") {
+  ControlSettings settings;
+  settings.sort_every = 3;
+  StepControl c;
+  const auto sorts = [&] {
+    BeginStep{&c, settings}(0);
+    return c.sort;
+  };
+  CHECK(sorts() == 0);
+  c.active = 1;
+  std::vector<int> found;
+  for (int step = 0; step < 7; ++step) found.push_back(sorts());
+  CHECK((found == std::vector<int>{1, 0, 0, 1, 0, 0, 1}));
 }
 
 TEST_CASE("the query radius is the contact radius plus the largest move, up to its cap", "[unit]") {
