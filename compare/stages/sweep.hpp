@@ -35,7 +35,7 @@ struct SweepOut {
 /// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m], in the direction in which this answer is:
 /// the error of f and H within the tolerances of their stages through H⁻¹, of the solve, of the truncation, of storing. 0 where the answer must be `position`
 /// bit for bit. `grey`: a stencil of the vertex has more than one accepted answer (`position` then comes from the combination nearest to the answer), or the
-/// vertex is *ill-conditioned*: the errors of H alone could make it singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2, or a hinge has no defined answer. No single-precision solve
+/// vertex is *ill-conditioned*: the errors of H alone could make it singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. No single-precision solve
 /// can then be held to a position, and a solver may fall back to a step down the gradient: `accepted` is infinite, unless the vertex was not cut and
 /// moved against its force beyond all error: then 0.
 struct SweepTruth {

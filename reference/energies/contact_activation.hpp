@@ -1,4 +1,5 @@
-// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation (method.md §4).
+// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation (method.md §4). Radius and stiffness are
+// plain numbers where only the distance is differentiated, and of the distance's type where the condition of the answer is asked for, too.
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -7,28 +8,33 @@
 namespace ogc::reference {
 
 /// Quadratic stage from τ = r/2 on, below it k' (ln τ − ln d) + the quadratic value at τ.
-template <class T>
-T two_stage_energy(const T& d, double r, double k, double log_stiffness) {
+template <class T, class P>
+T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   using std::log;
-  const double tau = 0.5 * r;
-  if (plain(d) >= tau) return 0.5 * k * (T(r) - d) * (T(r) - d);
-  return log_stiffness * (T(std::log(tau)) - log(d)) + T(0.5 * k * (r - tau) * (r - tau));
+  const P tau = P(0.5) * r, depth = r - tau;
+  if (plain(d) >= plain(tau)) return P(0.5) * k * (T(r) - d) * (T(r) - d);
+  return log_stiffness * (T(log(tau)) - log(d)) + T(P(0.5) * k * depth * depth);
 }
 
-/// g(d) [J] for 0 < d < r, 0 from r on: radius r [m], stiffness k_c [N/m]. `ogc_as_printed` takes Eq. 19's numbers in metres.
-template <class T>
-T contact_activation(compare::ContactActivation kind, const T& d, double r, double k) {
+/// g(d) [J] of the formula that holds for 0 < d < r: radius r [m], stiffness k_c [N/m]. `ogc_as_printed` takes Eq. 19's numbers in metres.
+template <class T, class P>
+T activation_energy(compare::ContactActivation kind, const T& d, const P& r, const P& k) {
   using std::log;
-  if (plain(d) >= r) return T(0.0);
-  const double tau = 0.5 * r;
+  const P tau = P(0.5) * r;
   const T depth = T(r) - d;
   switch (kind) {
     case compare::ContactActivation::ogc_as_printed: return two_stage_energy(d, r, k, tau * k * (tau - r) * (tau - r));
-    case compare::ContactActivation::quadratic: return 0.5 * k * depth * depth;
-    case compare::ContactActivation::ipc_log: return -k * depth * depth * log(1 / r * d);
-    case compare::ContactActivation::cubic: return 2 * k / (3 * r) * depth * depth * depth;
+    case compare::ContactActivation::quadratic: return P(0.5) * k * depth * depth;
+    case compare::ContactActivation::ipc_log: return -k * depth * depth * log(P(1.0) / r * d);
+    case compare::ContactActivation::cubic: return P(2.0) * k / (P(3.0) * r) * depth * depth * depth;
     default: return two_stage_energy(d, r, k, tau * k * (r - tau));
   }
+}
+
+/// The same with its end: 0 from r on.
+template <class T>
+T contact_activation(compare::ContactActivation kind, const T& d, double r, double k) {
+  return plain(d) >= r ? T(0.0) : activation_energy(kind, d, r, k);
 }
 
 }  // namespace ogc::reference

@@ -25,13 +25,14 @@ Slopes slopes(const Meeting& meeting) {
   const Input d = meeting.acting_distance(meeting.distance);
   const ByDistanceTwice variable(ByDistance(d, 0), 0);
   const auto constant = [](const Input& x) { return ByDistanceTwice(ByDistance(x)); };
-  const ByDistanceTwice energy = activation_energy(variable, constant(meeting.radius), constant(meeting.stiffness));
+  const ByDistanceTwice energy = activation_energy(compare::ContactActivation::ogc, variable, constant(meeting.radius), constant(meeting.stiffness));
   return {energy.value.slope[0], energy.slope[0].slope[0]};
 }
 
 compare::ForceAnswer acting(const Meeting& meeting, std::size_t own) {
   const ByVertex distance = distance_of(meeting, own);
-  const ByVertex energy = activation_energy(meeting.acting_distance(distance), ByVertex(meeting.radius), ByVertex(meeting.stiffness));
+  const ByVertex energy = activation_energy(compare::ContactActivation::ogc, meeting.acting_distance(distance), ByVertex(meeting.radius),
+                                            ByVertex(meeting.stiffness));
   const Slopes at = slopes(meeting);
   Block block;
   add_outer(block, at.second, distance, distance);

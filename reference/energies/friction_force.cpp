@@ -13,7 +13,7 @@ using ByDistance = Derivative<Input, 1>;
 /// λ = −e_k g'(d).
 Input normal_force(const Meeting& meeting) {
   const ByDistance d(meeting.acting_distance(meeting.distance), 0);
-  return -activation_energy(d, ByDistance(meeting.radius), ByDistance(meeting.stiffness)).slope[0];
+  return -activation_energy(compare::ContactActivation::ogc, d, ByDistance(meeting.radius), ByDistance(meeting.stiffness)).slope[0];
 }
 
 /// ‖u‖. Where u cannot be told from 0 it has no direction, and ‖u‖ grows by the length of any change of u.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/energies/mollifier.hpp"
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/closest_points.hpp"
 
@@ -152,13 +153,13 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
 
 /// e_k as one number. Its size holds, beside its condition, the square of the normal's error: 4 u ‖e‖‖e'‖ by two products and a difference of rounded
 /// edges, which is all there is where the edges are parallel and the first order vanishes.
-Input mollifier(const ContactForceCase& q, Inputs& inputs) {
+Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
-  const Triple<Input> e = own.vector(q.detected[1], q.detected[0]), f = own.vector(q.detected[3], q.detected[2]), n = cross(e, f);
-  const Input limit = Input(1e-3) * own.number(q.rest_squared[0]) * own.number(q.rest_squared[1]), sine = dot(n, n);
-  if (!(sine.value < limit.value)) return inputs.number(1, 0);
-  const Input share = sine / limit, result = share * (Input(2.0) - share);
-  const double square = 2 * 16 * compare::unit_roundoff * dot(e, e).value * dot(f, f).value / limit.value;
+  const Triple<Input> e = own.vector(q.detected[1], q.detected[0]), f = own.vector(q.detected[3], q.detected[2]);
+  const Mollifier<Input> mollifier(e, f, own.number(q.rest_squared[0]), own.number(q.rest_squared[1]));
+  if (!mollifier.acts()) return inputs.number(1, 0);
+  const Input result = mollifier.value();
+  const double square = 2 * 16 * compare::unit_roundoff * dot(e, e).value * dot(f, f).value / mollifier.limit.value;
   return inputs.number(result.value, own.condition({&result, 1}) + square);
 }
 
@@ -171,7 +172,7 @@ Meeting begun(const ContactForceCase& q) {
   }
   meeting.radius = meeting.inputs.number(q.contact_radius);
   meeting.stiffness = meeting.inputs.number(q.stiffness);
-  if (q.sides == ContactSides::edge_edge) meeting.stiffness = meeting.stiffness * mollifier(q, meeting.inputs);
+  if (q.sides == ContactSides::edge_edge) meeting.stiffness = meeting.stiffness * mollified(q, meeting.inputs);
   return meeting;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "compare/stages/contact_force.hpp"
+#include "reference/energies/contact_activation.hpp"
 #include "reference/energies/inputs.hpp"
 
 namespace ogc::reference {
@@ -47,14 +48,6 @@ struct Meeting {
 
 /// The exact meeting first, then those that a decision in its grey zone could give instead.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
-
-/// g(d) of Eq. 18–20 with Eq. 19 corrected, τ = r/2; d < r.
-template <class T>
-T activation_energy(const T& d, const T& r, const T& k) {
-  if (2 * plain(d) >= plain(r)) return T(0.5) * k * (r - d) * (r - d);
-  const T tau = T(0.5) * r, k_log = tau * k * (r - tau);
-  return k_log * (log(tau) - log(d)) + T(0.5) * k * (r - tau) * (r - tau);
-}
 
 /// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force and a block, by their moduli in
 /// the scales, that no answer can exceed wherever the points touch.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/solvers/vertex_terms.hpp"
-
 namespace ogc::reference {
 namespace {
 
@@ -39,23 +37,6 @@ std::vector<Vec3f> end_velocities(const std::vector<Vec3f>& position, const Stat
     velocity.push_back({static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});
   }
   return velocity;
-}
-
-std::vector<bool> touched_vertices(const ContactSets& sets, const compare::Topology& topology) {
-  std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);
-  const auto touch = [&](const compare::Face& face) {
-    for (const compare::Index v : vertices_of(topology, face))
-      if (v >= 0) touched[static_cast<std::size_t>(v)] = true;
-  };
-  for (const compare::VertexFacetContact& contact : sets.vertex_facet) {
-    touched[static_cast<std::size_t>(contact.vertex)] = true;
-    touch(contact.face);
-  }
-  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) {
-    touch(contact.first);
-    touch(contact.second);
-  }
-  return touched;
 }
 
 double momentum_lost(const StepStates& states, const Potential& potential) {

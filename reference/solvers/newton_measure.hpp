@@ -20,9 +20,6 @@ State inertial_targets(const compare::Scene& scene, const std::vector<compare::V
 /// (x − xᵗ)/h of the positions that are stored, rounded [m/s].
 std::vector<compare::Vec3f> end_velocities(const std::vector<compare::Vec3f>& position, const State& start, double step);
 
-/// By vertex: whether it is part of a contact.
-std::vector<bool> touched_vertices(const ContactSets& sets, const compare::Topology& topology);
-
 /// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5).
 double momentum_lost(const StepStates& states, const Potential& potential);
 /// Of prescribed vertices behind their targets [m].

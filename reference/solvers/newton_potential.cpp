@@ -5,8 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "reference/energies/mollifier.hpp"
 #include "reference/energies/rest_state.hpp"
-#include "reference/solvers/vertex_terms.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -128,34 +128,22 @@ void Potential::begin_step(const State& start, const State& target) {
 
 void Potential::set_contacts(const ContactSets& sets, const State& detected) {
   contacts_.clear();
-  constexpr std::array facet_sides{ContactSides::point_point, ContactSides::point_edge, ContactSides::point_triangle};
-  for (const compare::VertexFacetContact& contact : sets.vertex_facet) {
-    const auto facet = vertices_of(topology_, contact.face);
-    add_contact(facet_sides[static_cast<std::size_t>(contact.face.kind)], {contact.vertex, facet[0], facet[1], facet[2]}, {-1, -1}, detected);
-  }
-  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) {
-    // first < second as faces, so an edge is never followed by a vertex.
-    const auto p = vertices_of(topology_, contact.first), q = vertices_of(topology_, contact.second);
-    if (p[1] >= 0) add_contact(ContactSides::edge_edge, {p[0], p[1], q[0], q[1]}, {contact.first.index, contact.second.index}, detected);
-    else add_contact(q[1] >= 0 ? ContactSides::point_edge : ContactSides::point_point, {p[0], q[0], q[1], -1}, {-1, -1}, detected);
-  }
+  for (const compare::VertexFacetContact& contact : sets.vertex_facet) add_contact(stencil_of(topology_, contact), detected);
+  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) add_contact(stencil_of(topology_, contact), detected);
 }
 
-void Potential::add_contact(ContactSides sides, const std::array<Index, 4>& vertex, std::array<Index, 2> edges, const State& detected) {
+void Potential::add_contact(const ContactStencil& stencil, const State& detected) {
   const auto is_free = [&](Index v) { return v >= 0 && mobility_[static_cast<std::size_t>(v)] == Mobility::free; };
-  if (std::none_of(vertex.begin(), vertex.end(), is_free)) return;
-  const auto body_at = [&](std::size_t place) { return static_cast<std::size_t>(body_[static_cast<std::size_t>(vertex[place])]); };
-  const compare::MeetingMaterial& material =
-      rest_.meetings[body_at(0) * scene_.bodies.size() + body_at(sides == ContactSides::edge_edge ? 2 : 1)];
-  ContactTerm term{sides, vertex, scene_.settings.contact_radius, double{material.stiffness}, 1, double{material.friction}, scene_.settings.activation};
-  if (sides == ContactSides::edge_edge && !topology_.triangles.empty()) {
-    const auto x = gathered<4>(vertex, detected);
-    const Triple<double> normal = cross(x[1] - x[0], x[3] - x[2]);
-    const auto rest_squared = [&](std::size_t k) { return double{rest_.edge_length_squared[static_cast<std::size_t>(edges[k])]}; };
-    const double sine = dot(normal, normal), limit = 1e-3 * rest_squared(0) * rest_squared(1);
-    if (sine < limit) term.mollifier = sine / limit * (2 - sine / limit);
-  }
-  if (term.stiffness > 0) contacts_.push_back(term);
+  if (std::none_of(stencil.vertex.begin(), stencil.vertex.end(), is_free)) return;
+  const compare::MeetingMaterial& material = material_of(rest_, scene_.bodies.size(), body_, stencil);
+  if (material.stiffness == 0) return;
+  contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1, double{material.friction},
+                       scene_.settings.activation});
+  const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
+  if (rest_squared[0] == 0) return;
+  const auto x = gathered<4>(stencil.vertex, detected);
+  const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
+  if (mollifier.acts()) contacts_.back().mollifier = mollifier.value();
 }
 
 void Potential::lag_friction(const State& x) {

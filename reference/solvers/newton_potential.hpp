@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
-#include "compare/stages/detect_edge_edge.hpp"
-#include "compare/stages/detect_vertex_facet.hpp"
-#include "compare/stages/rest_state.hpp"
 #include "reference/energies/stencil_derivatives.hpp"
 #include "reference/energies/stencil_terms.hpp"
+#include "reference/solvers/contacts.hpp"
 
 namespace ogc::reference {
 
@@ -17,11 +15,6 @@ namespace ogc::reference {
 using State = std::vector<Triple<double>>;
 
 State widened(const std::vector<compare::Vec3f>& positions);
-
-struct ContactSets {
-  std::vector<compare::VertexFacetContact> vertex_facet;
-  std::vector<compare::EdgeEdgeContact> edge_edge;
-};
 
 enum class Mobility : std::uint8_t { fixed, prescribed, free };
 /// By vertex.
@@ -71,7 +64,7 @@ class Potential {
   std::size_t free_count() const { return free_count_; }
 
  private:
-  void add_contact(compare::ContactSides sides, const std::array<compare::Index, 4>& vertex, std::array<compare::Index, 2> edges, const State& detected);
+  void add_contact(const ContactStencil& stencil, const State& detected);
   double stencil_energy(std::size_t stencil, const State& x) const;
   StencilDerivatives differentiate(std::size_t stencil, const State& x, compare::HessianProjection projection) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;

@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include "reference/energies/rest_state.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
-#include "reference/geometry/margin.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/solvers/contacts.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/step_order.hpp"
-#include "reference/solvers/vertex_update.hpp"
+#include "reference/solvers/sweep.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -21,15 +19,9 @@ using compare::Index;
 using compare::StepEvent;
 using compare::StepEventKind;
 using compare::Vec3;
+using compare::Vec3f;
 
 Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
-
-/// The nearest single-precision position, stepped towards X_prev until it obeys the bound.
-Vec3f stored(const Vec3& position, const Vec3f& previous, float bound) {
-  Vec3f x = single(position);
-  while (sign(gap_points(previous, x, bound)) > 0) x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
-  return x;
-}
 
 /// Free vertices in the order of their numbers, each in the lowest colour that none of its stencils has; −1 for all others.
 std::vector<Index> coloured(const compare::RestStateOut& rest, const std::vector<Index>& groups) {
@@ -108,19 +100,7 @@ class ReferenceStep {
                          static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
     bound_ = event.bound;
-    vertex_facet_ = event.vertex_facet.contacts;
-    edge_edge_ = event.edge_edge.contacts;
-  }
-
-  std::vector<bool> touched() const {
-    std::vector<bool> touched(x_.size(), false);
-    const auto mark = [&](const compare::Face& face) {
-      for (const Index v : vertices_of(*in_.topology, face))
-        if (v >= 0) touched[static_cast<std::size_t>(v)] = true;
-    };
-    for (const compare::VertexFacetContact& c : vertex_facet_) touched[static_cast<std::size_t>(c.vertex)] = true, mark(c.face);
-    for (const compare::EdgeEdgeContact& c : edge_edge_) mark(c.first), mark(c.second);
-    return touched;
+    contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
   }
 
   /// Where v goes on its way to its target; counts a cut.
@@ -128,45 +108,22 @@ class ReferenceStep {
     const compare::TruncateTruth truth = truncate({{previous_[v]}, {out_.target[v]}, {bound_[v]}});
     if (truth.exceeded[0] == 0) return out_.target[v];
     ++cut;
-    return stored(truth.position[0], previous_[v], bound_[v]);
+    return stored_within(truth.position[0], previous_[v], bound_[v]);
   }
 
   void guess(StepEvent& event, bool hold_contacts) {
-    const std::vector<bool> held = hold_contacts ? touched() : std::vector<bool>(x_.size(), false);
+    const std::vector<bool> held = hold_contacts ? touched_vertices(contacts_, *in_.topology) : std::vector<bool>(x_.size(), false);
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (!held[v]) x_[v] = truncated(v, event.cut);
   }
 
   void sweep(StepEvent& event) {
     const std::vector<Vec3f> old = x_;
-    const compare::SweepIn question{in_.scene, in_.topology, &out_.rest, out_.colour, old, start_, out_.target, previous_, bound_, vertex_facet_, edge_edge_};
-    const SweepStencils stencils(question);
-    compare::SweepOut answer{old, 0};
-    for (std::size_t v = 0; v < x_.size(); ++v)
-      if (groups_[v] > 0) answer.position[v] = truncated(v, answer.cut);
-    const Index colours = 1 + *std::max_element(out_.colour.begin(), out_.colour.end());
-    for (Index colour = 0; colour < colours; ++colour) update_colour(colour, question, stencils, answer);
-    x_ = answer.position;
+    const compare::SweepIn question{in_.scene,   in_.topology, &out_.rest, out_.colour,            old,                start_,
+                                    out_.target, previous_,    bound_,     contacts_.vertex_facet, contacts_.edge_edge};
+    compare::SweepOut answer = reference_sweep(question, SweepStencils(question));
+    x_ = std::move(answer.position);
     event.cut = answer.cut;
-  }
-
-  void update_colour(Index colour, const compare::SweepIn& question, const SweepStencils& stencils, compare::SweepOut& answer) const {
-    std::vector<Index> mine;
-    for (std::size_t v = 0; v < x_.size(); ++v)
-      if (out_.colour[v] == colour) mine.push_back(static_cast<Index>(v));
-    std::vector<VertexUpdate> updates(mine.size());
-    tbb::parallel_for(std::size_t{0}, mine.size(), [&](std::size_t k) { updates[k] = update(mine[k], question, stencils, answer); });
-    for (std::size_t k = 0; k < mine.size(); ++k) {
-      const auto v = static_cast<std::size_t>(mine[k]);
-      answer.position[v] = stored(updates[k].position, previous_[v], bound_[v]);
-      answer.cut += updates[k].cut == Cut::yes;
-    }
-  }
-
-  VertexUpdate update(Index v, const compare::SweepIn& question, const SweepStencils& stencils, const compare::SweepOut& answer) const {
-    const auto i = static_cast<std::size_t>(v);
-    const VertexPlace place{question.old[i], out_.target[i], previous_[i], bound_[i], out_.rest.mass[i] / (settings_.time_step * settings_.time_step)};
-    return update_of(terms_of_vertex(question, stencils, SweepPositions(question, answer, v), v), place, question.old[i]);
   }
 
   const compare::StepIn& in_;
@@ -174,8 +131,7 @@ class ReferenceStep {
   std::vector<Index> groups_;
   std::vector<Vec3f> start_, x_, previous_;
   std::vector<float> bound_;
-  std::vector<compare::VertexFacetContact> vertex_facet_;
-  std::vector<compare::EdgeEdgeContact> edge_edge_;
+  ContactSets contacts_;
   compare::StepOut out_;
 };
 

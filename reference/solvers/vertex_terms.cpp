@@ -5,14 +5,13 @@
 
 #include "reference/energies/bending.hpp"
 #include "reference/energies/membrane.hpp"
+#include "reference/solvers/contacts.hpp"
 #include "reference/solvers/symmetric3.hpp"
 
 namespace ogc::reference {
 namespace {
 
 using compare::Index;
-using compare::Vec3;
-using compare::Vec3f;
 
 template <class Vertices>
 void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& vertices) {
@@ -58,47 +57,15 @@ compare::BendingCase bending_question(const compare::SweepIn& in, const compare:
   return question;
 }
 
-Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
-
-double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
-
-/// ‖e × s‖/(‖e‖‖s‖), the sine of the angle at a corner of a hinge; 0 where a side has no length.
-double sine(const Vec3& e, const Vec3& s) {
-  const double scale = length(e) * length(s);
-  return scale == 0 ? 0 : length({e.y * s.z - e.z * s.y, e.z * s.x - e.x * s.z, e.x * s.y - e.y * s.x}) / scale;
-}
-
-/// Whether both triangles are either collapsed or far enough from it for the question to have an answer.
-bool is_defined(const std::array<Vec3f, 4>& x) {
-  const Vec3 edge = difference(x[1], x[0]);
-  for (const std::size_t side : {2u, 3u})
-    if (const double height = sine(edge, difference(x[side], x[0])); height > 0 && height < 0x1p-16) return false;
-  return true;
-}
-
 }  // namespace
-
-std::array<Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face) {
-  const auto i = static_cast<std::size_t>(face.index);
-  if (face.kind == compare::FaceKind::vertex) return {face.index, -1, -1};
-  if (face.kind == compare::FaceKind::edge) return {topology.edges[i][0], topology.edges[i][1], -1};
-  return topology.triangles[i];
-}
 
 SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
   const std::size_t count = in.old.size();
   for (ElementsOfVertex* rows : {&triangles, &hinges, &vertex_facet, &edge_edge}) rows->resize(count);
   for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
-  for (std::size_t i = 0; i < in.vertex_facet.size(); ++i) {
-    const auto facet = vertices_of(*in.topology, in.vertex_facet[i].face);
-    add_element(vertex_facet, i, std::array{in.vertex_facet[i].vertex, facet[0], facet[1], facet[2]});
-  }
-  for (std::size_t i = 0; i < in.edge_edge.size(); ++i) {
-    const auto p = vertices_of(*in.topology, in.edge_edge[i].first), q = vertices_of(*in.topology, in.edge_edge[i].second);
-    const bool both = p[1] >= 0;
-    add_element(edge_edge, i, both ? std::array{p[0], p[1], q[0], q[1]} : std::array{p[0], q[0], q[1], Index{-1}});
-  }
+  for (std::size_t i = 0; i < in.vertex_facet.size(); ++i) add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
+  for (std::size_t i = 0; i < in.edge_edge.size(); ++i) add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
 }
 
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance) {
@@ -131,7 +98,6 @@ VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& ste
   }
   for (const auto& [hinge, role] : stencils.hinges[v]) {
     const auto question = bending_question(in, in.rest->hinges[hinge], role, positions);
-    sum.defined = sum.defined && is_defined(question.vertex) && (question.damping == 0 || is_defined(question.start));
     sum.terms.push_back(term_of(bending(question), compare::bending_force_tolerance + inputs, compare::bending_block_tolerance + inputs));
   }
   add_contact_terms(in, stencils, positions, vertex, sum);

@@ -20,10 +20,9 @@ struct Term {
 
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
-/// All terms of a vertex but inertia. `defined`: false where a hinge is no legal question (compare/stages/bending.hpp).
+/// All terms of a vertex but inertia.
 struct VertexTerms {
   std::vector<Term> terms;
-  bool defined = true;
 };
 
 /// By vertex: (number of the element, place of the vertex in it).
@@ -57,8 +56,5 @@ VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& ste
 
 /// The part of it that contacts add: normal force, and friction where μ > 0.
 void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions, compare::Index vertex, VertexTerms& sum);
-
-/// Vertices of a face, in the order of the mesh; those that it lacks are −1.
-std::array<compare::Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face);
 
 }  // namespace ogc::reference

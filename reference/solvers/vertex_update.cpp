@@ -146,7 +146,7 @@ VertexUpdate update_of(const VertexTerms& terms, const VertexPlace& place, const
   VertexUpdate best = update_with(system_of(terms, place, choice), place, answer);
   std::size_t combinations = 1;
   for (const Term& term : terms.terms) combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
-  if (!terms.defined || combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
+  if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
   // Where the bound hides which of them an answer has chosen, the cut may be that of any.
   bool cuts_differ = false;
   while (advance(choice, terms)) {

@@ -1,0 +1,23 @@
+// IPC's mollifier of nearly parallel edges (method.md §4), over any number type.
+#pragma once
+
+#include "reference/energies/derivative.hpp"
+
+namespace ogc::reference {
+
+/// e_k = q (2 − q), q = c/ε, c = ‖e × e'‖², ε = 10⁻³ ‖ē‖²‖ē'‖² on rest lengths.
+template <class T>
+struct Mollifier {
+  T sine, limit;  ///< c, ε [m⁴]
+  Mollifier(const Triple<T>& e, const Triple<T>& f, const T& rest_squared_e, const T& rest_squared_f)
+      : sine(dot(cross(e, f), cross(e, f))), limit(T(1e-3) * rest_squared_e * rest_squared_f) {}
+  /// Elsewhere e_k is 1.
+  bool acts() const { return plain(sine) < plain(limit); }
+  /// Where it acts.
+  T value() const {
+    const T share = sine / limit;
+    return share * (T(2.0) - share);
+  }
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,42 @@
+// What solvers ask about contacts as they were detected: their vertices, in the order of the stages contact_force and friction_force, and their materials.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "compare/stages/contact_force.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/rest_state.hpp"
+
+namespace ogc::reference {
+
+struct ContactSets {
+  std::vector<compare::VertexFacetContact> vertex_facet;
+  std::vector<compare::EdgeEdgeContact> edge_edge;
+};
+
+/// Vertices of a face, in the order of the mesh; those that it lacks are −1.
+std::array<compare::Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face);
+
+/// A contact as its stages ask for it.
+struct ContactStencil {
+  compare::ContactSides sides = compare::ContactSides::point_point;
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; those that it lacks are −1
+  std::array<compare::Index, 2> edge{-1, -1};            ///< of two interiors, whose energy is mollified
+};
+ContactStencil stencil_of(const compare::Topology& topology, const compare::VertexFacetContact& contact);
+ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
+
+/// Squared rest lengths of the two edges whose energy is mollified [m²]; zeros where it is not: contacts with a vertex, meshes without a triangle.
+std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest, const ContactStencil& stencil);
+
+/// Of the two bodies that meet. `body`: by vertex.
+const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count, std::span<const compare::Index> body,
+                                            const ContactStencil& stencil);
+
+/// By vertex: whether it is part of a contact.
+std::vector<bool> touched_vertices(const ContactSets& sets, const compare::Topology& topology);
+
+}  // namespace ogc::reference
