@@ -24,6 +24,7 @@ constexpr double default_radius_ratio = 0.2;
 struct Options {
   std::string mesh, engine = "exact";
   double radius = 0, query_radius = 0;
+  bool squares = false;
 };
 
 void run(const Options& options, const CommandContext& context) {
@@ -31,6 +32,8 @@ void run(const Options& options, const CommandContext& context) {
   mesh.positions = compare::to_double(compare::to_single(mesh.positions));
   const std::string problems = compare::describe(compare::validate(mesh));
   if (!problems.empty()) throw compare::InputError(options.mesh + ":\n" + problems);
+  if (options.squares && (!context.json || options.engine != "exact"))
+    throw compare::InputError("--squares adds to the JSON of the exact engine; give --json and --engine exact");
   const double radius = options.radius > 0 ? options.radius : default_radius_ratio * mean_edge_length(mesh);
   const double query_radius = options.query_radius > 0 ? options.query_radius : default_query_ratio * radius;
   if (query_radius < radius)
@@ -45,6 +48,7 @@ void run(const Options& options, const CommandContext& context) {
   if (!context.json) return print_result(describe(report));
   Json json{{"mesh", options.mesh}, {"engine", options.engine}, {"bound_relaxation", bound_relaxation}, {"intersections", intersections}};
   json.update(to_json(report));
+  if (options.squares) json.update(exact_squares(report, mesh, bound_relaxation));
   print_result(json);
 }
 
@@ -59,6 +63,7 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
   command->add_option("--engine", options->engine, "exact (the reference), cpu or cuda (the fast path)")
       ->check(CLI::IsMember({"exact", "cpu", "cuda"}))->capture_default_str();
   command->add_flag("--json", context.json, "Print all contacts, smallest distances and bounds as JSON on standard output");
+  command->add_flag("--squares", options->squares, "With --json: the exact squares of smallest distances and bounds, as fractions [m²]");
   command->footer("The exact engine's JSON has two things more: `margin` of a vertex-facet contact, the smallest distance to a boundary of the face's\n"
                   "block, and `vertex_kind`, convex, mixed or saddle.\n"
                   "A smallest distance of r_q in the JSON means that nothing is nearer. Lengths are in metres; coordinates are rounded to single\n"

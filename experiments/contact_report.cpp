@@ -8,7 +8,6 @@
 
 #include "compare/problem/scene.hpp"
 #include "fast/contestant.hpp"
-#include "reference/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -58,6 +57,7 @@ void fill_geometry(ContactReport& report, const std::vector<Vec3f>& positions) {
 
 void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation) {
   const compare::Authority authority = reference::authority();
+  const reference::FilterCounts before = reference::filter_counts();
   report.vertex_facet = authority.detect_vertex_facet(in).exact;
   report.edge_edge = authority.detect_edge_edge(in).exact;
   report.bound = authority.bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge, report.vertex_facet.d_min_triangle,
@@ -65,6 +65,7 @@ void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::v
   report.vertex_facet_distance = authority.closest_face(vertex_facet_cases(report, positions)).distance;
   report.edge_edge_distance = authority.closest_points(edge_edge_cases(report, positions)).contact_distance;
   fill_geometry(report, positions);
+  report.filters = reference::filter_counts().since(before);
 }
 
 void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation, fast::Backend backend) {
@@ -128,6 +129,30 @@ std::string closest(const Contacts& contacts, const std::vector<double>& distanc
   return text;
 }
 
+/// By predicate, for those that were asked.
+Json to_json(const reference::FilterCounts& filters) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < reference::filtered_predicates; ++k) {
+    const reference::FilterCount& count = filters.of[k];
+    if (count.calls > 0) json[std::string(name(static_cast<reference::Filtered>(k)))] = {{"calls", count.calls}, {"undecided", count.undecided}};
+  }
+  return json;
+}
+
+std::string describe(const reference::FilterCounts& filters) {
+  const reference::FilterCount total = filters.total();
+  if (total.calls == 0) return {};
+  std::vector<std::vector<std::string>> rows{{"  interval filter", "calls", "undecided", "share"}};
+  const auto add = [&](std::string_view predicate, const reference::FilterCount& count) {
+    if (count.calls == 0) return;
+    const double share = static_cast<double>(count.undecided) / static_cast<double>(count.calls);
+    rows.push_back({"  " + std::string(predicate), std::to_string(count.calls), std::to_string(count.undecided), number(share, 2)});
+  };
+  for (std::size_t k = 0; k < reference::filtered_predicates; ++k) add(name(static_cast<reference::Filtered>(k)), filters.of[k]);
+  add("all", total);
+  return "\nexact predicates, and how many of them intervals left to exact numbers\n" + table(rows, 1);
+}
+
 }  // namespace
 
 ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation) {
@@ -168,6 +193,7 @@ Json to_json(const ContactReport& report) {
             {"d_min_edge", report.edge_edge.d_min_edge},
             {"d_min_triangle", report.vertex_facet.d_min_triangle},
             {"bound", report.bound}};
+  if (report.filters.total().calls > 0) json["filters"] = to_json(report.filters);
   if (!report.vertex_kind.empty()) json["vertex_kind"] = report.vertex_kind;
   for (std::size_t i = 0; i < report.vertex_facet.contacts.size(); ++i) {
     const compare::VertexFacetContact& contact = report.vertex_facet.contacts[i];
@@ -181,6 +207,16 @@ Json to_json(const ContactReport& report) {
                                  {"first_edge", contact.first_edge}, {"second_edge", contact.second_edge}, {"distance", report.edge_edge_distance[i]}});
   }
   return json;
+}
+
+Json exact_squares(const ContactReport& report, const compare::Mesh& mesh, float bound_relaxation) {
+  const std::vector<Vec3f> positions = compare::to_single(mesh.positions);
+  const compare::DetectIn in{&report.topology, {}, positions, report.contact_radius, report.query_radius};
+  reference::ExactSquares squares = reference::exact_squares(in, bound_relaxation);
+  return {{"d_min_vertex_squared", std::move(squares.vertex)},
+          {"d_min_edge_squared", std::move(squares.edge)},
+          {"d_min_triangle_squared", std::move(squares.triangle)},
+          {"bound_squared", std::move(squares.bound)}};
 }
 
 std::string describe(const ContactReport& report) {
@@ -198,7 +234,7 @@ std::string describe(const ContactReport& report) {
   });
   text += "\nsmallest distance of a vertex to a triangle without it\n" + distribution(report.vertex_facet.d_min_vertex, report.query_radius);
   text += "smallest distance of an edge to an edge without its ends\n" + distribution(report.edge_edge.d_min_edge, report.query_radius);
-  return text + "\nbounds from " + number(least, 6) + " m to " + number(most, 6) + " m\n";
+  return text + "\nbounds from " + number(least, 6) + " m to " + number(most, 6) + " m\n" + describe(report.filters);
 }
 
 }  // namespace ogc::experiments

@@ -8,6 +8,7 @@
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
 #include "experiments/output.hpp"
+#include "reference/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -22,6 +23,7 @@ struct ContactReport {
   std::vector<float> bound;                                       ///< b_v, Eq. 21 [m]
   std::vector<double> vertex_facet_margin;  ///< one each contact: the smallest distance to a boundary of the face's block [m]; empty unless exact
   std::vector<const char*> vertex_kind;     ///< "convex", "mixed", "saddle" (Fig. 5) by vertex; empty unless exact
+  reference::FilterCounts filters;          ///< predicates asked for all of this; all zero unless exact
 };
 
 /// Throws compare::ResourceError where the engine is not available. The mesh must be valid.
@@ -31,6 +33,9 @@ ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float cont
 double mean_edge_length(const compare::Mesh& mesh);
 
 Json to_json(const ContactReport& report);
+
+/// d_min² and b_v² of Eq. 21–26 as fractions [m²] (reference::ExactSquares), by primitive, for the mesh that the report is about.
+Json exact_squares(const ContactReport& report, const compare::Mesh& mesh, float bound_relaxation);
 std::string describe(const ContactReport& report);
 
 }  // namespace ogc::experiments

@@ -3,8 +3,10 @@
 
 #include "compare/problem/contestant.hpp"
 #include "reference/geometry/block_margins.hpp"
+#include "reference/geometry/filter_counts.hpp"
 #include "reference/geometry/gauss_map.hpp"
 #include "reference/geometry/illustrations.hpp"
+#include "reference/geometry/nearest.hpp"
 
 namespace ogc::reference {
 

@@ -7,6 +7,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 #include "experiments/scenes/cloth_on_sphere.hpp"
+#include "experiments/scenes/fifty_layers.hpp"
 #include "experiments/scenes/twist.hpp"
 
 namespace ogc::experiments {
@@ -21,6 +22,36 @@ compare::Scene cloth_on_sphere_at(Scale scale) {
   return cloth_on_sphere();
 }
 
+/// The paper's, with fewer layers of `vertices_a_side` vertices and a coarser cylinder; radius and shift follow the spacing.
+compare::Scene fewer_layers(FiftyLayersSizes sizes, compare::Index layers, compare::Index vertices_a_side, CylinderCells cylinder, std::int64_t steps) {
+  const double coarser = static_cast<double>(sizes.vertices_a_side - 1) / (vertices_a_side - 1);
+  sizes.layers = layers;
+  sizes.vertices_a_side = vertices_a_side;
+  sizes.contact_radius *= coarser;
+  sizes.shift *= coarser;
+  sizes.cylinder = cylinder;
+  sizes.steps = steps;
+  return fifty_layers(sizes);
+}
+
+compare::Scene fifty_layers_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return fewer_layers({}, 3, 10, {16, 6, 2}, 110);
+    case Scale::small: return fewer_layers({}, 10, 28, {24, 9, 3}, 1200);
+    case Scale::paper: break;
+  }
+  return fifty_layers();
+}
+
+compare::Scene fifty_layers_1m_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return fewer_layers(fifty_layers_1m_sizes(), 3, 11, {16, 6, 2}, 100);
+    case Scale::small: return fewer_layers(fifty_layers_1m_sizes(), 12, 36, {32, 11, 4}, 1200);
+    case Scale::paper: break;
+  }
+  return fifty_layers(fifty_layers_1m_sizes());
+}
+
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 150});
@@ -30,8 +61,10 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 2> table{{
+constexpr std::array<SceneInfo, 4> table{{
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
+    {"fifty_layers", "Fig. 10, 1", "fifty square cloths fall off-centre onto a fixed cylinder", fifty_layers_at},
+    {"fifty_layers_1m", "Table 1", "the same with a million vertices", fifty_layers_1m_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
 }};
 

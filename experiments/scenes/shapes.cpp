@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace ogc::experiments {
 namespace {
@@ -52,6 +53,41 @@ Mesh split_in_four(const Mesh& coarse) {
   return fine;
 }
 
+/// `count` vertices of a circle about (centre.x, centre.y, z), against the clock as seen from +z. Sines are multiples of 2⁻⁴⁰, so that sin π is 0.
+void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double z) {
+  const auto tidy = [](double sine) { return std::round(sine * 0x1p40) * 0x1p-40; };
+  for (Index i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    mesh.positions.push_back({centre.x + radius * tidy(std::cos(angle)), centre.y + radius * tidy(std::sin(angle)), z});
+  }
+}
+
+/// Two triangles a cell between rings of `count` vertices that begin at `from` and `to`; outward where the second ring lies towards +z, or inside.
+void join_rings(Mesh& mesh, Index count, Index from, Index to) {
+  for (Index i = 0; i < count; ++i) {
+    const Index next = (i + 1) % count;
+    mesh.triangles.push_back({from + i, from + next, to + next});
+    mesh.triangles.push_back({from + i, to + next, to + i});
+  }
+}
+
+/// From the ring that begins at `rim` to the centre of its disc; `up`: the disc looks towards +z.
+void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
+  Index outer = rim;
+  for (Index k = 1; k <= cells.cap; ++k) {
+    const auto inner = static_cast<Index>(mesh.positions.size());
+    add_ring(mesh, cells.around, radius * (cells.cap + 1 - k) / (cells.cap + 1), centre, z);
+    up ? join_rings(mesh, cells.around, outer, inner) : join_rings(mesh, cells.around, inner, outer);
+    outer = inner;
+  }
+  const auto middle = static_cast<Index>(mesh.positions.size());
+  mesh.positions.push_back({centre.x, centre.y, z});
+  for (Index i = 0; i < cells.around; ++i) {
+    const Index a = outer + i, b = outer + (i + 1) % cells.around;
+    mesh.triangles.push_back(up ? Triangle{a, b, middle} : Triangle{b, a, middle});
+  }
+}
+
 }  // namespace
 
 Mesh grid(Index count, double side, double height) {
@@ -75,6 +111,16 @@ Mesh icosphere(int subdivisions, double radius, const Vec3& centre) {
   Mesh mesh = icosahedron();
   for (int i = 0; i < subdivisions; ++i) mesh = split_in_four(mesh);
   for (Vec3& v : mesh.positions) v = {centre.x + radius * v.x, centre.y + radius * v.y, centre.z + radius * v.z};
+  return mesh;
+}
+
+Mesh cylinder(const CylinderCells& cells, double radius, double length, const Vec3& centre) {
+  Mesh mesh;
+  const auto height = [&](Index k) { return centre.z + length * k / (cells.along - 1) - length / 2; };
+  for (Index k = 0; k < cells.along; ++k) add_ring(mesh, cells.around, radius, centre, height(k));
+  for (Index k = 0; k + 1 < cells.along; ++k) join_rings(mesh, cells.around, k * cells.around, (k + 1) * cells.around);
+  add_cap(mesh, cells, radius, centre, height(0), 0, false);
+  add_cap(mesh, cells, radius, centre, height(cells.along - 1), (cells.along - 1) * cells.around, true);
   return mesh;
 }
 

@@ -13,4 +13,13 @@ compare::Mesh grid(compare::Index count, double side, double height);
 /// Icosahedron whose triangles are split in four `subdivisions` times, with every vertex on the sphere; outward normals; 10 · 4ⁿ + 2 vertices.
 compare::Mesh icosphere(int subdivisions, double radius, const compare::Vec3& centre);
 
+/// How finely a closed cylinder is cut: `around` vertices a ring, `along` rings from end to end, `cap` rings inside each end besides its centre.
+struct CylinderCells {
+  compare::Index around = 47, along = 16, cap = 5;  ///< around (along + 2 cap) + 2 vertices: 1,224
+};
+
+/// Closed cylinder about an axis through `centre` along z: rings from −`length`/2 to `length`/2 [m], ends as discs; outward normals. A polygon of
+/// `around` ≥ 3 corners on the circle, so that the surface never leaves the round cylinder; `along` ≥ 2, `cap` ≥ 0.
+compare::Mesh cylinder(const CylinderCells& cells, double radius, double length, const compare::Vec3& centre);
+
 }  // namespace ogc::experiments

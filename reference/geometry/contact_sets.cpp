@@ -1,11 +1,15 @@
 // Nothing here is shared with the detections but the predicates that Algorithms 1 and 2 name themselves; the definitions share not even those.
 #include "reference/geometry/contact_sets.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <set>
 
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/defined_blocks_exact.hpp"
+#include "reference/geometry/sphere_tree.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -51,6 +55,22 @@ Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float radius) 
   return with_radius(feature_gap(corners, closest_feature(corners, x), x), radius);
 }
 
+/// Alg. 1 lines 7–20 for one vertex and one triangle.
+void enter(const compare::DetectIn& in, const Complex& mesh, Index v, Index t, std::set<VertexFacetContact>& entered) {
+  if (!is_candidate(in, v, t) || sign(triangle_gap(mesh, t, mesh.at(v), in.contact_radius)) >= 0) return;
+  const auto feature = static_cast<std::size_t>(closest_feature(corners_of(mesh, t), mesh.at(v)));
+  const Face a = faces_of(mesh, t)[feature];
+  if (a.kind == FaceKind::triangle || in_planes(mesh, a, mesh.at(v))) entered.insert({v, a, owner_of(mesh, a)});
+}
+
+std::vector<Box> triangle_boxes(const Complex& mesh) {
+  std::vector<Box> boxes(mesh.topology.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const Index v : mesh.topology.triangles[t]) include(boxes[t], mesh.at(v));
+  }
+  return boxes;
+}
+
 /// Squared distance as an exact quotient.
 Quotient<Exact> exact_squared_distance(const Complex& mesh, Index t, const Vec3f& x) {
   Quotient<Exact> smallest{Exact(-1), Exact(1)};
@@ -85,13 +105,22 @@ std::vector<VertexFacetContact> vertex_facet_over_all_pairs(const compare::Detec
   const Complex mesh{*in.topology, in.positions};
   std::set<VertexFacetContact> entered;
   for (Index v = 0; v < in.topology->vertex_count; ++v) {
-    for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
-      if (!is_candidate(in, v, t) || sign(triangle_gap(mesh, t, mesh.at(v), in.contact_radius)) >= 0) continue;
-      const auto feature = static_cast<std::size_t>(closest_feature(corners_of(mesh, t), mesh.at(v)));
-      const Face a = faces_of(mesh, t)[feature];
-      if (a.kind == FaceKind::triangle || in_planes(mesh, a, mesh.at(v))) entered.insert({v, a, owner_of(mesh, a)});
-    }
+    for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) enter(in, mesh, v, t, entered);
   }
+  return {entered.begin(), entered.end()};
+}
+
+std::vector<VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in) {
+  const Complex mesh{*in.topology, in.positions};
+  const SphereTree tree(triangle_boxes(mesh));
+  const double r_q = in.query_radius;  // its square needs 48 bits: no rounding
+  tbb::enumerable_thread_specific<std::set<VertexFacetContact>> shares;
+  tbb::parallel_for(Index{0}, in.topology->vertex_count, [&](Index v) {
+    const Vec3f& x = mesh.at(v);
+    for (const Index t : tree.within({x.x, x.y, x.z}, r_q * r_q)) enter(in, mesh, v, t, shares.local());
+  });
+  std::set<VertexFacetContact> entered;
+  for (auto& share : shares) entered.merge(share);
   return {entered.begin(), entered.end()};
 }
 

@@ -1,4 +1,5 @@
-// The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every function looks at all pairs.
+// The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every function looks at all pairs, but the
+// two with a tree.
 #pragma once
 
 #include <span>
@@ -16,11 +17,17 @@ std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compar
 /// F_OGC by Algorithm 1 over all pairs, line by line, with the constructive equations.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
+/// F_OGC by Algorithm 1 with its sphere query (line 3) of CGAL's tree, line by line, threaded.
+std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
+
 /// E_OGC by Eq. 17 (corrected: method.md §1): exact closest points as quotients, by comparing the distances of all pairs of features, then DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
 /// E_OGC by Algorithm 2 (corrected likewise) over all pairs, with the constructive equations.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
+
+/// E_OGC by Algorithm 2 (corrected likewise) with its sphere query (line 3) of CGAL's tree, threaded.
+std::vector<compare::EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in);
 
 /// V_OGC(t): by triangle, the vertices that are in contact with a face that the triangle owns, ascending, one entry for each contact.
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology, std::span<const compare::VertexFacetContact> contacts);

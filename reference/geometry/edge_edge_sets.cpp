@@ -1,10 +1,15 @@
-// E_OGC twice: as a definition over quotients, and as Algorithm 2 over all pairs.
+// E_OGC three times: as a definition over quotients, and as Algorithm 2 over all pairs and with a tree.
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "reference/geometry/closest_points.hpp"
 #include "reference/geometry/contact_sets.hpp"
 #include "reference/geometry/defined_blocks_exact.hpp"
+#include "reference/geometry/sphere_tree.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -12,8 +17,13 @@ namespace {
 using compare::EdgeEdgeContact;
 using EdgeNumbers = std::array<Index, 2>;
 
-/// Pairs of faces with the lowest-numbered edges that generate them. Pairs of edges come in ascending order, so the first one stays.
+/// Pairs of faces with the lowest-numbered edges that generate them.
 using Entered = std::map<FacePair, EdgeNumbers>;
+
+void enter(Entered& entered, const FacePair& faces, const EdgeNumbers& edges) {
+  const auto [entry, is_new] = entered.try_emplace(faces, edges);
+  if (!is_new) entry->second = std::min(entry->second, edges);
+}
 
 bool is_candidate(const compare::DetectIn& in, Index e, Index f) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(f)];
@@ -138,6 +148,49 @@ bool by_rule_parallel(const Segment& e, const Segment& f) {
   return sign_of(high) > 0 && sign_of(ee - low) > 0 && sign_of(high - low) > 0;
 }
 
+std::array<Vec3f, 2> ends_of(const Complex& mesh, Index e) { return {mesh.at(mesh.edge(e)[0]), mesh.at(mesh.edge(e)[1])}; }
+
+/// Alg. 2 lines 6–10 (corrected) for the candidate of edges e < f.
+void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, Index f, Entered& entered) {
+  const EdgePair pair{ends_of(mesh, e), ends_of(mesh, f)};
+  const EdgeFeatures closest = closest_features(pair);
+  if (sign(with_radius(feature_gap(pair, closest), in.contact_radius)) >= 0) return;
+  const bool parallel = nearly_parallel(pair);
+  const FacePair faces = parallel ? ordered(edge_face(e), edge_face(f)) : ordered(face_of(mesh, e, closest.first), face_of(mesh, f, closest.second));
+  bool inside = true;
+  if (!parallel) visit_pair(mesh, faces, [&](const PairBoundary& boundary) { return inside = holds(boundary.condition); });
+  if (inside) enter(entered, faces, {e, f});
+}
+
+/// Alg. 2 line 3: a ball about the middle of the edge with radius r_q + l/2.
+struct Ball {
+  std::array<double, 3> centre;
+  double squared_radius;
+};
+
+/// The middle may be rounded, for the radius reaches from it to the farther end. The radius takes eight roundings of 2⁻⁵³ at most; the factor is more.
+Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
+  const std::array<double, 3> a{ends[0].x, ends[0].y, ends[0].z}, b{ends[1].x, ends[1].y, ends[1].z};
+  Ball ball{};
+  double to_a = 0, to_b = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ball.centre[k] = (a[k] + b[k]) / 2;
+    to_a += (a[k] - ball.centre[k]) * (a[k] - ball.centre[k]);
+    to_b += (b[k] - ball.centre[k]) * (b[k] - ball.centre[k]);
+  }
+  const double radius = (std::sqrt(std::max(to_a, to_b)) + query_radius) * (1 + 0x1p-48);
+  ball.squared_radius = radius * radius;
+  return ball;
+}
+
+std::vector<Box> edge_boxes(const Complex& mesh) {
+  std::vector<Box> boxes(mesh.topology.edges.size());
+  for (std::size_t e = 0; e < boxes.size(); ++e) {
+    for (const Index v : mesh.topology.edges[e]) include(boxes[e], mesh.at(v));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 std::vector<EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in) {
@@ -150,31 +203,38 @@ std::vector<EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in
     const Closest closest = closest_of(first, second);
     if (!smaller(closest.squared, {r * r, Exact(1)})) return;
     if (by_rule_parallel(first, second)) {
-      entered.try_emplace(ordered(edge_face(e), edge_face(f)), EdgeNumbers{e, f});
+      enter(entered, ordered(edge_face(e), edge_face(f)), {e, f});
       return;
     }
     const Face p = face_of(mesh, e, closest.features.first), q = face_of(mesh, f, closest.features.second);
     const bool in_both = blocks.cones().contains_edge_only(p, closest.points.second, in.contact_radius) &&
                          blocks.cones().contains_edge_only(q, closest.points.first, in.contact_radius);
-    if (in_both) entered.try_emplace(ordered(p, q), EdgeNumbers{e, f});
+    if (in_both) enter(entered, ordered(p, q), {e, f});
   });
   return canonical(mesh, entered);
 }
 
 std::vector<EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in) {
   const Complex mesh{*in.topology, in.positions};
-  const auto ends = [&](Index e) { return std::array<Vec3f, 2>{mesh.at(mesh.edge(e)[0]), mesh.at(mesh.edge(e)[1])}; };
   Entered entered;
-  for_each_pair(in, [&](Index e, Index f) {
-    const EdgePair pair{ends(e), ends(f)};
-    const EdgeFeatures closest = closest_features(pair);
-    if (sign(with_radius(feature_gap(pair, closest), in.contact_radius)) >= 0) return;
-    const bool parallel = nearly_parallel(pair);
-    const FacePair faces = parallel ? ordered(edge_face(e), edge_face(f)) : ordered(face_of(mesh, e, closest.first), face_of(mesh, f, closest.second));
-    bool inside = true;
-    if (!parallel) visit_pair(mesh, faces, [&](const PairBoundary& boundary) { return inside = holds(boundary.condition); });
-    if (inside) entered.try_emplace(faces, EdgeNumbers{e, f});
+  for_each_pair(in, [&](Index e, Index f) { enter_if_active(in, mesh, e, f, entered); });
+  return canonical(mesh, entered);
+}
+
+std::vector<EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in) {
+  const Complex mesh{*in.topology, in.positions};
+  const SphereTree tree(edge_boxes(mesh));
+  tbb::enumerable_thread_specific<Entered> shares;
+  tbb::parallel_for(Index{0}, static_cast<Index>(in.topology->edges.size()), [&](Index e) {
+    const Ball ball = ball_about(ends_of(mesh, e), in.query_radius);
+    for (const Index f : tree.within(ball.centre, ball.squared_radius)) {
+      if (f > e && is_candidate(in, e, f)) enter_if_active(in, mesh, e, f, shares.local());
+    }
   });
+  Entered entered;
+  for (const Entered& share : shares) {
+    for (const auto& [faces, edges] : share) enter(entered, faces, edges);
+  }
   return canonical(mesh, entered);
 }
 

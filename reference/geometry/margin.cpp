@@ -2,16 +2,20 @@
 // because an interval without rounding is a point.
 #include "reference/geometry/margin.hpp"
 
+#include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Mpzf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "compare/stages/numbers.hpp"
+#include "reference/geometry/filter_counts.hpp"
 #include "reference/geometry/formulas.hpp"
 #include "reference/geometry/sensitivity.hpp"
 
@@ -23,6 +27,10 @@ using Exact = CGAL::Mpzf;
 
 /// Sets the rounding that intervals need, for as long as it lives.
 using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
+
+// Filtered names the kinds of margins first, in their order.
+static_assert(static_cast<int>(Filtered::along) == static_cast<int>(MarginKind::along) &&
+              static_cast<int>(Filtered::gap_lines) == static_cast<int>(MarginKind::gap_lines));
 
 template <class T>
 using Points = std::array<Point<T>, 4>;
@@ -77,6 +85,31 @@ T evaluate(MarginKind kind, const Points<T>& at, const T& radius) {
 template <class T>
 T evaluate(const Margin& margin) {
   return evaluate(margin.kind, widen<T>(margin), T(static_cast<double>(margin.radius)));
+}
+
+/// −1, 0 or 1 where the interval leaves one sign.
+std::optional<int> sign_of(const Interval& value) {
+  if (value.inf() > 0) return 1;
+  if (value.sup() < 0) return -1;
+  if (value.inf() == 0 && value.sup() == 0) return 0;
+  return std::nullopt;
+}
+
+std::optional<int> interval_sign(const Margin& margin) {
+  const UpwardRounding rounding;
+  return sign_of(evaluate<Interval>(margin));
+}
+
+/// The difference of two squared distances, times positive numbers.
+template <class T>
+T difference(const Margin& a, const Margin& b) {
+  const Quotient<T> p = squared_distance(a.kind, widen<T>(a)), q = squared_distance(b.kind, widen<T>(b));
+  return p.numerator * q.denominator - q.numerator * p.denominator;
+}
+
+std::optional<int> interval_order(const Margin& a, const Margin& b) {
+  const UpwardRounding rounding;
+  return sign_of(difference<Interval>(a, b));
 }
 
 int exact_sign(const Margin& margin) { return static_cast<int>(evaluate<Exact>(margin).sign()); }
@@ -156,14 +189,23 @@ float settle_below(const Margin& gap, float f) {
 }  // namespace
 
 int sign(const Margin& margin) {
-  {
-    const UpwardRounding rounding;
-    const Interval value = evaluate<Interval>(margin);
-    if (value.inf() > 0) return 1;
-    if (value.sup() < 0) return -1;
-    if (value.inf() == 0 && value.sup() == 0) return 0;
-  }
-  return exact_sign(margin);
+  const std::optional<int> decided = interval_sign(margin);
+  count_filter(static_cast<Filtered>(margin.kind), !decided);
+  return decided ? *decided : exact_sign(margin);
+}
+
+int compare_distances(const Margin& a, const Margin& b) {
+  const std::optional<int> decided = interval_order(a, b);
+  count_filter(Filtered::nearer, !decided);
+  return decided ? *decided : static_cast<int>(difference<Exact>(a, b).sign());
+}
+
+std::string squared_distance(const Margin& gap, float scale) {
+  const Quotient<Exact> d = squared_distance(gap.kind, widen<Exact>(gap));
+  const Exact s(static_cast<double>(scale));
+  std::ostringstream text;
+  text << CGAL::Gmpq(s * s * d.numerator) / CGAL::Gmpq(d.denominator);
+  return text.str();
 }
 
 bool grey(const Margin& margin) {
@@ -185,7 +227,9 @@ double distance(const Margin& gap) {
 float distance_below(const Margin& gap) {
   const auto [low, high] = distance_interval(gap);
   const float f = round_down(low);
-  if (f == round_down(high)) return f;
+  const bool decided = f == round_down(high);
+  count_filter(Filtered::distance_below, !decided);
+  if (decided) return f;
   return settle_below(gap, round_down(distance(gap)));
 }
 

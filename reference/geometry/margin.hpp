@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "compare/problem/vector.hpp"
@@ -57,6 +58,12 @@ float distance_below(const Margin& gap);
 
 /// scale · d < b for the distance d of the gap, exactly; scale, b ≥ 0. Denominator as above.
 bool scaled_distance_less(const Margin& gap, float scale, float b);
+
+/// −1, 0 or 1: the distance of `a` is smaller than, as large as, larger than that of `b`, exactly. Denominators as above.
+int compare_distances(const Margin& a, const Margin& b);
+
+/// (scale · d)² [m²] for the distance d of the gap, as a fraction in lowest terms: "num/den". Denominator as above.
+std::string squared_distance(const Margin& gap, float scale = 1);
 
 /// The margin as a length [m] with its sign, within 1 ulp of double: of `along` and `side` the distance of the last point from the plane, of a gap d − r
 /// (without cancellation). 0 where the line or plane is not defined. Not for `turn` and `parallel`, which are no lengths: std::logic_error.

@@ -46,6 +46,32 @@ TEST_CASE("ogc contacts gives the same sets by the exact and the fast engine, an
   for (std::size_t v = 0; v < 6; ++v) CHECK(fast.at("bound").at(v).get<double>() <= exact.at("bound").at(v).get<double>());
 }
 
+TEST_CASE("ogc contacts --squares prints smallest distances and bounds as exact fractions, and refuses where there are none", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("steps.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.75\nv 1 0 0.75\nv 0 1 0.75\nf 1 2 3\nf 4 5 6\n").string();
+  const ProgramResult result = run_ogc("contacts " + mesh + " --radius 1 --json --squares");
+  REQUIRE(result.status == 0);
+  const nlohmann::json json = nlohmann::json::parse(result.out);
+  for (const char* name : {"d_min_vertex_squared", "d_min_edge_squared", "d_min_triangle_squared"}) {
+    for (const auto& square : json.at(name)) CHECK(square == "9/16");
+  }
+  // γ_p is 0.45 in single precision: 7549747/2²⁴, and 9 · 7549747² has no factor 2.
+  for (const auto& square : json.at("bound_squared")) CHECK(square == "512988117876081/4503599627370496");
+  CHECK(run_ogc("contacts " + mesh + " --squares").status == 2);
+  CHECK(run_ogc("contacts " + mesh + " --json --squares --engine cpu").status == 2);
+}
+
+TEST_CASE("ogc contacts says how many predicates intervals decided", "[unit]") {
+  const TemporaryFolder folder;
+  const nlohmann::json json = contacts(folder, "exact");
+  const auto& filters = json.at("filters");
+  // Each corner asks about the other triangle, each edge about three others.
+  CHECK(filters.at("distance_below").at("calls") >= 6);
+  for (const auto& [predicate, count] : filters.items()) CHECK(count.at("undecided").get<int>() <= count.at("calls").get<int>());
+  CHECK_FALSE(contacts(folder, "cpu").contains("filters"));
+  CHECK(contains(run_ogc("contacts " + folder.write("parallel.obj", parallel_triangles_obj).string()).out, {"undecided", "distance_below", "share"}));
+}
+
 TEST_CASE("ogc contacts says in words what is close", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc("contacts " + folder.write("parallel.obj", parallel_triangles_obj).string());

@@ -52,11 +52,14 @@ TEST_CASE("every scene is valid at every scale, named as registered, and already
   }
 }
 
+// The largest ones, seconds each, are audited by `ogc run` itself at its start.
 TEST_CASE("no scene starts with an intersection", "[unit]") {
+  constexpr std::size_t largest = 100'000;
   for (const SceneInfo& info : scenes()) {
     for (const Scale scale : {Scale::smoke, Scale::small, Scale::paper}) {
       INFO(info.name << " at scale " << static_cast<int>(scale));
       const Scene scene = make_scene(info.name, scale);
+      if (scale == Scale::paper && scene.mesh.positions.size() > largest) continue;
       CHECK(audit(build_topology(scene), scene.mesh.positions, rigid_groups(scene)).count == 0);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "compare/problem/validate.hpp"
 #include "tests/catch.hpp"
@@ -81,4 +82,32 @@ TEST_CASE("all vertices of an icosphere lie on the sphere up to rounding", "[uni
   for (const Vec3& v : icosphere(3, radius, centre).positions) {
     CHECK(std::abs(std::sqrt(dot(difference(v, centre), difference(v, centre))) - radius) <= rounding);
   }
+}
+
+TEST_CASE("a cylinder is a closed surface of its volume that looks outwards, and never leaves the round one", "[unit]") {
+  const CylinderCells cells = GENERATE(CylinderCells{}, CylinderCells{3, 2, 0}, CylinderCells{24, 9, 3});
+  const Vec3 centre{-0.25, 0.5, 1};
+  const Mesh mesh = cylinder(cells, 0.25, 0.5, centre);
+  CHECK(mesh.positions.size() == at(cells.around * (cells.along + 2 * cells.cap) + 2));
+  CHECK(validate(mesh).empty());
+  const Topology topology = topology_of(mesh);
+  CHECK(topology.boundary_edges.empty());
+  CHECK(topology.non_manifold_edges.empty());
+  CHECK(mesh.positions.size() + mesh.triangles.size() == topology.edges.size() + 2);
+  double volume = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = difference(mesh.positions[at(t[0])], centre);
+    volume += dot(a, cross(difference(mesh.positions[at(t[1])], centre), difference(mesh.positions[at(t[2])], centre))) / 6;
+  }
+  const double corner = 2 * std::numbers::pi / cells.around;
+  CHECK(volume == Approx(0.5 * cells.around * 0.25 * 0.25 * std::sin(corner) / 2));
+  for (const Vec3& v : mesh.positions) {
+    CHECK(std::hypot(v.x - centre.x, v.y - centre.y) <= 0.25 * (1 + 0x1p-39));
+    CHECK(std::abs(v.z - centre.z) <= 0.25);
+  }
+}
+
+TEST_CASE("the paper's cylinder has 1,224 vertices, none of them a hair's breadth off an axis", "[unit]") {
+  CHECK(cylinder({}, 0.25, 0.5, {}).positions.size() == 1224);
+  CHECK(validate(cylinder({24, 2, 0}, 0.25, 0.5, {})).empty());
 }

@@ -1,0 +1,68 @@
+// Numbers: the paper's Table 1 and the authors' published parameters. The ground is a mesh, so that contact, bounds and audit need no special code.
+#include "experiments/scenes/fifty_layers.hpp"
+
+#include <cmath>
+
+#include "compare/judge/random.hpp"
+
+namespace ogc::experiments {
+namespace {
+
+compare::Material cloth() {
+  compare::Material material;
+  material.density = 0.2;
+  material.lame_mu = material.lame_lambda = 10;
+  material.bending_stiffness = 5e-7;
+  material.membrane_damping = material.bending_damping = 2e-6;
+  material.contact_stiffness = 100;
+  material.friction = 0.2;
+  return material;
+}
+
+compare::Material ground() {
+  compare::Material material = cloth();
+  material.friction = 0.3;
+  return material;
+}
+
+/// A sum of 12 uniforms − 6: mean 0, standard deviation 1, never beyond 6.
+double normal_deviate(compare::Random& random) {
+  double sum = -6;
+  for (int k = 0; k < 12; ++k) sum += random.unit();
+  return sum;
+}
+
+compare::Mesh layer(const FiftyLayersSizes& sizes, compare::Index number) {
+  compare::Mesh mesh = grid(sizes.vertices_a_side, 1, 0.30 + 1.05 * sizes.contact_radius * number);
+  compare::Random random("fifty_layers", "shift", sizes.seed, static_cast<std::uint64_t>(number));
+  const double x = sizes.shift * normal_deviate(random), z = sizes.shift * normal_deviate(random);
+  for (compare::Vec3& v : mesh.positions) v = {v.x + x, v.y, v.z + z};
+  return mesh;
+}
+
+/// 4 m × 4 m at y = −0.60 m: its cells have ten times the cloth's side at most, so its triangles a hundred times the area.
+compare::Mesh ground_mesh(compare::Index vertices_a_side) {
+  constexpr double side = 4, ratio = 10;
+  const double cells = side * (vertices_a_side - 1) / ratio;
+  return grid(static_cast<compare::Index>(std::ceil(cells)) + 1, side, -0.60);
+}
+
+}  // namespace
+
+compare::Scene fifty_layers(const FiftyLayersSizes& sizes) {
+  compare::Scene scene;
+  scene.name = sizes.name;
+  for (compare::Index k = 0; k < sizes.layers; ++k) append_body(scene, {.name = "layer_" + std::to_string(k + 1), .material = cloth()}, layer(sizes, k));
+  append_body(scene, {.name = "cylinder", .fixed = true, .material = cloth()}, cylinder(sizes.cylinder, 0.25, 0.5, {-0.18, 0, 0}));
+  append_body(scene, {.name = "ground", .fixed = true, .material = ground()}, ground_mesh(sizes.vertices_a_side));
+  scene.settings.time_step = 1.0 / 1200;
+  scene.settings.steps = sizes.steps;
+  scene.settings.iterations = 40;
+  scene.settings.contact_radius = sizes.contact_radius;
+  scene.settings.seed = static_cast<std::int64_t>(sizes.seed);
+  return scene;
+}
+
+FiftyLayersSizes fifty_layers_1m_sizes() { return {.name = "fifty_layers_1m", .vertices_a_side = 141, .contact_radius = 2e-3}; }
+
+}  // namespace ogc::experiments
