@@ -37,6 +37,10 @@ compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positi
   return compare::audit(topology_, compare::to_double(positions), groups_);
 }
 
+compare::SmallestDistances StateJudge::smallest_distances(const std::vector<compare::Vec3f>& positions) const {
+  return compare::smallest_distances(topology_, compare::to_double(positions), groups_);
+}
+
 std::vector<float> StateJudge::exact_bounds(const compare::Snapshot& snapshot) const {
   const compare::DetectIn in{&topology_, groups_, snapshot.previous, contact_radius_, snapshot.query_radius};
   const compare::DetectVertexFacetOut facets = authority_.detect_vertex_facet(in).exact;

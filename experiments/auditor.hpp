@@ -14,6 +14,7 @@
 
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/certificate.hpp"
+#include "compare/oracle/smallest_distances.hpp"
 #include "compare/problem/contestant.hpp"
 
 namespace ogc::experiments {
@@ -41,6 +42,8 @@ class StateJudge {
   explicit StateJudge(const compare::Scene& scene);
   /// A state without the certificate: a start, a frame of a file.
   compare::AuditResult audit(const std::vector<compare::Vec3f>& positions) const;
+  /// How near it is to touching, without the pairs that the audit leaves out.
+  compare::SmallestDistances smallest_distances(const std::vector<compare::Vec3f>& positions) const;
   /// A state with the certificate of the last detection before it.
   Verdict judge(const compare::Snapshot& snapshot) const;
   /// Names what is wrong, one line a primitive; empty where nothing is.

@@ -1,47 +1,34 @@
-// A pair is first measured in interval arithmetic, which says for nearly all of them that they are further apart than the nearest so far; what is left
-// is measured in rational numbers. The search box of each primitive is its own box, grown by the nearest distance so far.
+// Culling by boxes of the distance found so far, intervals next, and exact numbers for what may be nearer or as near: of the pairs of a regular stack, that is
+// most. Threads share the distance, and nothing but the order in which pairs are left out depends on them: the nearest pair and its name do not.
 #include "compare/oracle/smallest_distances.hpp"
 
-#include <CGAL/Exact_rational.h>
-#include <CGAL/Interval_nt.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/squared_distance_3.h>
+#include <CGAL/Gmpq.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <cmath>
-#include <optional>
 
 #include "compare/oracle/box_tree.hpp"
 #include "compare/oracle/pairs.hpp"
+#include "compare/oracle/squared_distance.hpp"
 
 namespace ogc::compare {
 namespace {
 
-using Rational = CGAL::Exact_rational;
-using Interval = CGAL::Interval_nt<true>;
+using Rational = CGAL::Gmpq;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Squared distance of a vertex and a triangle (one and three corners) or of two edges (two and two), in the number type N.
-template <class N, std::size_t A, std::size_t B>
-N squared_distance(const std::array<Vec3, A>& first, const std::array<Vec3, B>& second) {
-  using Kernel = CGAL::Simple_cartesian<N>;
-  const auto point = [](const Vec3& v) { return typename Kernel::Point_3(N(v.x), N(v.y), N(v.z)); };
-  if constexpr (A == 1)
-    return CGAL::squared_distance(point(first[0]), typename Kernel::Triangle_3(point(second[0]), point(second[1]), point(second[2])));
-  else
-    return CGAL::squared_distance(typename Kernel::Segment_3(point(first[0]), point(first[1])),
-                                  typename Kernel::Segment_3(point(second[0]), point(second[1])));
-}
-
-/// Certainly further apart than `limit`; false where interval arithmetic can't tell.
+/// Certainly further apart than the root of `limit`.
 template <std::size_t A, std::size_t B>
 bool certainly_beyond(const std::array<Vec3, A>& first, const std::array<Vec3, B>& second, double limit) {
-  try {
-    return squared_distance<Interval>(first, second).inf() > limit;
-  } catch (const CGAL::Uncertain_conversion_exception&) {
-    return false;
-  }
+  const CGAL::Protect_FPU_rounding<true> upward;
+  SquareBelow below;
+  offer_distance(widen<Interval>(first), widen<Interval>(second), below);
+  return below.value > limit;
 }
 
 /// The largest double whose square is not above `square`.
@@ -52,37 +39,63 @@ double root_rounded_down(const Rational& square) {
   return root;
 }
 
-/// The nearest pair so far.
-class Nearest {
+/// A double that is not below the square.
+double square_above(const LeastSquare& square) { return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second; }
+
+/// The nearest of the pairs that one thread saw.
+struct Nearest {
+  LeastSquare square;
+  Index first = -1, second = -1;
+
+  /// Nearer than the pair (i, j) with that square, or as near with smaller numbers.
+  bool keeps(const LeastSquare& other, Index i, Index j) const {
+    if (first < 0) return false;
+    const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
+    return may_be_positive(difference) || (!may_be_negative(difference) && std::pair(first, second) < std::pair(i, j));
+  }
+  double distance() const { return first < 0 ? infinity : root_rounded_down(Rational(square.numerator) / Rational(square.denominator)); }
+};
+
+/// What all threads know: no pair beyond the root of `limit` is the nearest.
+class Search {
  public:
   template <std::size_t A, std::size_t B>
   void offer(Index first, Index second, const std::array<Vec3, A>& a, const std::array<Vec3, B>& b) {
-    if (certainly_beyond(a, b, square_limit_)) return;
-    const Rational square = squared_distance<Rational>(a, b);
-    if (square_ && (square > *square_ || (square == *square_ && std::pair(first, second) > std::pair(first_, second_)))) return;
-    square_ = square;
-    square_limit_ = CGAL::to_interval(square).second;
-    first_ = first;
-    second_ = second;
+    if (certainly_beyond(a, b, limit_.load(std::memory_order_relaxed))) return;
+    LeastSquare square;
+    offer_distance(widen<Exact>(a), widen<Exact>(b), square);
+    Nearest& nearest = shares_.local();
+    if (nearest.keeps(square, first, second)) return;
+    const bool nearer = nearest.first < 0 || square.numerator * nearest.square.denominator < nearest.square.numerator * square.denominator;
+    nearest = {square, first, second};
+    if (nearer) lower(square_above(square));
   }
+
   /// `box` grown by no less than the nearest distance: the root and the sums are each off by half a unit in the last place at most, two steps outwards
   /// are more than that.
   Box search_box(Box box) const {
-    const double reach = std::nextafter(std::sqrt(square_limit_), infinity);
+    const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {
       box.low[k] = std::nextafter(box.low[k] - reach, -infinity);
       box.high[k] = std::nextafter(box.high[k] + reach, infinity);
     }
     return box;
   }
-  double distance() const { return square_ ? root_rounded_down(*square_) : infinity; }
-  Index first() const { return first_; }
-  Index second() const { return second_; }
+
+  Nearest nearest() const {
+    Nearest all;
+    for (const Nearest& share : shares_)
+      if (share.first >= 0 && !all.keeps(share.square, share.first, share.second)) all = share;
+    return all;
+  }
 
  private:
-  std::optional<Rational> square_;
-  double square_limit_ = infinity;
-  Index first_ = -1, second_ = -1;
+  void lower(double limit) {
+    double known = limit_.load();
+    while (limit < known && !limit_.compare_exchange_weak(known, limit)) {}
+  }
+  std::atomic<double> limit_{infinity};
+  tbb::enumerable_thread_specific<Nearest> shares_;
 };
 
 template <std::size_t N>
@@ -106,31 +119,36 @@ BoxTree tree_over(std::span<const Vec3> positions, const std::vector<std::array<
   return BoxTree(boxes);
 }
 
+template <class Visit>
+Nearest nearest_of(std::size_t count, Visit visit) {
+  Search search;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) visit(search, static_cast<Index>(i));
+  });
+  return search.nearest();
+}
+
 Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups) {
   const BoxTree tree = tree_over(positions, topology.triangles);
-  Nearest nearest;
-  for (Index v = 0; v < topology.vertex_count; ++v) {
+  return nearest_of(at(topology.vertex_count), [&](Search& search, Index v) {
     const std::array<Index, 1> vertex{v};
-    tree.for_each_meeting(nearest.search_box(box_of_corners(positions, vertex)), [&](Index t) {
+    tree.for_each_meeting(search.search_box(box_of_corners(positions, vertex)), [&](Index t) {
       const Triangle& triangle = topology.triangles[at(t)];
-      if (!left_out(vertex, triangle, rigid_groups)) nearest.offer(v, t, corners(positions, vertex), corners(positions, triangle));
+      if (!left_out(vertex, triangle, rigid_groups)) search.offer(v, t, corners(positions, vertex), corners(positions, triangle));
     });
-  }
-  return nearest;
+  });
 }
 
 Nearest nearest_edge_edge(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups) {
   const BoxTree tree = tree_over(positions, topology.edges);
-  Nearest nearest;
-  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-    const Edge& edge = topology.edges[e];
-    tree.for_each_meeting(nearest.search_box(box_of_corners(positions, edge)), [&](Index other) {
-      if (at(other) <= e) return;
+  return nearest_of(topology.edges.size(), [&](Search& search, Index e) {
+    const Edge& edge = topology.edges[at(e)];
+    tree.for_each_meeting(search.search_box(box_of_corners(positions, edge)), [&](Index other) {
+      if (other <= e) return;
       const Edge& partner = topology.edges[at(other)];
-      if (!left_out(edge, partner, rigid_groups)) nearest.offer(static_cast<Index>(e), other, corners(positions, edge), corners(positions, partner));
+      if (!left_out(edge, partner, rigid_groups)) search.offer(e, other, corners(positions, edge), corners(positions, partner));
     });
-  }
-  return nearest;
+  });
 }
 
 }  // namespace
@@ -138,7 +156,7 @@ Nearest nearest_edge_edge(const Topology& topology, std::span<const Vec3> positi
 SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups) {
   check_state("smallest distances", topology, positions, rigid_groups);
   const Nearest facet = nearest_vertex_triangle(topology, positions, rigid_groups), edges = nearest_edge_edge(topology, positions, rigid_groups);
-  return {facet.distance(), facet.first(), facet.second(), edges.distance(), edges.first(), edges.second()};
+  return {facet.distance(), facet.first, facet.second, edges.distance(), edges.first, edges.second};
 }
 
 }  // namespace ogc::compare
