@@ -48,6 +48,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "\nExamples:\n"
                   "  ogc run cloth_on_sphere --scale smoke\n"
                   "  ogc run cloth_on_sphere --scale small --solver newton --set newton_tolerance=1e-3 --iterations\n"
+                  "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
                   "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
                   "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
                   "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the exact one. On the CPU it takes\n"

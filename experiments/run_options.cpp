@@ -4,6 +4,7 @@
 
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
+#include "experiments/measured_simulation.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
@@ -43,11 +44,19 @@ void apply_settings(compare::Settings& settings, const RunOptions& options) {
   if (options.steps > 0) compare::set_setting(settings, "steps", std::to_string(options.steps));
 }
 
+/// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one iteration.
+std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
+  compare::Scene once = scene;
+  once.settings.iterations = once.settings.guess_rounds = 1;
+  const compare::Topology topology = build_topology(once);
+  return fast::contestant(fast::Backend::cpu).step({&once, &topology}).colour;
+}
+
 }  // namespace
 
 void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
   command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
-  command.add_option("--solver", options->solver, "How a step is solved")->check(CLI::IsMember({"vbd", "newton", "ipc", "penalty"}))->capture_default_str();
+  command.add_option("--solver", options->solver, "How a step is solved")->check(CLI::IsMember({"vbd", "newton", "reference_vbd", "ipc", "penalty"}))->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember({"cpu", "cuda"}))->capture_default_str();
   command.add_option("--scale", options->scale, "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
   command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")->check(CLI::PositiveNumber);
@@ -57,7 +66,8 @@ void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& optio
       ->check(CLI::IsMember({"every", "frame", "end", "off"}))->capture_default_str();
   command.add_option("--from-state", options->from_state, "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
-  command.add_flag("--iterations", options->iterations, "With newton: write iterations.csv, a row an iteration");
+  command.add_flag("--residual", options->residual, "With vbd, reference_vbd: the residual of Eq. 29 in steps.csv, measured beside the run (slow)");
+  command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration (slow but with newton: each row detects anew)");
   command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
 }
@@ -78,12 +88,13 @@ std::string settings_help() {
 }
 
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
-  if (options.solver != "vbd" && options.solver != "newton")
+  if (options.solver == "ipc" || options.solver == "penalty")
     throw compare::InputError("--solver " + options.solver +
-                              " does not exist yet; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact)");
-  if (options.solver == "newton" && options.backend != "cpu") throw compare::InputError("--solver newton runs on the CPU; leave --backend out");
-  if (options.solver != "newton" && (options.iterations || options.condition))
-    throw compare::InputError("--iterations and --condition belong to --solver newton");
+                              " does not exist yet; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact), "
+                              "reference_vbd (vbd in double, slow)");
+  if (options.solver != "vbd" && options.backend != "cpu") throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
+  if (options.solver != "newton" && options.condition) throw compare::InputError("--condition belongs to --solver newton");
+  if (options.solver == "newton" && options.residual) throw compare::InputError("--solver newton knows its residual; leave --residual out");
   RunRequest request;
   request.scene = load_scene(options, request.scale);
   apply_settings(request.scene.settings, options);
@@ -105,7 +116,10 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
 
 compare::Contestant contestant_of(const RunOptions& options) {
   if (options.solver == "newton") return reference::newton();
-  return fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu);
+  const compare::Contestant contestant =
+      options.solver == "vbd" ? fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu) : reference::vbd(fast_colours);
+  const bool has_rows = options.iterations && options.solver == "vbd";
+  return options.residual || has_rows ? measured(contestant, has_rows) : contestant;
 }
 
 }  // namespace ogc::experiments

@@ -12,7 +12,7 @@ struct RunOptions {
   std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out;
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
-  bool profile = false, iterations = false, condition = false;
+  bool profile = false, iterations = false, condition = false, residual = false;
   int threads = 0;                       ///< 0: all
 };
 

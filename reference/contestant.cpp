@@ -15,7 +15,7 @@
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/initial_guess.hpp"
-#include "reference/solvers/newton.hpp"
+#include "reference/solvers/simulation.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/sweep.hpp"
 
@@ -47,6 +47,15 @@ compare::Contestant newton() {
   compare::Contestant contestant;
   contestant.name = "newton";
   contestant.start = start_newton;
+  return contestant;
+}
+
+compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours) {
+  compare::Contestant contestant;
+  contestant.name = "reference_vbd";
+  contestant.start = [colours = std::move(colours)](const compare::Scene& scene, const compare::SimulationOptions& options) {
+    return start_vbd(scene, options, colours ? colours(scene) : std::vector<compare::Index>{});
+  };
   return contestant;
 }
 

@@ -7,6 +7,7 @@
 #include "reference/geometry/gauss_map.hpp"
 #include "reference/geometry/illustrations.hpp"
 #include "reference/geometry/nearest.hpp"
+#include "reference/solvers/residual.hpp"
 
 namespace ogc::reference {
 
@@ -15,5 +16,8 @@ compare::Authority authority();
 
 /// Newton-OGC: no stages, but a simulation to `start` (method.md §7).
 compare::Contestant newton();
+
+/// Vertex Block Descent in double, likewise. `colours`: of a scene's vertices, asked once a simulation (reference/solvers/vbd_solver.hpp); empty for its own.
+compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours = {});
 
 }  // namespace ogc::reference

@@ -4,9 +4,8 @@
 #include "experiments/scenes/shapes.hpp"
 
 namespace ogc::experiments {
-namespace {
 
-compare::Material cloth() {
+compare::Material sphere_scene_material() {
   compare::Material material;
   material.density = 0.2;
   material.lame_mu = material.lame_lambda = 10;
@@ -17,13 +16,15 @@ compare::Material cloth() {
   return material;
 }
 
-}  // namespace
+void append_sphere(compare::Scene& scene, int subdivisions) {
+  append_body(scene, {.name = "sphere", .fixed = true, .material = sphere_scene_material()}, icosphere(subdivisions, 0.262, {-0.15, 0, 0}));
+}
 
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {
   compare::Scene scene;
   scene.name = "cloth_on_sphere";
-  append_body(scene, {.name = "cloth", .material = cloth()}, grid(sizes.vertices_a_side, 1, 0.30));
-  append_body(scene, {.name = "sphere", .fixed = true, .material = cloth()}, icosphere(sizes.sphere_subdivisions, 0.262, {-0.15, 0, 0}));
+  append_body(scene, {.name = "cloth", .material = sphere_scene_material()}, grid(sizes.vertices_a_side, 1, 0.30));
+  append_sphere(scene, sizes.sphere_subdivisions);
   scene.settings.time_step = 1.0 / 100;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 40;

@@ -12,6 +12,11 @@ struct ClothOnSphereSizes {
   std::int64_t steps = 100;
 };
 
+/// Cloth, sphere and ground of the scenes with a sphere.
+compare::Material sphere_scene_material();
+/// The fixed sphere of radius 0.262 m about (−0.15, 0, 0), as the next body of the scene.
+void append_sphere(compare::Scene& scene, int subdivisions);
+
 /// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.262 m about (−0.15, 0, 0).
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 

@@ -6,8 +6,10 @@
 
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
+#include "experiments/scenes/activation_drop.hpp"
 #include "experiments/scenes/cloth_on_sphere.hpp"
 #include "experiments/scenes/fifty_layers.hpp"
+#include "experiments/scenes/three_cloths_on_sphere.hpp"
 #include "experiments/scenes/twist.hpp"
 
 namespace ogc::experiments {
@@ -52,6 +54,24 @@ compare::Scene fifty_layers_1m_at(Scale scale) {
   return fifty_layers(fifty_layers_1m_sizes());
 }
 
+compare::Scene three_cloths_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 20});
+    case Scale::small: return three_cloths_on_sphere({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 40});
+    case Scale::paper: break;
+  }
+  return three_cloths_on_sphere();
+}
+
+compare::Scene activation_drop_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return activation_drop({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 30});
+    case Scale::small: return activation_drop({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 38});
+    case Scale::paper: break;
+  }
+  return activation_drop();
+}
+
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 150});
@@ -61,10 +81,12 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 4> table{{
+constexpr std::array<SceneInfo, 6> table{{
+    {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence", activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
     {"fifty_layers", "Fig. 10, 1", "fifty square cloths fall off-centre onto a fixed cylinder", fifty_layers_at},
     {"fifty_layers_1m", "Table 1", "the same with a million vertices", fifty_layers_1m_at},
+    {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere", three_cloths_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
 }};
 

@@ -101,6 +101,10 @@ template <class T>
 Triple<T> operator*(const T& s, const Triple<T>& a) {
   return {s * a[0], s * a[1], s * a[2]};
 }
+template <std::size_t N>
+Triple<Derivative<double, N>> operator*(double s, const Triple<Derivative<double, N>>& a) {
+  return Derivative<double, N>(s) * a;
+}
 template <class T>
 T dot(const Triple<T>& a, const Triple<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -18,16 +18,22 @@ struct MembraneTerm {
   Strain<double> start{};                            ///< Gᵗ
 
   template <class T>
+  T elastic_of(const Strain<T>& g) const {
+    return area * density(g, lambda, mu);
+  }
+  template <class T>
+  T energy_of(const Strain<T>& g) const {
+    if (damping == 0) return elastic_of(g);
+    const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
+    return area * (density(g, lambda, mu) + damping * density(change, lambda, mu));
+  }
+  template <class T>
   T elastic(const std::array<Triple<T>, 3>& x) const {
-    return area * density(strain<T>(x, gradient), lambda, mu);
+    return elastic_of(strain<T>(x, gradient));
   }
   template <class T>
   T energy(const std::array<Triple<T>, 3>& x) const {
-    const Strain<T> g = strain<T>(x, gradient);
-    const T psi = density(g, lambda, mu);
-    if (damping == 0) return area * psi;
-    const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
-    return area * (psi + damping * density(change, lambda, mu));
+    return energy_of(strain<T>(x, gradient));
   }
 };
 
@@ -45,13 +51,16 @@ struct HingeTerm {
     return 0.5 * stiffness * bent * bent;
   }
   template <class T>
-  T energy(const Hinge<T>& x) const {
-    const Fold<T> fold(x);
-    if (fold.collapsed()) return T(0.0);
-    const T angle = fold.angle(), bent = angle - T(rest_angle);
+  T energy_of(const T& angle) const {
+    const T bent = angle - T(rest_angle);
     if (damping == 0) return 0.5 * stiffness * bent * bent;
     const T moved = angle - T(start);
     return 0.5 * stiffness * (bent * bent + damping * moved * moved);
+  }
+  template <class T>
+  T energy(const Hinge<T>& x) const {
+    const Fold<T> fold(x);
+    return fold.collapsed() ? T(0.0) : energy_of(fold.angle());
   }
 };
 
@@ -78,17 +87,26 @@ struct FrictionTerm {
   Triple<double> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
   double force = 0, limit = 0;       ///< μ λ [N]; ε = ε_v h [m]
 
-  /// f₀' = f₁: y − ε/3 beyond ε, y²/ε − y³/(3ε²) below, 0 at rest.
+  /// u over any number type.
   template <class T, std::size_t N>
-  T energy(const std::array<Triple<T>, N>& x) const {
-    using std::sqrt;
+  Triple<T> slip(const std::array<Triple<T>, N>& x) const {
     Triple<T> moved = separation(weight, x);
     for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
     const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
-    const Triple<T> slip = moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
-    const T squared = dot(slip, slip), length = sqrt(squared);
+    return moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
+  }
+  /// By ‖u‖². f₀' = f₁: y − ε/3 beyond ε, y²/ε − y³/(3ε²) below, 0 at rest.
+  template <class T>
+  T energy_of(const T& squared) const {
+    using std::sqrt;
+    const T length = sqrt(squared);
     if (plain(length) >= limit) return force * (length - T(limit / 3));
     return force / limit * (squared - 1 / (3 * limit) * squared * length);
+  }
+  template <class T, std::size_t N>
+  T energy(const std::array<Triple<T>, N>& x) const {
+    const Triple<T> u = slip(x);
+    return energy_of(dot(u, u));
   }
 };
 

@@ -146,20 +146,22 @@ void Potential::add_contact(const ContactStencil& stencil, const State& detected
   if (mollifier.acts()) contacts_.back().mollifier = mollifier.value();
 }
 
+std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const {
+  if (term.friction == 0) return {};
+  const ClosestForm form = closest_form(term.sides, corners);
+  const Triple<double> apart = separation(form.weight, corners);
+  const double distance = norm(apart);
+  if (distance == 0 || distance >= term.radius) return {};
+  using Slope = Derivative<double, 1>;
+  const double slope = contact_activation(term.activation, Slope(distance, 0), term.radius, term.stiffness).slope[0];
+  return FrictionTerm{term.sides, term.vertex, form.weight, (1 / distance) * apart, separation(form.weight, contact_corners(term.sides, term.vertex, start_)),
+                      -term.friction * term.mollifier * slope, scene_.settings.friction_velocity * step_};
+}
+
 void Potential::lag_friction(const State& x) {
   frictions_.clear();
-  using Slope = Derivative<double, 1>;
-  for (const ContactTerm& term : contacts_) {
-    if (term.friction == 0) continue;
-    const auto corners = contact_corners(term.sides, term.vertex, x);
-    const ClosestForm form = closest_form(term.sides, corners);
-    const Triple<double> apart = separation(form.weight, corners);
-    const double distance = norm(apart);
-    if (distance == 0 || distance >= term.radius) continue;
-    const double slope = contact_activation(term.activation, Slope(distance, 0), term.radius, term.stiffness).slope[0];
-    frictions_.push_back({term.sides, term.vertex, form.weight, (1 / distance) * apart, separation(form.weight, contact_corners(term.sides, term.vertex, start_)),
-                          -term.friction * term.mollifier * slope, scene_.settings.friction_velocity * step_});
-  }
+  for (const ContactTerm& term : contacts_)
+    if (const auto friction = friction_at(term, contact_corners(term.sides, term.vertex, x))) frictions_.push_back(*friction);
 }
 
 std::array<Index, 4> Potential::vertices(std::size_t stencil) const {

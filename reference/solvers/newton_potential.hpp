@@ -2,6 +2,7 @@
 // total force of Eq. 29.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compare/problem/scene.hpp"
@@ -60,6 +61,14 @@ class Potential {
   double contact_energy(const State& x) const;  ///< normal energies [J]
   const std::vector<double>& mass() const { return mass_; }
   const std::vector<Mobility>& mobility() const { return mobility_; }
+  const compare::RestStateOut& rest() const { return rest_; }
+  /// The stencils of the present contacts and of all else but friction.
+  const std::vector<MembraneTerm>& membranes() const { return membranes_; }
+  const std::vector<HingeTerm>& hinges() const { return hinges_; }
+  const std::vector<ContactTerm>& contacts() const { return contacts_; }
+  /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none); empty where there is none.
+  std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
+  const State& target() const { return target_; }  ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
   std::size_t free_count() const { return free_count_; }
 

@@ -21,37 +21,24 @@
 #include <functional>
 #include <optional>
 
-#include "compare/problem/contestant.hpp"
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/contact_step.hpp"
 #include "reference/solvers/newton_factor.hpp"
 
 namespace ogc::reference {
 
-/// Where the time of a step goes.
-enum class NewtonStage : std::uint8_t { detection, derivatives, assembly, factorization, line_search };
-inline constexpr std::size_t newton_stage_count = 5;
-std::vector<std::string> newton_stage_names();
-
-/// What a step came to. Positions are those to store, rounded; of a step that failed they must not be used.
-struct NewtonStep {
-  std::vector<compare::Vec3f> position, velocity;  ///< [m], [m/s]
-  compare::StepMetrics metrics;
-  Detected detected;                               ///< the last detection
-  float query_radius = 0;                          ///< [m]
-};
-
-class NewtonSolver {
+class NewtonSolver : public StepSolver, private ContactStep {
  public:
   /// Scene: rounded and valid. Both must outlive it.
   NewtonSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options);
 
-  /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
-  NewtonStep step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
+  StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) override;
+  std::vector<std::string> stage_names() const override;
 
   /// Called with each accepted step of the line search: energies before and after, with the same contacts and friction [J].
   std::function<void(double before, double change, double noise)> on_accepted;
 
  private:
+  enum Stage : std::size_t { detection = detection_stage, derivation, assembly, factorization, line_search, stage_count };
   enum class Outcome { converged, iteration_limit, indefinite, no_decrease, not_finite };
   struct Direction {
     State delta;               ///< of all vertices; 0 where not free [m]
@@ -60,54 +47,23 @@ class NewtonSolver {
     std::size_t cut = 0;
   };
 
-  void begin(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
-  void detect_here();
-  void guess();
-  bool many(std::size_t cut) const;
-  bool nothing_near() const;  ///< the contacts at x are none, without asking
-  std::size_t move_prescribed();
+  static std::uint32_t status_of(Outcome outcome);
   Outcome solve();
   Outcome solve_once();
   /// One round of the loop; empty where it goes on.
   std::optional<Outcome> iterate();
   std::optional<Outcome> advance(const PotentialDerivatives& derivatives, std::size_t prescribed_cut);
   double mean_force(const PotentialDerivatives& derivatives) const;
-  compare::IterationMetrics new_row(bool detects) const;
   bool factorized(const PotentialDerivatives& derivatives);
   Direction direction_of(const PotentialDerivatives& derivatives);
   double searched(const Direction& direction, const PotentialDerivatives& derivatives);
   double backtracked(const State& delta, double share, const PotentialTerms& before, double noise);
-  void finish(NewtonStep& step, Outcome outcome);
 
-  template <class Work>
-  auto timed(NewtonStage stage, Work work);
-
-  const compare::Scene& scene_;
-  const compare::Topology& topology_;
-  const compare::Settings& settings_;
-  compare::SimulationOptions options_;
-  std::vector<compare::Index> groups_;
-  Potential potential_;
   BlockMatrix matrix_;
   Factor factor_;
-  std::vector<std::size_t> movable_;      ///< free and prescribed vertices: K of them
-
-  State start_, target_, x_;
-  Detected detected_;
-  Balls balls_;
-  float query_radius_ = 0;
-  bool detect_next_ = false, fresh_ = false;  ///< contacts must be detected; they were detected at this very x
-  bool judge_next_ = false, judging_ = false; ///< contacts are detected to judge a solve that has converged with those before
+  bool judge_next_ = false, judging_ = false;  ///< contacts are detected to judge a solve that has converged with those before
   int judgements_ = 0;
   bool pattern_stale_ = true;
-  std::size_t cut_ = 0;                       ///< in the last iteration, prescribed vertices included
-  std::int64_t iterations_since_ = 0;         ///< since the last detection
-  double reference_force_ = -1;               ///< mean ‖f*‖ [N]; negative before it is known
-  double residual_ = 0;
-  double started_ms_ = 0;
-  compare::StepMetrics metrics_;
-  std::vector<compare::IterationMetrics> rows_;
-  std::array<double, newton_stage_count> stage_ms_{};
 };
 
 }  // namespace ogc::reference

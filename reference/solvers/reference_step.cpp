@@ -6,6 +6,7 @@
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/solvers/colouring.hpp"
 #include "reference/solvers/contacts.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/step.hpp"
@@ -23,25 +24,6 @@ using compare::Vec3f;
 
 Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
 
-/// Free vertices in the order of their numbers, each in the lowest colour that none of its stencils has; −1 for all others.
-std::vector<Index> coloured(const compare::RestStateOut& rest, const std::vector<Index>& groups) {
-  std::vector<std::vector<Index>> near(groups.size());
-  const auto meet = [&](const auto& vertices) {
-    for (const Index a : vertices)
-      for (const Index b : vertices)
-        if (a != b) near[static_cast<std::size_t>(a)].push_back(b);
-  };
-  for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
-  for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
-  std::vector<Index> colour(groups.size(), -1);
-  for (std::size_t v = 0; v < groups.size(); ++v) {
-    if (groups[v] != -1) continue;
-    const auto taken = [&](Index c) { return std::any_of(near[v].begin(), near[v].end(), [&](Index w) { return colour[static_cast<std::size_t>(w)] == c; }); };
-    for (colour[v] = 0; taken(colour[v]);) ++colour[v];
-  }
-  return colour;
-}
-
 class ReferenceStep {
  public:
   explicit ReferenceStep(const compare::StepIn& in)
@@ -49,7 +31,7 @@ class ReferenceStep {
 
   compare::StepOut run() {
     out_.rest = rest_state({in_.scene, in_.topology}).exact;
-    out_.colour = coloured(out_.rest, groups_);
+    out_.colour = colours_of(out_.rest, groups_);
     set_targets();
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
     StepOrder order(settings_, static_cast<Index>(std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; })));

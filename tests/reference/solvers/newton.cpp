@@ -1,4 +1,4 @@
-#include "reference/solvers/newton.hpp"
+#include "reference/solvers/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,7 @@ TEST_CASE("Newton: each accepted iteration lowers the energy between two detecti
   std::vector<Vec3f> x = compare::to_single(scene.mesh.positions), v = compare::to_single(scene.velocities);
   std::int64_t contacts = 0, detections = 0;
   for (std::int64_t step = 1; step <= 12; ++step) {
-    reference::NewtonStep result = solver.step(x, v, step);
+    reference::StepResult result = solver.step(x, v, step);
     REQUIRE(result.metrics.status == compare::step_clean);
     x = std::move(result.position);
     v = std::move(result.velocity);

@@ -1,0 +1,19 @@
+// Fig. 21: a square cloth falls onto a sphere and the ground below it, to compare contact energies.
+#pragma once
+
+#include "compare/problem/scene.hpp"
+
+namespace ogc::experiments {
+
+/// Defaults: the paper's. The contact radius follows the spacing: 5 mm on 70 × 70.
+struct ActivationDropSizes {
+  compare::Index vertices_a_side = 70;
+  int sphere_subdivisions = 3;
+  std::int64_t steps = 40;
+};
+
+/// cloth_on_sphere with the ground: a fixed mesh of 4 m × 4 m at y = −0.272 m, its triangles at most a hundred times as large as the cloth's. Steps are solved to
+/// convergence: detection as soon as one vertex is cut, and friction solves until friction settles.
+compare::Scene activation_drop(const ActivationDropSizes& sizes = {});
+
+}  // namespace ogc::experiments

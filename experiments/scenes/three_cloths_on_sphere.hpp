@@ -1,0 +1,18 @@
+// Fig. 17: three square cloths, one above the other, fall off-centre onto a fixed sphere.
+#pragma once
+
+#include "compare/problem/scene.hpp"
+
+namespace ogc::experiments {
+
+/// Defaults: the paper's. The contact radius follows the spacing: 2 mm on 70 × 70.
+struct ThreeClothsSizes {
+  compare::Index vertices_a_side = 70;
+  int sphere_subdivisions = 3;
+  std::int64_t steps = 50;
+};
+
+/// The sphere of cloth_on_sphere, three of its cloths at y = 0.30 m and 2 r and 4 r above.
+compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes = {});
+
+}  // namespace ogc::experiments

@@ -1,0 +1,159 @@
+#include "reference/solvers/contact_step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "reference/solvers/newton_measure.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Vec3f;
+
+constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
+
+double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+}  // namespace
+
+double ContactStep::now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double ContactStep::elapsed_ms() const { return now_ms() - started_ms_; }
+
+ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::size_t stages)
+    : scene_(scene),
+      topology_(topology),
+      settings_(scene.settings),
+      options_(options),
+      groups_(rigid_groups(scene)),
+      potential_(scene, topology),
+      stage_ms_(stages, 0) {
+  for (std::size_t v = 0; v < groups_.size(); ++v)
+    if (potential_.mobility()[v] != Mobility::fixed) movable_.push_back(v);
+}
+
+void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
+  started_ms_ = now_ms();
+  metrics_ = {};
+  metrics_.step = number;
+  rows_.clear();
+  std::fill(stage_ms_.begin(), stage_ms_.end(), 0);
+  reference_force_ = -1;
+  cut_ = 0;
+  x_ = start_ = widened(start);
+  target_ = inertial_targets(scene_, start, velocity, potential_.mobility(), static_cast<double>(number) * settings_.time_step);
+  double largest = 0;
+  for (const std::size_t v : movable_) largest = std::max(largest, length(target_[v] - start_[v]));
+  const double r = settings_.contact_radius;
+  query_radius_ = static_cast<float>(std::min(r + largest, settings_.query_radius_cap * r));
+  potential_.begin_step(start_, target_);
+}
+
+void ContactStep::detect_here() {
+  detected_ = timed(detection_stage, [&] { return detect(scene_, topology_, groups_, rounded(x_), query_radius_); });
+  balls_ = Balls(detected_);
+  for (const std::size_t v : movable_) x_[v] = balls_.inside(v, x_[v]).x;
+  potential_.set_contacts(detected_.sets, widened(detected_.previous));
+  ++metrics_.broad_phases;
+  ++metrics_.discrete_detections;
+  detect_next_ = false;
+  fresh_ = true;
+  iterations_since_ = 0;
+}
+
+bool ContactStep::many(std::size_t cut) const {
+  return cut > 0 && static_cast<double>(cut) >= settings_.redetect_fraction * static_cast<double>(movable_.size());
+}
+
+bool ContactStep::detection_due(std::size_t cut) const {
+  return many(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
+}
+
+void ContactStep::guess() {
+  detect_here();
+  potential_.lag_friction(x_);
+  for (std::int64_t round = 1;; ++round) {
+    const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.sets, topology_) : std::vector<bool>(x_.size(), false);
+    std::size_t cut = 0;
+    for (const std::size_t v : movable_) {
+      if (touched[v]) continue;
+      const Balls::Inside inside = balls_.inside(v, target_[v]);
+      fresh_ = fresh_ && x_[v] == inside.x;
+      x_[v] = inside.x;
+      cut += inside.cut;
+    }
+    metrics_.guess_rounds = round;
+    if (!many(cut) || round >= settings_.guess_rounds) break;
+    detect_here();
+  }
+  detect_next_ = !fresh_;
+  metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
+}
+
+/// Two vertices that were d apart and moved by at most m each are now at least d − 2m apart, and so are all faces.
+bool ContactStep::nothing_near() const {
+  double largest = 0;
+  for (const std::size_t v : movable_) {
+    const Vec3f& p = detected_.previous[v];
+    largest = std::max(largest, length(x_[v] - Triple<double>{p.x, p.y, p.z}));
+  }
+  return detected_.smallest_distance - 2 * largest > settings_.contact_radius;
+}
+
+std::size_t ContactStep::move_prescribed() {
+  std::size_t cut = 0;
+  for (const std::size_t v : movable_) {
+    if (potential_.mobility()[v] != Mobility::prescribed) continue;
+    const Balls::Inside inside = balls_.inside(v, target_[v]);
+    fresh_ = fresh_ && x_[v] == inside.x;
+    x_[v] = inside.x;
+    cut += inside.cut;
+  }
+  return cut;
+}
+
+void ContactStep::set_residual(double mean_force) {
+  if (reference_force_ < 0) reference_force_ = mean_force;
+  residual_ = reference_force_ > 0 ? mean_force / reference_force_ : 0;
+}
+
+compare::IterationMetrics ContactStep::new_row(bool detects) const {
+  compare::IterationMetrics row;
+  row.step = metrics_.step;
+  row.iteration = metrics_.iterations;
+  row.wall_ms = elapsed_ms();
+  row.residual = residual_;
+  row.energy = Potential::total(potential_.terms(x_));
+  row.detected = detects ? 1 : 0;
+  row.condition_number = not_asked;
+  return row;
+}
+
+StepResult ContactStep::finish(std::uint32_t status) {
+  StepResult result;
+  result.position = rounded(x_);
+  result.velocity = end_velocities(result.position, start_, settings_.time_step);
+  result.query_radius = query_radius_;
+  metrics_.status = status;
+  metrics_.vertex_facet_contacts = static_cast<std::int64_t>(detected_.sets.vertex_facet.size());
+  metrics_.edge_edge_contacts = static_cast<std::int64_t>(detected_.sets.edge_edge.size());
+  metrics_.vertices_at_bound = static_cast<std::int64_t>(cut_);
+  metrics_.share_at_bound = movable_.empty() ? 0 : static_cast<double>(cut_) / static_cast<double>(movable_.size());
+  metrics_.query_radius = double{query_radius_};
+  metrics_.residual = residual_;
+  metrics_.smallest_distance = detected_.smallest_distance;
+  metrics_.wall_ms = elapsed_ms();
+  if (options_.profile) metrics_.stage_ms = stage_ms_;
+  metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential_);
+  metrics_.largest_lag = largest_lag(x_, target_, potential_.mobility());
+  measure_energies(metrics_, {x_, start_, target_}, potential_, scene_, options_.energies);
+  if (metrics_.status == compare::step_clean && !keeps_bounds(result.position, detected_)) metrics_.status = compare::step_bound_violated;
+  metrics_.iteration_rows = std::move(rows_);
+  result.metrics = std::move(metrics_);
+  result.detected = detected_;
+  return result;
+}
+
+}  // namespace ogc::reference

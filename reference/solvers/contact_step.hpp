@@ -1,0 +1,93 @@
+// What the reference's solvers share of a step (Algorithm 3, method.md §5): targets, detections with their balls, the guess loop, prescribed vertices, the row
+// at the end. How a solver moves the free vertices between two detections is its own.
+//
+//   begin ── guess: detect, x ← y inside the balls, again while many are cut ── the solver's iterations, with detect_here where detect_next_ says so ── finish
+#pragma once
+
+#include "compare/problem/contestant.hpp"
+#include "reference/solvers/newton_detection.hpp"
+
+namespace ogc::reference {
+
+/// What a step came to. Positions are those to store, rounded; of a step that failed they must not be used.
+struct StepResult {
+  std::vector<compare::Vec3f> position, velocity;  ///< [m], [m/s]
+  compare::StepMetrics metrics;
+  Detected detected;                               ///< the last detection
+  float query_radius = 0;                          ///< [m]
+};
+
+class StepSolver {
+ public:
+  virtual ~StepSolver() = default;
+  /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
+  virtual StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) = 0;
+  /// Of StepMetrics::stage_ms.
+  virtual std::vector<std::string> stage_names() const = 0;
+};
+
+class ContactStep {
+ public:
+  ContactStep(const ContactStep&) = delete;
+  ContactStep& operator=(const ContactStep&) = delete;
+
+ protected:
+  /// The first stage of every solver.
+  static constexpr std::size_t detection_stage = 0;
+
+  /// Scene: rounded and valid. Both must outlive it.
+  ContactStep(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::size_t stages);
+  ~ContactStep() = default;
+
+  void begin(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
+  void detect_here();
+  /// Friction is lagged to xᵗ in it, where contact forces are those of a converged step.
+  void guess();
+  bool many(std::size_t cut) const;
+  bool nothing_near() const;  ///< the contacts at x are none, without asking
+  std::size_t move_prescribed();
+  /// Where `settings` ask for a detection after an iteration that cut so many vertices.
+  bool detection_due(std::size_t cut) const;
+  void set_residual(double mean_force);  ///< Eq. 29; the first one of a step is f*
+  compare::IterationMetrics new_row(bool detects) const;
+  StepResult finish(std::uint32_t status);
+  double elapsed_ms() const;  ///< since the step began
+
+  template <class Work>
+  auto timed(std::size_t stage, Work work) {
+    struct Clock {
+      double& sum;
+      double start = now_ms();
+      ~Clock() { sum += now_ms() - start; }
+    } clock{stage_ms_[stage]};
+    return work();
+  }
+
+  const compare::Scene& scene_;
+  const compare::Topology& topology_;
+  const compare::Settings& settings_;
+  compare::SimulationOptions options_;
+  std::vector<compare::Index> groups_;
+  Potential potential_;
+  std::vector<std::size_t> movable_;          ///< free and prescribed vertices: K of them
+
+  State start_, target_, x_;
+  Detected detected_;
+  Balls balls_;
+  float query_radius_ = 0;
+  bool detect_next_ = false, fresh_ = false;  ///< contacts must be detected; they were detected at this very x
+  std::size_t cut_ = 0;                       ///< in the last iteration, prescribed vertices included
+  std::int64_t iterations_since_ = 0;         ///< since the last detection
+  double reference_force_ = -1;               ///< mean ‖f*‖ [N]; negative before it is known
+  double residual_ = 0;
+  compare::StepMetrics metrics_;
+  std::vector<compare::IterationMetrics> rows_;
+
+ private:
+  static double now_ms();
+
+  double started_ms_ = 0;
+  std::vector<double> stage_ms_;
+};
+
+}  // namespace ogc::reference

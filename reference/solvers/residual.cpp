@@ -1,0 +1,55 @@
+#include "reference/solvers/residual.hpp"
+
+#include "reference/solvers/contact_step.hpp"
+#include "reference/solvers/vertex_system.hpp"
+
+namespace ogc::reference {
+namespace {
+
+/// Stands before the step that reads it.
+struct Problem {
+  compare::Scene scene;
+  compare::Topology topology;
+  explicit Problem(const compare::Scene& from) : scene(from) {
+    round_to_single(scene);
+    topology = build_topology(scene);
+  }
+};
+
+}  // namespace
+
+class ResidualMeter::Meter : private Problem, private ContactStep {
+ public:
+  explicit Meter(const compare::Scene& from) : Problem(from), ContactStep(scene, topology, {}, 1), systems_(potential_) {}
+
+  void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) {
+    begin(start, velocity, number);
+    guess();
+    at(x_);
+  }
+
+  Residual at(const State& x) {
+    x_ = x;
+    detect_here();
+    systems_.read_contacts();
+    const double force = systems_.mean_force(x_);
+    set_residual(force);
+    return {residual_, force, Potential::total(potential_.terms(x_)),
+            static_cast<std::int64_t>(detected_.sets.vertex_facet.size() + detected_.sets.edge_edge.size())};
+  }
+
+ private:
+  VertexSystems systems_;
+};
+
+ResidualMeter::ResidualMeter(const compare::Scene& scene) : meter_(std::make_unique<Meter>(scene)) {}
+ResidualMeter::~ResidualMeter() = default;
+
+void ResidualMeter::begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) {
+  meter_->begin_step(start, velocity, number);
+}
+
+Residual ResidualMeter::at(const std::vector<compare::Vec3f>& position) { return meter_->at(widened(position)); }
+Residual ResidualMeter::at(const std::vector<std::array<double, 3>>& position) { return meter_->at(position); }
+
+}  // namespace ogc::reference

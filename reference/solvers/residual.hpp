@@ -1,0 +1,35 @@
+// The residual of Eq. 29 at states that any solver came to (method.md §6), and its f*: a measure, with detections of its own, so that no solver is disturbed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+
+namespace ogc::reference {
+
+struct Residual {
+  double share = 0;       ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
+  double force = 0;       ///< mean ‖f_v‖ [N]
+  double energy = 0;      ///< incremental potential without friction [J]
+  std::int64_t contacts = 0;
+};
+
+/// Forces are those of all energies at the state, in double, with contact sets detected at it and friction of its own λ, n and weights.
+class ResidualMeter {
+ public:
+  /// The scene is rounded here; it must be valid.
+  explicit ResidualMeter(const compare::Scene& scene);
+  ~ResidualMeter();
+  /// Xᵗ, Vᵗ and the number of the step that ends at the states to be asked about. The guess loop is done here.
+  void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
+  Residual at(const std::vector<compare::Vec3f>& position);
+  Residual at(const std::vector<std::array<double, 3>>& position);
+
+ private:
+  class Meter;
+  std::unique_ptr<Meter> meter_;
+};
+
+}  // namespace ogc::reference

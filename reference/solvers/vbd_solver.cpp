@@ -1,0 +1,111 @@
+#include "reference/solvers/vbd_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/Dense>
+#include <tbb/parallel_for.h>
+
+#include "reference/solvers/colouring.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+using compare::Vec3f;
+
+/// H⁻¹ f. Inertia alone makes H positive definite.
+Triple<double> solved(const VertexSystem& system) {
+  const auto& b = system.block;
+  const Eigen::Matrix3d h{{b[0], b[1], b[2]}, {b[1], b[3], b[4]}, {b[2], b[4], b[5]}};
+  const Eigen::Vector3d x = h.llt().solve(Eigen::Vector3d(system.force[0], system.force[1], system.force[2]));
+  return {x[0], x[1], x[2]};
+}
+
+}  // namespace
+
+VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<Index> colour)
+    : ContactStep(scene, topology, options, stage_count), systems_(potential_), colour_(std::move(colour)) {
+  if (colour_.empty()) colour_ = colours_of(potential_.rest(), groups_);
+  for (std::size_t v = 0; v < groups_.size(); ++v) {
+    if ((groups_[v] == -1) != (colour_.at(v) >= 0)) throw std::invalid_argument("reference VBD: a colour for each free vertex, and for no other");
+    if (colour_[v] < 0) continue;
+    const auto c = static_cast<std::size_t>(colour_[v]);
+    classes_.resize(std::max(classes_.size(), c + 1));
+    classes_[c].push_back(static_cast<Index>(v));
+  }
+  if (options.iterations) meter_.emplace(scene);
+}
+
+std::vector<std::string> VbdSolver::stage_names() const { return {"detection", "sweep"}; }
+
+StepResult VbdSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
+  begin(start, velocity, number);
+  measuring_ms_ = 0;
+  residual_ = std::numeric_limits<double>::quiet_NaN();
+  guess();
+  systems_.read_contacts();
+  detect_next_ = false;
+  if (meter_) meter_->begin_step(start, velocity, number);
+  while (metrics_.iterations < settings_.iterations && finite()) iterate();
+  if (meter_ && finite()) add_row();
+  StepResult result = finish(finite() ? compare::step_clean : compare::step_not_finite);
+  result.metrics.wall_ms -= measuring_ms_;
+  return result;
+}
+
+void VbdSolver::iterate() {
+  const bool detects = detect_next_;
+  if (detects) {
+    detect_here();
+    systems_.read_contacts();
+  }
+  if (meter_) {
+    add_row();
+    rows_.back().detected = detects ? 1 : 0;
+  }
+  cut_ = timed(sweeping, [&] { return sweep(); });
+  if (meter_) rows_.back().vertices_at_bound = static_cast<std::int64_t>(cut_);
+  ++metrics_.iterations;
+  ++iterations_since_;
+  detect_next_ = detection_due(cut_);
+}
+
+std::size_t VbdSolver::sweep() {
+  const State old = x_;
+  std::size_t cut = move_prescribed();
+  const SweepView view{old, x_, colour_};
+  for (const std::vector<Index>& members : classes_) {
+    std::vector<Balls::Inside> moved(members.size());
+    tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
+      const auto v = static_cast<std::size_t>(members[k]);
+      moved[k] = balls_.inside(v, old[v] + solved(systems_.at(members[k], view)));
+    });
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      x_[static_cast<std::size_t>(members[k])] = moved[k].x;
+      cut += moved[k].cut;
+    }
+  }
+  return cut;
+}
+
+void VbdSolver::add_row() {
+  const double now = elapsed_ms();
+  compare::IterationMetrics row = new_row(false);
+  const Residual measured = meter_->at(x_);
+  residual_ = row.residual = measured.share;
+  row.energy = measured.energy;
+  row.wall_ms = now - measuring_ms_;
+  row.largest_change = std::numeric_limits<double>::quiet_NaN();
+  row.share = 1;
+  rows_.push_back(row);
+  measuring_ms_ += elapsed_ms() - now;
+}
+
+bool VbdSolver::finite() const {
+  return std::all_of(x_.begin(), x_.end(), [](const Triple<double>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
+}
+
+}  // namespace ogc::reference

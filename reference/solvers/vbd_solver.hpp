@@ -1,0 +1,36 @@
+// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other, vertices of a colour in parallel, read as
+// method.md §7 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's are.
+//
+// The residual of an iteration row is a measurement beside the run (residual.hpp), and its time no part of the step's.
+#pragma once
+
+#include "reference/solvers/contact_step.hpp"
+#include "reference/solvers/residual.hpp"
+#include "reference/solvers/vertex_system.hpp"
+
+namespace ogc::reference {
+
+class VbdSolver : public StepSolver, private ContactStep {
+ public:
+  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free; empty for colours of its own (colouring.hpp). No two vertices of
+  /// a membrane or hinge may share one.
+  VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<compare::Index> colour = {});
+
+  StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) override;
+  std::vector<std::string> stage_names() const override;
+
+ private:
+  enum Stage : std::size_t { detection = detection_stage, sweeping, stage_count };
+  void iterate();
+  std::size_t sweep();
+  void add_row();
+  bool finite() const;
+
+  VertexSystems systems_;
+  std::vector<compare::Index> colour_;
+  std::vector<std::vector<compare::Index>> classes_;  ///< vertices by colour
+  std::optional<ResidualMeter> meter_;
+  double measuring_ms_ = 0;
+};
+
+}  // namespace ogc::reference

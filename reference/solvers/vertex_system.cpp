@@ -1,0 +1,165 @@
+#include "reference/solvers/vertex_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+/// By the own coordinates, to first and second order.
+using Own = Derivative<double, 3>;
+using OwnTwice = Second<3>;
+
+OwnTwice variable(double value, std::size_t direction) {
+  OwnTwice x(value);
+  x.slope[direction] = 1;
+  return x;
+}
+
+template <class T>
+Triple<T> own(const Triple<double>& x) {
+  if constexpr (std::is_same_v<T, Own>) return {T(x[0], 0), T(x[1], 1), T(x[2], 2)};
+  else return {variable(x[0], 0), variable(x[1], 1), variable(x[2], 2)};
+}
+
+/// A function of one measure, as value, slope and curvature.
+template <class Energy>
+Second<1> along(double measure, Energy energy) {
+  Second<1> x(measure);
+  x.slope[0] = 1;
+  return energy(x);
+}
+
+/// Plain positions of a stencil, then with the own vertex as variable.
+template <std::size_t Count>
+std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& vertex, Index self, const SweepView& x) {
+  std::array<Triple<double>, Count> corners{};
+  for (std::size_t k = 0; k < Count; ++k)
+    if (vertex[k] >= 0) corners[k] = x.at(self, vertex[k]);
+  return corners;
+}
+template <class T, std::size_t Count>
+std::array<Triple<T>, Count> with_own(const std::array<Triple<double>, Count>& corners, std::size_t place) {
+  std::array<Triple<T>, Count> x;
+  for (std::size_t k = 0; k < Count; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) x[k][axis] = T(corners[k][axis]);
+  x[place] = own<T>(corners[place]);
+  return x;
+}
+
+void add_force(double slope, const std::array<double, 3>& gradient, VertexSystem& sum) {
+  for (std::size_t i = 0; i < 3; ++i) sum.force[i] -= slope * gradient[i];
+}
+
+void add_outer(double weight, const std::array<double, 3>& a, const std::array<double, 3>& b, VertexSystem& sum) {
+  for (std::size_t i = 0, k = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j, ++k) sum.block[k] += 0.5 * weight * (a[i] * b[j] + a[j] * b[i]);
+}
+
+void add_identity(double weight, VertexSystem& sum) {
+  for (const std::size_t k : {0u, 3u, 5u}) sum.block[k] += weight;
+}
+
+/// The material part, and the elastic stress's where it is stiff: G is a quadratic function whose second derivative is a multiple of the identity.
+void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners, VertexSystem& sum) {
+  const Strain<OwnTwice> g = strain<OwnTwice>(with_own<OwnTwice>(corners, place), term.gradient);
+  Strain<OwnTwice> by_strain;
+  for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
+  const OwnTwice energy = term.energy_of(by_strain), elastic = term.elastic_of(by_strain);
+  double geometric = 0;
+  for (std::size_t i = 0, k = 0; i < 3; ++i) {
+    add_force(energy.slope[i], g[i].slope, sum);
+    geometric += elastic.slope[i] * g[i].bend[0];
+    for (std::size_t j = 0; j <= i; ++j, ++k) add_outer((i == j ? 1 : 2) * energy.bend[k], g[i].slope, g[j].slope, sum);
+  }
+  add_identity(std::max(0.0, geometric), sum);
+}
+
+void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
+  const Fold<Own> fold(with_own<Own>(corners, place));
+  if (fold.collapsed()) return;
+  const Own angle = fold.angle();
+  const Second<1> energy = along(angle.value, [&](const Second<1>& x) { return term.energy_of(x); });
+  add_force(energy.slope[0], angle.slope, sum);
+  add_outer(energy.bend[0], angle.slope, angle.slope, sum);
+}
+
+void add_friction(const FrictionTerm& term, const std::array<Triple<Own>, 4>& x, VertexSystem& sum) {
+  const Triple<Own> slip = term.slip(x);
+  const Own squared = dot(slip, slip);
+  const double slope = along(squared.value, [&](const Second<1>& s) { return term.energy_of(s); }).slope[0];
+  add_force(slope, squared.slope, sum);
+  for (const Own& component : slip) add_outer(2 * slope, component.slope, component.slope, sum);
+}
+
+/// Slope and curvature below 2⁻²³ r are those there, as in the stage contact_force.
+void add_contact(const Potential& potential, const ContactTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
+  const ClosestForm form = closest_form(term.sides, corners);
+  const std::array<Triple<Own>, 4> x = with_own<Own>(corners, place);
+  const Triple<Own> apart = separation(form.weight, x);
+  const Own distance = sqrt(dot(apart, apart));
+  if (distance.value == 0 || distance.value >= term.radius) return;
+  const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.radius),
+                                 [&](const Second<1>& d) { return contact_activation(term.activation, d, term.radius, term.mollifier * term.stiffness); });
+  add_force(energy.slope[0], distance.slope, sum);
+  add_outer(energy.bend[0], distance.slope, distance.slope, sum);
+  if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, x, sum);
+}
+
+}  // namespace
+
+template <class Terms>
+void VertexSystems::list(const Terms& terms, Parts& parts) const {
+  parts.assign(potential_.mobility().size(), {});
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    for (std::size_t k = 0; k < terms[i].vertex.size() && terms[i].vertex[k] >= 0; ++k) {
+      const auto v = static_cast<std::size_t>(terms[i].vertex[k]);
+      if (potential_.mobility()[v] == Mobility::free) parts[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
+    }
+}
+
+VertexSystems::VertexSystems(const Potential& potential) : potential_(potential) {
+  list(potential.membranes(), membranes_);
+  list(potential.hinges(), hinges_);
+}
+
+void VertexSystems::read_contacts() { list(potential_.contacts(), contacts_); }
+
+VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
+  const auto v = static_cast<std::size_t>(vertex);
+  const double inertia = potential_.inertia(v);
+  VertexSystem sum;
+  for (std::size_t axis = 0; axis < 3; ++axis) sum.force[axis] = inertia * (potential_.target()[v][axis] - x.old[v][axis]);
+  add_identity(inertia, sum);
+  for (const Part& part : membranes_[v]) {
+    const MembraneTerm& term = potential_.membranes()[part.stencil];
+    add_membrane(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  for (const Part& part : hinges_[v]) {
+    const HingeTerm& term = potential_.hinges()[part.stencil];
+    add_hinge(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  for (const Part& part : contacts_[v]) {
+    const ContactTerm& term = potential_.contacts()[part.stencil];
+    add_contact(potential_, term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  return sum;
+}
+
+double VertexSystems::mean_force(const State& x) const {
+  const std::vector<Index> colour(x.size(), 0);
+  std::vector<double> force(x.size(), 0);
+  tbb::parallel_for(std::size_t{0}, x.size(), [&](std::size_t v) {
+    if (potential_.mobility()[v] != Mobility::free) return;
+    const Triple<double> f = at(static_cast<Index>(v), {x, x, colour}).force;
+    force[v] = std::hypot(f[0], f[1], f[2]);
+  });
+  double sum = 0;
+  for (const double f : force) sum += f;
+  return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
+}
+
+}  // namespace ogc::reference

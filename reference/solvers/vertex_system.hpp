@@ -1,0 +1,58 @@
+// The 3×3 system of one vertex in double: the force of all energies and the sweep's approximation of their Hessian (method.md §4), by automatic
+// differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp) asks the stages, each with its errors, about single-precision positions;
+// this one is for whole runs, whose positions are doubles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reference/solvers/newton_potential.hpp"
+
+namespace ogc::reference {
+
+/// Inertia included. Block: xx, xy, xz, yy, yz, zz; positive definite.
+struct VertexSystem {
+  Triple<double> force{};         ///< [N]
+  std::array<double, 6> block{};  ///< [N/m]
+};
+
+/// Where vertices are read (method.md §7): those of lower colour than the one being solved at their new position, others at the old one. Colours are from 0 on;
+/// −1: prescribed and fixed vertices, which move first.
+struct SweepView {
+  const State& old;
+  const State& fresh;
+  std::span<const compare::Index> colour;
+  const Triple<double>& at(compare::Index own, compare::Index vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return colour[v] < colour[static_cast<std::size_t>(own)] ? fresh[v] : old[v];
+  }
+};
+
+class VertexSystems {
+ public:
+  /// The potential must outlive it.
+  explicit VertexSystems(const Potential& potential);
+  /// After the potential's contacts have changed.
+  void read_contacts();
+  /// Of a free vertex. Friction has λ, n and w of the positions that are read.
+  VertexSystem at(compare::Index vertex, const SweepView& x) const;
+  /// Mean ‖f‖ over free vertices at one state [N]; Eq. 29's numerator.
+  double mean_force(const State& x) const;
+
+ private:
+  /// A stencil and the vertex's place in it.
+  struct Part {
+    std::uint32_t stencil = 0;
+    std::uint8_t place = 0;
+  };
+  using Parts = std::vector<std::vector<Part>>;  ///< by vertex; empty where not free
+  template <class Terms>
+  void list(const Terms& terms, Parts& parts) const;
+
+  const Potential& potential_;
+  Parts membranes_, hinges_, contacts_;
+};
+
+}  // namespace ogc::reference
