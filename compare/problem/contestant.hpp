@@ -49,6 +49,7 @@ struct IterationMetrics {
   std::int64_t vertices_at_bound = 0;         ///< cut in this iteration
   std::int64_t detected = 0;                  ///< 1 where contacts were detected anew for this state
   double condition_number = 0;                ///< of the matrix; not-a-number where it was not asked for
+  std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;  ///< of this iteration, counted as in StepMetrics
 };
 
 /// One row of steps.csv. Times [ms]; not-a-number where a quantity was not asked for.
@@ -56,8 +57,9 @@ struct StepMetrics {
   std::int64_t step = 0;                      ///< number of the step that this row ends, from 1
   double wall_ms = 0;                         ///< CPU: steady clock; CUDA: device events over the frame, divided by its steps
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
-  std::int64_t broad_phases = 0;              ///< tree refits or rebuilds followed by a query
-  std::int64_t discrete_detections = 0, continuous_detections = 0;
+  std::int64_t broad_phases = 0;              ///< trees brought up to date (built or refitted) and asked for all pairs once
+  std::int64_t discrete_detections = 0;       ///< contacts, distances or intersections of all pairs found at one state
+  std::int64_t continuous_detections = 0;     ///< the first contact of all pairs, or of the active ones, found along one motion
   std::int64_t guess_rounds = 0, iterations = 0;
   std::int64_t vertices_at_bound = 0;         ///< cut in the last iteration
   double share_at_bound = 0;                  ///< vertices_at_bound / K
@@ -69,6 +71,7 @@ struct StepMetrics {
   double smallest_distance = 0;               ///< smallest d_min at the last detection (r_q where nothing is near) [m]
   std::int64_t repeats = 0;                   ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
+  std::vector<std::string> notes;             ///< what the solver ran into, by name, and how it went on; shown to the user, not in steps.csv
   std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
   std::vector<double> stage_ms;               ///< with profile: time by stage, in the order of Simulation::stage_names()
 };

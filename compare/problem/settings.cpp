@@ -18,8 +18,10 @@ constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
 constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
 constexpr std::array<std::string_view, 5> activation_names{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
+constexpr std::array<std::string_view, 2> adaptation_names{"distance", "gap"};
+constexpr std::array<std::string_view, 2> stopping_names{"displacement", "velocity"};
 
-constexpr std::array<SettingInfo, 19> table{{
+constexpr std::array<SettingInfo, 28> table{{
     {"time_step", "s", "h", 0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "steps of the run", 0, most_count, &Settings::steps},
     {"iterations", "1", "sweeps a step", 1, most_count, &Settings::iterations},
@@ -38,6 +40,15 @@ constexpr std::array<SettingInfo, 19> table{{
     {"friction_solves", "1", "Newton: solves a step, each with friction lagged to the one before", 1, 1 << 20, &Settings::friction_solves},
     {"projection", "1", "Newton: what becomes of negative eigenvalues of a stencil's Hessian", 0, 2, &Settings::projection, projection_names},
     {"activation", "1", "Newton: contact energy over distance", 0, 4, &Settings::activation, activation_names},
+    {"ipc_distance", "m", "IPC: barrier distance; 0: by ipc_relative_distance", 0, most_length, &Settings::ipc_distance},
+    {"ipc_relative_distance", "1", "IPC: barrier distance in diagonals of the rest box", least_length, 1, &Settings::ipc_relative_distance},
+    {"ipc_thickness", "m", "IPC: the distance that surfaces keep at least", 0, most_length, &Settings::ipc_thickness},
+    {"ipc_stiffness", "J/m⁴", "IPC: fixed stiffness of the barrier; 0: adaptive", 0, 0x1p120, &Settings::ipc_stiffness},
+    {"ipc_adaptation", "1", "IPC: by what the stiffness adapts", 0, 1, &Settings::ipc_adaptation, adaptation_names},
+    {"ipc_stopping", "1", "IPC: which rule ends a step", 0, 1, &Settings::ipc_stopping, stopping_names},
+    {"ipc_tolerance", "1/s", "IPC, displacement: in diagonals of the rest box a second; 0: all iterations are done", 0, 0x1p10, &Settings::ipc_tolerance},
+    {"ipc_velocity_tolerance", "m/s", "IPC, velocity: of the last three iterations; 0: all iterations are done", 0, 0x1p10, &Settings::ipc_velocity_tolerance},
+    {"ipc_iterations", "1", "IPC: iterations a step at most", 1, most_count, &Settings::ipc_iterations},
     {"seed", "1", "of whatever the scene draws at random", 0, most_seed, &Settings::seed},
 }};
 

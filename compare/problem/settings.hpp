@@ -15,6 +15,10 @@ namespace ogc::compare {
 enum class HessianProjection : std::int64_t { none, clamp, absolute };
 /// Contact energy over distance (method.md §4): Eq. 18 with Eq. 19 corrected, or one of the variants of the ablation.
 enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ipc_log, cubic };
+/// How IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by gaps, which a thickness leaves of them (Li et al. 2021).
+enum class IpcAdaptation : std::int64_t { distance, gap };
+/// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), or root mean square of ‖p_v‖/h of the last three iterations (2021).
+enum class IpcStopping : std::int64_t { displacement, velocity };
 
 struct Settings {
   double time_step = 0.01;                    ///< h [s]
@@ -35,6 +39,15 @@ struct Settings {
   std::int64_t friction_solves = 1;           ///< Newton: solves a step, each with friction lagged to the one before
   HessianProjection projection = HessianProjection::clamp;   ///< Newton: of each stencil's Hessian
   ContactActivation activation = ContactActivation::ogc;     ///< Newton: contact energy over distance
+  double ipc_distance = 0;                    ///< IPC: barrier distance d̂ [m]; 0: by ipc_relative_distance
+  double ipc_relative_distance = 1e-3;        ///< IPC: d̂ in units of the rest box's diagonal
+  double ipc_thickness = 0;                   ///< IPC: ξ, the distance that surfaces keep at least [m]
+  double ipc_stiffness = 0;                   ///< IPC: κ, fixed [J/m⁴]; 0: adaptive
+  IpcAdaptation ipc_adaptation = IpcAdaptation::distance;    ///< IPC: how κ adapts
+  IpcStopping ipc_stopping = IpcStopping::displacement;      ///< IPC: which of the two rules ends a step
+  double ipc_tolerance = 1e-2;                ///< IPC, `displacement`: in diagonals of the rest box a second [1/s]; 0: all iterations are done
+  double ipc_velocity_tolerance = 1e-3;       ///< IPC, `velocity` [m/s]; 0: all iterations are done
+  std::int64_t ipc_iterations = 10000;        ///< IPC: iterations a step at most; the step then ends where it is, as in the published codes
   std::int64_t seed = 0;                      ///< of whatever the scene draws at random
   friend bool operator==(const Settings&, const Settings&) = default;
 };
@@ -43,7 +56,9 @@ struct Settings {
 struct SettingInfo {
   std::string_view name, unit, meaning;
   double minimum, maximum;  ///< inclusive
-  std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*, ContactActivation Settings::*> field;
+  std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*, ContactActivation Settings::*, IpcAdaptation Settings::*,
+               IpcStopping Settings::*>
+      field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };
 

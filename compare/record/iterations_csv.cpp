@@ -14,7 +14,7 @@ struct IterationColumn {
   std::variant<double IterationMetrics::*, std::int64_t IterationMetrics::*> field;
 };
 
-constexpr std::array<IterationColumn, 10> columns{{
+constexpr std::array<IterationColumn, 13> columns{{
     {"step [1]", &IterationMetrics::step},
     {"iteration [1]", &IterationMetrics::iteration},
     {"wall [ms]", &IterationMetrics::wall_ms},
@@ -25,6 +25,9 @@ constexpr std::array<IterationColumn, 10> columns{{
     {"vertices_at_bound [1]", &IterationMetrics::vertices_at_bound},
     {"detected [1]", &IterationMetrics::detected},
     {"condition_number [1]", &IterationMetrics::condition_number},
+    {"broad_phases [1]", &IterationMetrics::broad_phases},
+    {"discrete_detections [1]", &IterationMetrics::discrete_detections},
+    {"continuous_detections [1]", &IterationMetrics::continuous_detections},
 }};
 
 std::string text_of(double value) { return value != value ? "nan" : shortest(value); }

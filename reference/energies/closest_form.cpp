@@ -67,17 +67,22 @@ bool parallel_rule(const Corners& x, ClosestForm& form) {
 
 ClosestForm edge_edge(const Corners& x) {
   ClosestForm form;
-  if (parallel_rule(x, form)) return form;
+  return parallel_rule(x, form) ? form : closest_edges(x);
+}
+
+}  // namespace
+
+/// Below an angle of 2⁻²⁰ the normal has lost so many bits to rounding that the distance of the lines means nothing: that from the nearest end differs from
+/// the true one by 2⁻²⁰ of a length at most, across the normal.
+ClosestForm closest_edges(const Corners& x) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], w = x[2] - x[0], normal = cross(u, v);
   const double area = dot(normal, normal), s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);
-  if (area > 0 && s > 0 && s < area && t > 0 && t < area)
+  if (area > 0x1p-40 * dot(u, u) * dot(v, v) && s > 0 && s < area && t > 0 && t < area)
     return {FormKind::lines, {0, 1, 2, 3}, {1 - s / area, s / area, t / area - 1, -t / area}};
   const ClosestForm a = point_segment(x, 0, 2, 3), b = point_segment(x, 1, 2, 3);
   const ClosestForm c = negated(point_segment(x, 2, 0, 1)), d = negated(point_segment(x, 3, 0, 1));
   return nearer(nearer(a, b, x), nearer(c, d, x), x);
 }
-
-}  // namespace
 
 ClosestForm closest_form(compare::ContactSides sides, const Corners& x) {
   switch (sides) {

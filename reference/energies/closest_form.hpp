@@ -28,6 +28,8 @@ struct ClosestForm {
 
 /// A collapsed edge or triangle counts as the lower face that holds the closest point.
 ClosestForm closest_form(compare::ContactSides sides, const std::array<Triple<double>, 4>& x);
+/// Of two edges without the rule for nearly parallel ones: never `fixed_weights`.
+ClosestForm closest_edges(const std::array<Triple<double>, 4>& x);
 
 /// Σ w_i x_i, the vector from the second contact point to the first.
 template <class T, std::size_t N>

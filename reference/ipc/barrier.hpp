@@ -1,0 +1,80 @@
+// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), once, over any number type. It is a function of the squared
+// distance D: polynomial in the vertices' coordinates, or a quotient of two such, where the distance itself has a root. With a thickness ξ the gap D − ξ² takes
+// the place of D, and 2 ξ d̂ + d̂² that of d̂²: the barrier then acts for ξ < d < ξ + d̂.
+#pragma once
+
+#include <cmath>
+
+#include "reference/energies/closest_form.hpp"
+#include "reference/energies/mollifier.hpp"
+#include "reference/energies/second.hpp"
+
+namespace ogc::reference {
+
+/// d̂ and ξ [m].
+struct BarrierShape {
+  double distance = 0, thickness = 0;
+  double reach() const { return thickness + distance; }                              ///< from here on there is no energy [m]
+  double support() const { return distance * (distance + 2 * thickness); }           ///< H [m²]
+  double gap(double squared_distance) const { return squared_distance - thickness * thickness; }  ///< of D − ξ² [m²]
+};
+
+/// b(g) = −(g − H)² ln(g/H) [m⁴] for a gap 0 < g < H [m²]; 0 from H on.
+template <class T>
+T barrier(const T& gap, double support) {
+  using std::log;
+  if (plain(gap) >= support) return T(0.0);
+  const T depth = gap - T(support);
+  return -(depth * depth * log(1 / support * gap));
+}
+
+/// b, b' and b'' at a gap [m⁴, m², 1].
+Second<1> barrier_slopes(double gap, double support);
+
+/// The squared distance of a form's points, lines or planes [m²]; the form must not be `fixed_weights`.
+template <class T, std::size_t N>
+T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>& x) {
+  const auto at = [&](std::size_t place) -> const Triple<T>& { return x[form.at[place]]; };
+  if (form.kind == FormKind::points) {
+    const Triple<T> apart = at(0) - at(1);
+    return dot(apart, apart);
+  }
+  if (form.kind == FormKind::point_line) {
+    const Triple<T> edge = at(2) - at(1), normal = cross(edge, at(0) - at(1));
+    return dot(normal, normal) / dot(edge, edge);
+  }
+  const bool plane = form.kind == FormKind::point_plane;
+  const Triple<T> normal = plane ? cross(at(2) - at(1), at(3) - at(1)) : cross(at(1) - at(0), at(3) - at(2));
+  const T height = dot(normal, plane ? at(0) - at(1) : at(2) - at(0));
+  return height * height / dot(normal, normal);
+}
+
+/// One barrier: w e_k b(D − ξ²), to be multiplied by κ.
+struct BarrierTerm {
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< of the form's places; those that it lacks are −1
+  std::uint8_t count = 0;                                ///< of vertices
+  ClosestForm form;                                      ///< the closest points, weights by vertex
+  double weight = 1;                                     ///< how many pairs of primitives have this very distance
+  double rest_squared = 0;                               ///< ‖ē‖²‖ē'‖² of two edges that are mollified [m⁴]; 0: e_k = 1
+
+  /// [m⁴]
+  template <class T, std::size_t N>
+  T energy(const BarrierShape& shape, const std::array<Triple<T>, N>& x) const {
+    const T gap = squared_form_distance(form, x) - T(shape.thickness * shape.thickness);
+    const Second<1> slopes = barrier_slopes(plain(gap), shape.support());
+    const T value = weight * composed_energy(slopes, gap);
+    if constexpr (N == 4) {
+      if (rest_squared > 0) return value * Mollifier<T>(x[1] - x[0], x[3] - x[2], T(rest_squared), T(1.0)).value();
+    }
+    return value;
+  }
+
+ private:
+  static double composed_energy(const Second<1>& slopes, double) { return slopes.value; }
+  template <std::size_t N>
+  static Second<N> composed_energy(const Second<1>& slopes, const Second<N>& gap) {
+    return composed(slopes.value, slopes.slope[0], slopes.bend[0], gap);
+  }
+};
+
+}  // namespace ogc::reference

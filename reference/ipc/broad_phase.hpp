@@ -1,0 +1,58 @@
+// Culling by boxes. A box that holds the two ends of a straight way of a primitive holds all in between.
+#pragma once
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+#include "reference/geometry/blocks.hpp"
+#include "reference/geometry/box_tree.hpp"
+#include "reference/solvers/newton_potential.hpp"
+
+namespace ogc::reference {
+
+/// Of the way of one primitive, given by its vertices, wider by `margin` [m].
+template <class Vertices>
+Box swept_box(const Vertices& vertices, const State& from, const State& to, double margin) {
+  Box box;
+  for (const compare::Index v : vertices)
+    for (const State* x : {&from, &to})
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double c = (*x)[static_cast<std::size_t>(v)][axis];
+        box.low[axis] = std::min(box.low[axis], c);
+        box.high[axis] = std::max(box.high[axis], c);
+      }
+  return widened(box, margin);
+}
+
+template <class Primitives>
+std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, const State& to, double margin) {
+  std::vector<Box> boxes(primitives.size());
+  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) { boxes[i] = swept_box(primitives[i], from, to, margin); });
+  return boxes;
+}
+
+/// Whether two primitives are a pair at all: no shared vertex, not inside one rigid group.
+template <class First, class Second>
+bool is_pair(const std::vector<compare::Index>& groups, const First& first, const Second& second) {
+  return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() && !in_one_group(groups, first, second);
+}
+
+/// What `count` queries find, ascending if each `query(i, found)` appends items that begin with i. Threads change nothing.
+template <class Item, class Query>
+std::vector<Item> found_by(std::size_t count, Query query) {
+  constexpr std::size_t grain = 256;
+  std::vector<std::vector<Item>> parts((count + grain - 1) / grain);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) {
+      const auto begin = static_cast<std::ptrdiff_t>(parts[part].size());
+      query(static_cast<compare::Index>(i), parts[part]);
+      std::sort(parts[part].begin() + begin, parts[part].end());
+    }
+  });
+  std::vector<Item> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,163 @@
+#include "reference/ipc/pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include "reference/ipc/broad_phase.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::ContactSides;
+using compare::Index;
+using compare::Topology;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// The places of a form as a term of its own: its vertices in an order that depends on them alone, so that equal terms compare equal.
+BarrierTerm lone_term(const ClosestForm& form, const std::array<Index, 4>& vertex) {
+  BarrierTerm term;
+  term.count = form.kind == FormKind::points ? 2 : form.kind == FormKind::point_line ? 3 : 4;
+  std::array<std::uint8_t, 4> place{form.at};
+  const std::size_t first = term.count == 3 ? 1 : 0;
+  if (term.count < 4 && vertex[place[first]] > vertex[place[first + 1]]) std::swap(place[first], place[first + 1]);
+  term.form.kind = form.kind;
+  for (std::uint8_t k = 0; k < term.count; ++k) {
+    term.form.at[k] = k;
+    term.vertex[k] = vertex[place[k]];
+    term.form.weight[k] = form.weight[place[k]];
+  }
+  return term;
+}
+
+/// Squared distance and term of a pair.
+struct Measured {
+  double squared = 0;
+  ClosestForm form;
+  std::array<Index, 4> vertex;
+  std::array<Triple<double>, 4> corners;
+};
+
+Measured measured(const Topology& topology, const PrimitivePair& pair, const State& x) {
+  Measured m;
+  m.vertex = vertices_of(topology, pair);
+  m.corners = corners_of(m.vertex, x);
+  m.form = pair.sides == ContactSides::edge_edge ? closest_edges(m.corners) : closest_form(pair.sides, m.corners);
+  m.squared = squared_form_distance(m.form, m.corners);
+  return m;
+}
+
+BarrierTerm term_of(const PairMesh& mesh, const PrimitivePair& pair, const Measured& m) {
+  if (pair.sides == ContactSides::edge_edge) {
+    const double rest = double{mesh.edge_length_squared[at(pair.first)]} * double{mesh.edge_length_squared[at(pair.second)]};
+    if (Mollifier<double>(m.corners[1] - m.corners[0], m.corners[3] - m.corners[2], rest, 1).acts()) {
+      BarrierTerm term{m.vertex, 4, m.form, 1, rest};
+      return term;
+    }
+  }
+  return lone_term(m.form, m.vertex);
+}
+
+auto order_of(const BarrierTerm& term) { return std::tie(term.count, term.vertex); }
+
+/// Points and points with edges of several pairs become one term. Sums of the same number of ones: order does not matter.
+void merge(std::vector<BarrierTerm>& terms) {
+  const auto mergeable = std::stable_partition(terms.begin(), terms.end(), [](const BarrierTerm& term) { return term.count == 4; });
+  std::sort(mergeable, terms.end(), [](const BarrierTerm& a, const BarrierTerm& b) { return order_of(a) < order_of(b); });
+  auto kept = mergeable;
+  for (auto next = mergeable; next != terms.end(); ++next) {
+    if (kept != next && order_of(*kept) == order_of(*next)) {
+      kept->weight += next->weight;
+    } else if (next != mergeable) {
+      *++kept = *next;
+    }
+  }
+  if (mergeable != terms.end()) terms.erase(kept + 1, terms.end());
+}
+
+}  // namespace
+
+std::array<Index, 4> vertices_of(const Topology& topology, const PrimitivePair& pair) {
+  if (pair.sides == ContactSides::edge_edge) {
+    const compare::Edge &e = topology.edges[at(pair.first)], &f = topology.edges[at(pair.second)];
+    return {e[0], e[1], f[0], f[1]};
+  }
+  const compare::Triangle& t = topology.triangles[at(pair.second)];
+  return {pair.first, t[0], t[1], t[2]};
+}
+
+std::string describe(const Topology& topology, const PrimitivePair& pair) {
+  const auto v = vertices_of(topology, pair);
+  const auto number = [](Index i) { return std::to_string(i); };
+  if (pair.sides == ContactSides::edge_edge)
+    return "edge " + number(pair.first) + " (vertices " + number(v[0]) + ", " + number(v[1]) + ") and edge " + number(pair.second) + " (vertices " +
+           number(v[2]) + ", " + number(v[3]) + ")";
+  return "vertex " + number(v[0]) + " and triangle " + number(pair.second) + " (vertices " + number(v[1]) + ", " + number(v[2]) + ", " + number(v[3]) + ")";
+}
+
+std::array<Triple<double>, 4> corners_of(const std::array<Index, 4>& vertex, const State& x) {
+  std::array<Triple<double>, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) corners[k] = x[at(vertex[k])];
+  return corners;
+}
+
+std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, const State& to, double distance) {
+  const Topology& topology = mesh.topology;
+  const auto boxes_of = [&](const auto& primitives) { return swept_boxes(primitives, from, to, distance / 2); };
+  const BoxTree triangles(boxes_of(topology.triangles));
+  const auto facets = found_by<PrimitivePair>(from.size(), [&](Index v, std::vector<PrimitivePair>& found) {
+    const std::array<Index, 1> vertex{v};
+    triangles.query(swept_box(vertex, from, to, distance / 2), [&](Index t) {
+      if (is_pair(mesh.groups, vertex, topology.triangles[at(t)])) found.push_back({ContactSides::point_triangle, v, t});
+    });
+  });
+  const std::vector<Box> edge_boxes = boxes_of(topology.edges);
+  const BoxTree edges(edge_boxes);
+  std::vector<PrimitivePair> pairs = found_by<PrimitivePair>(edge_boxes.size(), [&](Index e, std::vector<PrimitivePair>& found) {
+    edges.query(edge_boxes[at(e)], [&](Index f) {
+      if (e < f && is_pair(mesh.groups, topology.edges[at(e)], topology.edges[at(f)])) found.push_back({ContactSides::edge_edge, e, f});
+    });
+  });
+  pairs.insert(pairs.end(), facets.begin(), facets.end());
+  return pairs;
+}
+
+BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs, const State& x) {
+  struct Part {
+    BarrierSet set;
+    double squared = std::numeric_limits<double>::infinity();
+  };
+  constexpr std::size_t grain = 512;
+  std::vector<Part> parts((pairs.size() + grain - 1) / grain);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    Part& part = parts[p];
+    for (std::size_t i = p * grain; i < std::min(pairs.size(), (p + 1) * grain); ++i) {
+      const Measured m = measured(mesh.topology, pairs[i], x);
+      const double gap = shape.gap(m.squared);
+      if (!(gap < shape.support())) continue;
+      if (m.squared < part.squared) part.squared = m.squared, part.set.closest = pairs[i];
+      if (gap <= 0) {
+        part.set.touching.push_back(pairs[i]);
+        continue;
+      }
+      part.set.active.push_back(pairs[i]);
+      part.set.terms.push_back(term_of(mesh, pairs[i], m));
+    }
+  });
+  BarrierSet all;
+  double squared = std::numeric_limits<double>::infinity();
+  for (Part& part : parts) {
+    all.terms.insert(all.terms.end(), part.set.terms.begin(), part.set.terms.end());
+    all.active.insert(all.active.end(), part.set.active.begin(), part.set.active.end());
+    all.touching.insert(all.touching.end(), part.set.touching.begin(), part.set.touching.end());
+    if (part.squared < squared) squared = part.squared, all.closest = part.set.closest;
+  }
+  all.smallest = std::min(shape.reach(), std::sqrt(squared));
+  merge(all.terms);
+  return all;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,50 @@
+// Which pairs of primitives can meet, and which of them a barrier acts on. One broad phase serves everything that is asked about one motion: its boxes hold the
+// whole way of each primitive, widened by d̂, so that the pairs found are those of a continuous detection and, filtered, those of every state on the way.
+#pragma once
+
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+#include "reference/ipc/barrier.hpp"
+#include "reference/solvers/newton_potential.hpp"
+
+namespace ogc::reference {
+
+/// A vertex and a triangle, or two edges, the lower number first.
+struct PrimitivePair {
+  compare::ContactSides sides = compare::ContactSides::point_triangle;
+  compare::Index first = -1, second = -1;
+  friend auto operator<=>(const PrimitivePair&, const PrimitivePair&) = default;
+};
+
+/// What the pairs are made of: everything that does not move. All of it must outlive the user.
+struct PairMesh {
+  const compare::Topology& topology;
+  const std::vector<compare::Index>& groups;  ///< rigid groups, by vertex (compare::rigid_groups)
+  const std::vector<float>& edge_length_squared;  ///< ‖ē‖² [m²]
+};
+
+/// Of the pair's places: vertex | triangle, or edge | edge.
+std::array<compare::Index, 4> vertices_of(const compare::Topology& topology, const PrimitivePair& pair);
+/// What `values` holds for four vertices.
+std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& vertex, const State& values);
+/// "vertex 3 and triangle 7 (vertices 4, 5, 6)"
+std::string describe(const compare::Topology& topology, const PrimitivePair& pair);
+
+/// All pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of each other on the straight ways from `from` to
+/// `to`: each box holds its primitive's whole way. Ascending; threads change nothing.
+std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, const State& to, double distance);
+
+/// Barriers at one state.
+struct BarrierSet {
+  std::vector<BarrierTerm> terms;       ///< pairs with the same closest vertices and edges merged into one, their number its weight
+  std::vector<PrimitivePair> active;    ///< the pairs with 0 < gap < H, before merging
+  double smallest = 0;                  ///< smallest distance among them, or ξ + d̂ where there is none [m]
+  PrimitivePair closest;                ///< which has it
+  std::vector<PrimitivePair> touching;  ///< pairs without a gap: no barrier can act on them
+};
+
+/// Among `pairs` at x.
+BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs, const State& x);
+
+}  // namespace ogc::reference
