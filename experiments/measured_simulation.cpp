@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "compare/problem/error.hpp"
 #include "reference/contestant.hpp"
 
 namespace ogc::experiments {
@@ -109,8 +108,6 @@ class MeasuredSimulation : public compare::Simulation {
 compare::Contestant measured(compare::Contestant contestant, bool iterations) {
   compare::Contestant result = contestant;
   result.start = [start = contestant.start, step = contestant.step, iterations](const compare::Scene& scene, const compare::SimulationOptions& options) {
-    if (iterations && !scene.motions.empty())
-      throw compare::InputError("--iterations with this solver needs a scene without prescribed motions; take --residual, or --solver reference_vbd");
     return std::make_unique<MeasuredSimulation>(scene, start(scene, options), iterations ? step : nullptr);
   };
   return result;

@@ -98,6 +98,8 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   RunRequest request;
   request.scene = load_scene(options, request.scale);
   apply_settings(request.scene.settings, options);
+  if (options.solver == "vbd" && options.iterations && !request.scene.motions.empty())
+    throw compare::InputError("--iterations with --solver vbd needs a scene without prescribed motions; take --residual, or --solver reference_vbd");
   request.solver = options.solver;
   request.backend = options.backend;
   request.iterations = options.iterations || options.condition;

@@ -56,7 +56,7 @@ compare::Scene fifty_layers_1m_at(Scale scale) {
 
 compare::Scene three_cloths_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 20});
+    case Scale::smoke: return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 24});
     case Scale::small: return three_cloths_on_sphere({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 40});
     case Scale::paper: break;
   }

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -150,7 +151,10 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails("twist --scale smoke --steps 0", {"--steps"});
   fails("twist --scale smoke --solver ipc", {"ipc", "not exist yet", "vbd", "newton"});
   fails("twist --scale smoke --solver newton --backend cuda", {"newton", "CPU"});
-  fails("twist --scale smoke --iterations", {"--iterations", "newton"});
+  fails("twist --scale smoke --iterations", {"--iterations", "prescribed", "reference_vbd"});
+  fails("twist --scale smoke --condition", {"--condition", "newton"});
+  fails("twist --scale smoke --solver newton --residual", {"--residual"});
+  fails("twist --scale smoke --solver reference_vbd --backend cuda", {"reference_vbd", "CPU"});
   fails("twist --scale smoke --solver newton --set activation=barrier", {"activation", "ipc_log"});
   fails("twist --scale smoke --solver magic", {"--solver"});
   fails((folder / "missing.json").string(), {"missing.json"});
@@ -178,6 +182,41 @@ TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee
   std::getline(iterations, first);
   CHECK(header.find("residual [1]") != std::string::npos);
   CHECK(first.find("nan") == std::string::npos);  // the condition number is there
+}
+
+TEST_CASE("vbd in single and in double record their residual over iterations, and come down together as far as storing single-precision positions lets them", "[figure]") {
+  const TemporaryFolder folder;
+  std::vector<double> last;
+  for (const char* solver : {"vbd", "reference_vbd"}) {
+    const std::string run = (folder / solver).string();
+    const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --steps 9 --set iterations=60 --set redetect_fraction=0 --set redetect_every=5 --audit end "
+                                         "--iterations --profile --solver " + std::string(solver) + " --out " + run);
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const compare::StepMetrics row = compare::read_steps(run).rows.back();
+    CHECK(row.residual < 1e-3);
+    last.push_back(row.residual);
+    std::ifstream file(folder / solver / "iterations.csv");
+    std::string line;
+    std::int64_t rows = 0, detections = 0;
+    while (std::getline(file, line)) {
+      if (!line.starts_with("9,")) continue;
+      ++rows;
+      detections += line.substr(0, line.rfind(',')).ends_with(",1");
+    }
+    CHECK(rows == 61);
+    CHECK(detections >= 11);
+  }
+  CHECK(last[1] < last[0]);
+}
+
+TEST_CASE("the option --residual fills the residual of steps.csv and changes no bit", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string options = "twist --scale smoke --steps 4 --audit off --out ";
+  const nlohmann::json plain = run(options + (folder / "plain").string()), with = run("--residual " + options + (folder / "with").string());
+  CHECK(plain.at("final_hash") == with.at("final_hash"));
+  for (const compare::StepMetrics& row : compare::read_steps(folder / "plain").rows) CHECK(std::isnan(row.residual));
+  for (const compare::StepMetrics& row : compare::read_steps(folder / "with").rows) CHECK((row.residual > 0 && row.residual < 1));
 }
 
 TEST_CASE("a step of Newton's that does not converge exits 1, says what to do and keeps the state before it", "[unit]") {

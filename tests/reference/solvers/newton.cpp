@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <tbb/global_control.h>
 
 #include "reference/solvers/newton_solver.hpp"
+#include "reference/solvers/residual.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 
@@ -209,6 +211,56 @@ TEST_CASE("Newton: a step that can't converge says so, keeps the state before it
   CHECK(rows.back().status == compare::step_not_converged);
   CHECK(simulation->snapshot().step == rows.back().step - 1);
   CHECK(simulation->advance(3).size() == 1);
+}
+
+TEST_CASE("Newton: a number that is not finite ends the step and keeps the state before it", "[unit]") {
+  compare::Scene scene = drop_scene();
+  scene.bodies[0].material.lame_mu = std::numeric_limits<double>::quiet_NaN();  // validate refuses it; a solver must end all the same
+  const auto simulation = reference::start_newton(scene, {});
+  const auto rows = simulation->advance(3);
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].status == compare::step_not_finite);
+  CHECK(simulation->snapshot().step == 0);
+  CHECK(simulation->snapshot().positions == compare::to_single(scene.mesh.positions));
+}
+
+TEST_CASE("Newton stops by the length of its steps where no residual is asked for", "[unit]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.newton_tolerance = 0;
+  scene.settings.newton_step_tolerance = 1e-3;
+  const Run result = run(scene, 6);
+  REQUIRE(clean(result));
+  for (const compare::StepMetrics& row : result.rows) {
+    CHECK(row.iterations < scene.settings.newton_iterations);
+    for (std::size_t i = 0; i + 1 < row.iteration_rows.size(); ++i) {
+      const compare::IterationMetrics& iteration = row.iteration_rows[i];
+      const bool small = iteration.largest_change <= 1e-3 * scene.settings.time_step && iteration.vertices_at_bound == 0;
+      CHECK(small == (iteration.iteration + 1 == row.iterations));
+    }
+  }
+}
+
+TEST_CASE("Newton: friction solves go on until one changes nothing, and end with friction lagged to the state itself", "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.newton_tolerance = 1e-8;
+  scene.settings.newton_iterations = 2000;
+  scene.settings.friction_solves = 200;
+  round_to_single(scene);
+  const Run result = run(scene, 2);
+  REQUIRE(clean(result));
+  REQUIRE(result.rows[1].residual <= 1e-8);
+  const Run before = run(scene, 1);
+  reference::ResidualMeter meter(scene);
+  meter.begin_step(before.end.positions, before.end.velocities, 2);
+  const double settled = meter.at(result.end.positions).share;
+  scene.settings.friction_solves = 1;
+  const auto once = reference::start_newton(scene, {});
+  once->restore(before.end);
+  once->advance(1);
+  const double lagged = meter.at(once->snapshot().positions).share;
+  // What is left is the storing of positions; friction of the step before is another force.
+  CHECK(settled < 1e-4);
+  CHECK(lagged > 10 * settled);
 }
 
 TEST_CASE("Newton without projection reports a matrix that is not positive definite", "[unit]") {

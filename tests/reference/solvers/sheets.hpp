@@ -25,6 +25,22 @@ inline void add_sheet(compare::Scene& scene, compare::Index n, double side, doub
   append_body(scene, {.name = "sheet_" + std::to_string(scene.bodies.size()), .fixed = fixed, .material = material}, sheet_mesh(n, side, height));
 }
 
+/// A free sheet 4 mm above a fixed one, askew and falling: contacts of all kinds from the first step on.
+inline compare::Scene two_sheets() {
+  compare::Scene scene;
+  scene.name = "two_sheets";
+  compare::Material material;
+  material.bending_damping = material.membrane_damping = 2e-6;
+  add_sheet(scene, 6, 0.05, 4e-3, false, material);
+  add_sheet(scene, 5, 0.07, 0, true, material);
+  for (std::size_t v = 0; v < 36; ++v) {
+    compare::Vec3& x = scene.mesh.positions[v];
+    x.y += 0.02 * x.x - 0.03 * x.z;
+    scene.velocities[v] = {0.05, -0.1, 0.02};
+  }
+  return scene;
+}
+
 /// A single triangle, 1 cm wide, `height` above the inside of a fixed one, 2 m wide: three contacts of a vertex with a plane, and nothing else.
 inline compare::Scene triangle_on_plane(double height, const compare::Material& material) {
   compare::Scene scene;

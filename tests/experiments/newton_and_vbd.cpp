@@ -1,0 +1,186 @@
+// Newton, VBD in double and VBD in single precision, asked for the same step: procedural scenes in which a free sheet is pressed onto another one, free or fixed,
+// friction and damping included.
+//
+// Where a step has one solution, x* with f(x*) = 0 and a Hessian of at least m/(2h²) between the two states, each solver is within 2 h²/m ‖f(x)‖ of it, f(x) the
+// force that is left where it stopped. For this both is checked: the Hessian without half of the inertia has a Cholesky factorisation, and no decision about a
+// contact is within rounding of an open boundary, where OGC's force jumps: no decision of the exact detection is grey at either end, and both ends have the same
+// contacts (a VBD that steps back and forth over a boundary for ever ends with others). Elsewhere energies and residuals are compared.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "fast/contestant.hpp"
+#include "reference/contestant.hpp"
+#include "reference/geometry/detect_edge_edge.hpp"
+#include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/solvers/newton_factor.hpp"
+#include "tests/catch.hpp"
+#include "tests/reference/solvers/sheets.hpp"
+
+using namespace ogc;
+using compare::Vec3f;
+
+namespace {
+
+/// A number in [−1, 1) that depends on the scene and on what it is for.
+double draw(int scene, int use) {
+  const double x = std::sin(12.9898 * (scene + 1) + 78.233 * (use + 1)) * 43758.5453;
+  return 2 * (x - std::floor(x)) - 1;
+}
+
+compare::Scene pressed_sheets(int number) {
+  compare::Scene scene;
+  scene.name = "pressed_" + std::to_string(number);
+  compare::Material material;
+  material.membrane_damping = material.bending_damping = 2e-6;
+  material.contact_stiffness = 10;
+  material.friction = 0.25 * (1 + draw(number, 0));
+  const bool fixed = number % 3 != 0;
+  tests::add_sheet(scene, 4 + number % 3, 0.04, 4.2e-3 + 5e-4 * draw(number, 1), false, material);
+  tests::add_sheet(scene, 4 + number % 2, 0.06, 0, fixed, material);
+  const double turn = 1.5 * draw(number, 2), c = std::cos(turn), s = std::sin(turn);
+  for (std::size_t v = 0; v < static_cast<std::size_t>(scene.bodies[0].vertex_count); ++v) {
+    compare::Vec3& x = scene.mesh.positions[v];
+    x = {c * x.x - s * x.z + 5e-3 * draw(number, 3), x.y + 0.02 * draw(number, 4) * x.x + 0.02 * draw(number, 5) * x.z, s * x.x + c * x.z + 5e-3 * draw(number, 6)};
+    scene.velocities[v] = {0.05 * draw(number, 7), -0.05, 0.05 * draw(number, 8)};
+  }
+  scene.settings.time_step = 1.0 / 400;
+  scene.settings.contact_radius = 5e-3;
+  scene.settings.redetect_fraction = 0;
+  scene.settings.redetect_every = 4;
+  scene.settings.iterations = 400;
+  scene.settings.newton_tolerance = 1e-9;
+  scene.settings.newton_iterations = 1000;
+  scene.settings.friction_solves = 200;
+  round_to_single(scene);
+  return scene;
+}
+
+std::vector<Vec3f> end_of_step(const compare::Contestant& contestant, const compare::Scene& scene) {
+  const auto simulation = contestant.start(scene, {});
+  const auto rows = simulation->advance(1);
+  REQUIRE(rows.size() == 1);
+  REQUIRE((rows[0].status & ~compare::step_list_grew) == 0);
+  return simulation->snapshot().positions;
+}
+
+/// What is known about a state.
+struct End {
+  std::vector<Vec3f> x;
+  reference::Residual residual;
+  compare::DetectVertexFacetTruth facets;
+  compare::DetectEdgeEdgeTruth edges;
+};
+
+class Pair {
+ public:
+  explicit Pair(const compare::Scene& scene)
+      : scene_(scene), topology_(build_topology(scene)), groups_(rigid_groups(scene)), meter_(scene), potential_(scene_, topology_) {
+    const std::vector<Vec3f> start = compare::to_single(scene.mesh.positions);
+    meter_.begin_step(start, compare::to_single(scene.velocities), 1);
+    start_energy_ = meter_.at(start).energy;
+  }
+
+  End end(std::vector<Vec3f> x) {
+    const reference::Residual residual = meter_.at(x);
+    const auto radius = static_cast<float>(scene_.settings.contact_radius);
+    const compare::DetectIn in{&topology_, groups_, x, radius, 1.5F * radius};
+    compare::DetectVertexFacetTruth facets = reference::detect_vertex_facet(in);
+    compare::DetectEdgeEdgeTruth edges = reference::detect_edge_edge(in);
+    return {std::move(x), residual, std::move(facets), std::move(edges)};
+  }
+
+  bool away_from_boundaries(const End& a, const End& b) const {
+    for (const End* end : {&a, &b})
+      if (!end->facets.grey.empty() || !end->edges.grey.empty()) return false;
+    return a.facets.exact.contacts == b.facets.exact.contacts && a.edges.exact.contacts == b.edges.exact.contacts;
+  }
+
+  /// Of the Hessian at the state less m/(2h²).
+  bool positive_definite(const End& end) {
+    const reference::State x = reference::widened(end.x), start = reference::widened(compare::to_single(scene_.mesh.positions));
+    potential_.begin_step(start, start);
+    potential_.set_contacts({end.facets.exact.contacts, end.edges.exact.contacts}, x);
+    potential_.lag_friction(x);
+    reference::BlockMatrix matrix(potential_.mobility());
+    matrix.set_stencils(potential_);
+    matrix.assemble(potential_, potential_.derivatives(x, compare::HessianProjection::none));
+    for (std::size_t row = 0; row < matrix.rows(); ++row)
+      matrix.values()[static_cast<std::size_t>(matrix.column_begin()[row])] -= potential_.inertia(matrix.free_vertices()[row / 3]) / 2;
+    reference::Factor factor;
+    factor.analyze(matrix);
+    return factor.factorize(matrix);
+  }
+
+  double start_energy() const { return start_energy_; }  ///< at xᵗ [J]
+
+  /// 2 h²/m Σ ‖f‖ of both, and what storing has moved each of them.
+  double farthest_apart(const End& a, const End& b) const {
+    double lightest = std::numeric_limits<double>::infinity(), largest = 0;
+    const auto free = static_cast<double>(potential_.free_count());
+    for (std::size_t v = 0; v < a.x.size(); ++v) {
+      if (potential_.mobility()[v] == reference::Mobility::free) lightest = std::min(lightest, potential_.inertia(v));
+      largest = std::max({largest, double{std::abs(a.x[v].x)}, double{std::abs(a.x[v].y)}, double{std::abs(a.x[v].z)}});
+    }
+    return 2 / lightest * free * (a.residual.force + b.residual.force) + 4 * compare::unit_roundoff * largest;
+  }
+
+ private:
+  compare::Scene scene_;
+  compare::Topology topology_;
+  std::vector<compare::Index> groups_;
+  reference::ResidualMeter meter_;
+  reference::Potential potential_;
+  double start_energy_ = 0;
+};
+
+double largest_distance(const End& a, const End& b) {
+  double largest = 0;
+  for (std::size_t v = 0; v < a.x.size(); ++v)
+    largest = std::max(largest, std::hypot(double{a.x[v].x} - b.x[v].x, double{a.x[v].y} - b.x[v].y, double{a.x[v].z} - b.x[v].z));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("Newton and VBD reach the same state on at least 20 of 24 scenes with contacts, wherever the step has one solution", "[agreement]") {
+  const compare::Contestant single = fast::contestant(fast::Backend::cpu), twice = reference::vbd([&](const compare::Scene& scene) {
+    compare::Scene once = scene;
+    once.settings.iterations = 1;
+    const compare::Topology topology = build_topology(once);
+    return single.step({&once, &topology}).colour;
+  });
+  std::map<std::string, int> same;
+  std::ostringstream elsewhere;
+  for (int number = 0; number < 24; ++number) {
+    const compare::Scene scene = pressed_sheets(number);
+    Pair pair(scene);
+    const End newton = pair.end(end_of_step(reference::newton(), scene));
+    CHECK(newton.residual.contacts > 10);
+    // What storing positions in single precision leaves of 10⁻⁹.
+    CHECK(newton.residual.share < 1e-5);
+    for (const compare::Contestant* vbd : {&single, &twice}) {
+      const End other = pair.end(end_of_step(*vbd, scene));
+      INFO(vbd->name << ", scene " << number << ": residuals " << newton.residual.share << ", " << other.residual.share);
+      if (pair.positive_definite(newton) && pair.away_from_boundaries(newton, other)) {
+        ++same[vbd->name];
+        CHECK(other.residual.share < 1e-5);
+        CHECK(largest_distance(newton, other) <= pair.farthest_apart(newton, other));
+        // The bound is far from tight: measured, single precision ends within 5 nm, a few roundings of coordinates of 3 cm.
+        CHECK(largest_distance(newton, other) <= 16 * compare::unit_roundoff * 0.03);
+      } else {
+        elsewhere << "\n  " << vbd->name << ", scene " << number << ": residual " << other.residual.share << " against " << newton.residual.share << ", energy "
+                  << other.residual.energy << " J against " << newton.residual.energy << " J, " << 1e3 * largest_distance(newton, other) << " mm apart";
+        CHECK(other.residual.share < 1);
+        CHECK(std::abs(other.residual.energy - newton.residual.energy) < pair.start_energy());
+      }
+    }
+  }
+  for (const auto& [name, count] : same) {
+    WARN(name << ": the same state in " << count << " of 24 scenes");
+    CHECK(count >= 20);
+  }
+  CHECK(same.size() == 2);
+  if (!elsewhere.str().empty()) WARN("elsewhere:" << elsewhere.str());
+}
