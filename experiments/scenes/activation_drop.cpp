@@ -1,8 +1,6 @@
 // Numbers: the paper's Table 1, a radius as in cloth_on_sphere. Iterations: as many as a step may need, since each ends at its tolerance.
 #include "experiments/scenes/activation_drop.hpp"
 
-#include <cmath>
-
 #include "experiments/scenes/cloth_on_sphere.hpp"
 #include "experiments/scenes/shapes.hpp"
 
@@ -11,9 +9,7 @@ namespace ogc::experiments {
 compare::Scene activation_drop(const ActivationDropSizes& sizes) {
   compare::Scene scene = cloth_on_sphere({sizes.vertices_a_side, sizes.sphere_subdivisions, sizes.steps});
   scene.name = "activation_drop";
-  const double largest_cell = 10.0 / (sizes.vertices_a_side - 1);  // ten cells of the cloth, so a hundred of its triangles
-  append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()},
-              grid(static_cast<compare::Index>(std::ceil(4 / largest_cell)) + 1, 4, -0.272));
+  append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()}, ground(sizes.vertices_a_side, -0.272));
   scene.settings.iterations = 500;
   scene.settings.redetect_fraction = 0;
   scene.settings.newton_iterations = 200;

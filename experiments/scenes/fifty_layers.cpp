@@ -1,8 +1,6 @@
 // Numbers: the paper's Table 1 and the authors' published parameters. The ground is a mesh, so that contact, bounds and audit need no special code.
 #include "experiments/scenes/fifty_layers.hpp"
 
-#include <cmath>
-
 #include "compare/judge/random.hpp"
 
 namespace ogc::experiments {
@@ -19,7 +17,7 @@ compare::Material cloth() {
   return material;
 }
 
-compare::Material ground() {
+compare::Material ground_material() {
   compare::Material material = cloth();
   material.friction = 0.3;
   return material;
@@ -40,13 +38,6 @@ compare::Mesh layer(const FiftyLayersSizes& sizes, compare::Index number) {
   return mesh;
 }
 
-/// 4 m × 4 m at y = −0.60 m: its cells have ten times the cloth's side at most, so its triangles a hundred times the area.
-compare::Mesh ground_mesh(compare::Index vertices_a_side) {
-  constexpr double side = 4, ratio = 10;
-  const double cells = side * (vertices_a_side - 1) / ratio;
-  return grid(static_cast<compare::Index>(std::ceil(cells)) + 1, side, -0.60);
-}
-
 }  // namespace
 
 compare::Scene fifty_layers(const FiftyLayersSizes& sizes) {
@@ -54,7 +45,7 @@ compare::Scene fifty_layers(const FiftyLayersSizes& sizes) {
   scene.name = sizes.name;
   for (compare::Index k = 0; k < sizes.layers; ++k) append_body(scene, {.name = "layer_" + std::to_string(k + 1), .material = cloth()}, layer(sizes, k));
   append_body(scene, {.name = "cylinder", .fixed = true, .material = cloth()}, cylinder(sizes.cylinder, 0.25, 0.5, {-0.18, 0, 0}));
-  append_body(scene, {.name = "ground", .fixed = true, .material = ground()}, ground_mesh(sizes.vertices_a_side));
+  append_body(scene, {.name = "ground", .fixed = true, .material = ground_material()}, ground(sizes.vertices_a_side, -0.60));
   scene.settings.time_step = 1.0 / 1200;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 40;

@@ -9,6 +9,7 @@
 #include "experiments/scenes/activation_drop.hpp"
 #include "experiments/scenes/cloth_on_sphere.hpp"
 #include "experiments/scenes/fifty_layers.hpp"
+#include "experiments/scenes/knot.hpp"
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
 #include "experiments/scenes/twist.hpp"
 
@@ -72,6 +73,15 @@ compare::Scene activation_drop_at(Scale scale) {
   return activation_drop();
 }
 
+compare::Scene knot_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return knot({.rows = 400, .columns = 5, .hold_steps = 20, .steps = 50});
+    case Scale::small: return knot({.rows = 1200, .columns = 10, .hold_steps = 150, .steps = 1350});
+    case Scale::paper: break;
+  }
+  return knot();
+}
+
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 150});
@@ -81,11 +91,12 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 6> table{{
+constexpr std::array<SceneInfo, 7> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence", activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
     {"fifty_layers", "Fig. 10, 1", "fifty square cloths fall off-centre onto a fixed cylinder", fifty_layers_at},
     {"fifty_layers_1m", "Table 1", "the same with a million vertices", fifty_layers_1m_at},
+    {"knot", "Fig. 11, 1", "a long strip with four overhand knots, pulled at both ends", knot_at},
     {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere", three_cloths_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
 }};

@@ -96,15 +96,27 @@ Mesh grid(Index count, double side, double height) {
   for (Index i = 0; i < count; ++i) {
     for (Index j = 0; j < count; ++j) mesh.positions.push_back({coordinate(i), height, coordinate(j)});
   }
-  for (Index i = 0; i + 1 < count; ++i) {
-    for (Index j = 0; j + 1 < count; ++j) {
-      const Index a = i * count + j, b = a + 1, c = a + count + 1, d = a + count;
+  mesh.triangles = cross_diagonals(count, count);
+  return mesh;
+}
+
+std::vector<Triangle> cross_diagonals(Index rows, Index columns) {
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i + 1 < rows; ++i) {
+    for (Index j = 0; j + 1 < columns; ++j) {
+      const Index a = i * columns + j, b = a + 1, c = a + columns + 1, d = a + columns;
       const bool even = (i + j) % 2 == 0;
-      mesh.triangles.push_back(even ? Triangle{a, b, c} : Triangle{a, b, d});
-      mesh.triangles.push_back(even ? Triangle{a, c, d} : Triangle{b, c, d});
+      triangles.push_back(even ? Triangle{a, b, c} : Triangle{a, b, d});
+      triangles.push_back(even ? Triangle{a, c, d} : Triangle{b, c, d});
     }
   }
-  return mesh;
+  return triangles;
+}
+
+Mesh ground(Index vertices_a_side, double height) {
+  constexpr double side = 4;
+  const double largest_cell = 10.0 / (vertices_a_side - 1);  // ten cells of the cloth, so a hundred of its triangles
+  return grid(static_cast<Index>(std::ceil(side / largest_cell)) + 1, side, height);
 }
 
 Mesh icosphere(int subdivisions, double radius, const Vec3& centre) {

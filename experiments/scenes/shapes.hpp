@@ -10,6 +10,12 @@ namespace ogc::experiments {
 /// along x, j along z; normals point up. `count` ≥ 2.
 compare::Mesh grid(compare::Index count, double side, double height);
 
+/// The triangles of such a sheet of `rows` × `columns` vertices; vertex (i, j) has number i · `columns` + j. Both ≥ 2.
+std::vector<compare::Triangle> cross_diagonals(compare::Index rows, compare::Index columns);
+
+/// 4 m × 4 m at `height` [m] for a cloth of 1 m with `vertices_a_side`: triangles at most a hundred times as large as the cloth's.
+compare::Mesh ground(compare::Index vertices_a_side, double height);
+
 /// Icosahedron whose triangles are split in four `subdivisions` times, with every vertex on the sphere; outward normals; 10 · 4ⁿ + 2 vertices.
 compare::Mesh icosphere(int subdivisions, double radius, const compare::Vec3& centre);
 

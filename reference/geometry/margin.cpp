@@ -226,11 +226,17 @@ double distance(const Margin& gap) {
 
 float distance_below(const Margin& gap) {
   const auto [low, high] = distance_interval(gap);
-  const float f = round_down(low);
-  const bool decided = f == round_down(high);
+  const float f = round_down(low), last = round_down(high), next = std::nextafter(f, last);
+  const bool adjacent = next == last;
+  if (f == last || !adjacent) {
+    count_filter(Filtered::distance_below, f != last);
+    return f == last ? f : settle_below(gap, round_down(distance(gap)));
+  }
+  // One number is in question, mostly because the distance is just that number.
+  const Margin about_next = with_radius(gap, next);
+  const std::optional<int> decided = interval_sign(about_next);
   count_filter(Filtered::distance_below, !decided);
-  if (decided) return f;
-  return settle_below(gap, round_down(distance(gap)));
+  return (decided ? *decided : exact_sign(about_next)) < 0 ? f : next;
 }
 
 bool scaled_distance_less(const Margin& gap, float scale, float b) {

@@ -47,10 +47,11 @@ TEST_CASE("filter_counts: threads that have ended and threads that run are all c
 TEST_CASE("filter_counts: distances are counted where they are rounded and where they are compared", "[unit]") {
   const auto before = reference::filter_counts();
   const auto gap = reference::gap_points({0, 0, 0}, {3, 4, 0});
-  CHECK(reference::distance_below(gap) == 5);  // the root is 5 exactly, but its interval reaches below
+  CHECK(reference::distance_below(gap) == 5);  // the root's interval reaches below 5, but 25 − 5² is a point
+  CHECK(reference::distance_below(reference::gap_line({0, 0, 0}, {0x1p30f, 1, 0}, {0x1p30f, 2, 0})) < 1);
   CHECK(reference::compare_distances(gap, reference::gap_points({1, 0, 0}, {7, 0, 0})) == -1);
   const auto counts = reference::filter_counts().since(before);
-  CHECK(counts[Filtered::distance_below].calls == 1);
+  CHECK(counts[Filtered::distance_below] == reference::FilterCount{2, 1});
   CHECK(counts[Filtered::nearer] == reference::FilterCount{1, 0});
 }
 

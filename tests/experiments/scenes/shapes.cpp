@@ -111,3 +111,12 @@ TEST_CASE("the paper's cylinder has 1,224 vertices, none of them a hair's breadt
   CHECK(cylinder({}, 0.25, 0.5, {}).positions.size() == 1224);
   CHECK(validate(cylinder({24, 2, 0}, 0.25, 0.5, {})).empty());
 }
+
+TEST_CASE("the ground's triangles have at most a hundred times the area of the cloth's", "[unit]") {
+  for (const Index count : {14, 28, 70, 141}) {
+    const Mesh mesh = ground(count, -0.60);
+    const double cloth_cell = 1.0 / (count - 1), ground_cell = 4.0 / (std::sqrt(static_cast<double>(mesh.positions.size())) - 1);
+    CHECK(ground_cell <= 10 * cloth_cell * (1 + 1e-12));
+    CHECK(mesh.positions.front() == Vec3{-2, -0.60, -2});
+  }
+}
