@@ -67,7 +67,7 @@ void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& optio
   command.add_option("--from-state", options->from_state, "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
   command.add_flag("--residual", options->residual, "With vbd, reference_vbd: the residual of Eq. 29 in steps.csv, measured beside the run (slow)");
-  command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration (slow but with newton: each row detects anew)");
+  command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration (slow with vbd and reference_vbd: each row detects anew)");
   command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
 }
@@ -88,13 +88,14 @@ std::string settings_help() {
 }
 
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
-  if (options.solver == "ipc" || options.solver == "penalty")
+  if (options.solver == "penalty")
     throw compare::InputError("--solver " + options.solver +
                               " does not exist yet; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact), "
-                              "reference_vbd (vbd in double, slow)");
+                              "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");
   if (options.solver != "vbd" && options.backend != "cpu") throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
   if (options.solver != "newton" && options.condition) throw compare::InputError("--condition belongs to --solver newton");
-  if (options.solver == "newton" && options.residual) throw compare::InputError("--solver newton knows its residual; leave --residual out");
+  if (options.residual && (options.solver == "newton" || options.solver == "ipc"))
+    throw compare::InputError("--solver " + options.solver + " has a measure of its own in that column; leave --residual out");
   RunRequest request;
   request.scene = load_scene(options, request.scale);
   apply_settings(request.scene.settings, options);
@@ -118,6 +119,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
 
 compare::Contestant contestant_of(const RunOptions& options) {
   if (options.solver == "newton") return reference::newton();
+  if (options.solver == "ipc") return reference::ipc();
   const compare::Contestant contestant =
       options.solver == "vbd" ? fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu) : reference::vbd(fast_colours);
   const bool has_rows = options.iterations && options.solver == "vbd";

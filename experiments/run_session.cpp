@@ -82,6 +82,8 @@ std::string step_failure(const StepMetrics& row) {
   if (row.status & compare::step_indefinite)
     return "Newton's matrix is not positive definite" + where +
            "; the last good state is kept. Set projection to clamp or absolute, or a smaller time_step";
+  if (row.status & compare::step_not_converged && !row.notes.empty())
+    return "the solver came to a standstill" + where + " (" + row.notes.back() + "); the last good state is kept. Try a smaller time_step";
   if (row.status & compare::step_not_converged)
     return "Newton's method did not converge" + where + ": residual " + number(row.residual) + " after " +
            counted(static_cast<std::size_t>(row.iterations), "iteration") +
@@ -198,6 +200,7 @@ bool RunSession::one_chunk() {
 void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
   writer_->add_steps(rows);
   for (const StepMetrics& row : rows) {
+    for (const std::string& note : row.notes) log_line(note);
     step_times_.push_back(row.wall_ms);
     if (row.wall_ms > summary_.worst_ms) summary_.worst_ms = row.wall_ms, summary_.worst_step = row.step;
     summary_.last_vertex_facet_contacts = row.vertex_facet_contacts;

@@ -14,6 +14,7 @@
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/ipc/simulation.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/simulation.hpp"
 #include "reference/solvers/step.hpp"
@@ -47,6 +48,13 @@ compare::Contestant newton() {
   compare::Contestant contestant;
   contestant.name = "newton";
   contestant.start = start_newton;
+  return contestant;
+}
+
+compare::Contestant ipc() {
+  compare::Contestant contestant;
+  contestant.name = "ipc";
+  contestant.start = start_ipc;
   return contestant;
 }
 

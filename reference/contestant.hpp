@@ -17,6 +17,9 @@ compare::Authority authority();
 /// Newton-OGC: no stages, but a simulation to `start` (method.md §7).
 compare::Contestant newton();
 
+/// The IPC baseline: likewise.
+compare::Contestant ipc();
+
 /// Vertex Block Descent in double, likewise. `colours`: of a scene's vertices, asked once a simulation (reference/solvers/vbd_solver.hpp); empty for its own.
 compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours = {});
 

@@ -144,6 +144,7 @@ BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const st
         continue;
       }
       part.set.active.push_back(pairs[i]);
+      part.set.squared.push_back(m.squared);
       part.set.terms.push_back(term_of(mesh, pairs[i], m));
     }
   });
@@ -152,6 +153,7 @@ BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const st
   for (Part& part : parts) {
     all.terms.insert(all.terms.end(), part.set.terms.begin(), part.set.terms.end());
     all.active.insert(all.active.end(), part.set.active.begin(), part.set.active.end());
+    all.squared.insert(all.squared.end(), part.set.squared.begin(), part.set.squared.end());
     all.touching.insert(all.touching.end(), part.set.touching.begin(), part.set.touching.end());
     if (part.squared < squared) squared = part.squared, all.closest = part.set.closest;
   }

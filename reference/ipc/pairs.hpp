@@ -39,6 +39,7 @@ std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, c
 struct BarrierSet {
   std::vector<BarrierTerm> terms;       ///< pairs with the same closest vertices and edges merged into one, their number its weight
   std::vector<PrimitivePair> active;    ///< the pairs with 0 < gap < H, before merging
+  std::vector<double> squared;          ///< their squared distances [m²]
   double smallest = 0;                  ///< smallest distance among them, or ξ + d̂ where there is none [m]
   PrimitivePair closest;                ///< which has it
   std::vector<PrimitivePair> touching;  ///< pairs without a gap: no barrier can act on them

@@ -25,10 +25,10 @@ BlockMatrix::BlockMatrix(const std::vector<Mobility>& mobility) : number_(mobili
   }
 }
 
-std::vector<BlockMatrix::Share> BlockMatrix::shares_of(const Potential& potential) const {
+std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVertices> stencils) const {
   std::vector<Share> shares;
-  for (std::size_t i = 0; i < potential.stencil_count(); ++i) {
-    const auto vertex = potential.vertices(i);
+  for (std::size_t i = 0; i < stencils.size(); ++i) {
+    const StencilVertices& vertex = stencils[i];
     for (std::uint8_t k = 0; k < 4 && vertex[k] >= 0; ++k)
       for (std::uint8_t l = 0; l < 4 && vertex[l] >= 0; ++l) {
         const std::int32_t row = number_[static_cast<std::size_t>(vertex[k])], column = number_[static_cast<std::size_t>(vertex[l])];
@@ -43,8 +43,8 @@ std::vector<BlockMatrix::Share> BlockMatrix::shares_of(const Potential& potentia
   return shares;
 }
 
-bool BlockMatrix::set_stencils(const Potential& potential) {
-  shares_ = shares_of(potential);
+bool BlockMatrix::set_stencils(std::span<const StencilVertices> stencils) {
+  shares_ = shares_of(stencils);
   std::vector<std::uint64_t> needed;
   needed.reserve(shares_.size() + free_.size());
   for (const Share& share : shares_) needed.push_back(share.block);
@@ -77,26 +77,26 @@ void BlockMatrix::set_pattern(std::vector<std::uint64_t> blocks) {
   values_.assign(row_index_.size(), 0);
 }
 
-void BlockMatrix::assemble(const Potential& potential, const PotentialDerivatives& derivatives) {
-  tbb::parallel_for(std::size_t{0}, free_.size(), [&](std::size_t column) { assemble_column(column, potential, derivatives); });
+void BlockMatrix::assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils) {
+  tbb::parallel_for(std::size_t{0}, free_.size(), [&](std::size_t column) { assemble_column(column, diagonal, stencils); });
 }
 
-void BlockMatrix::assemble_column(std::size_t column, const Potential& potential, const PotentialDerivatives& derivatives) {
+void BlockMatrix::assemble_column(std::size_t column, std::span<const double> diagonal, std::span<const StencilDerivatives> stencils) {
   for (std::size_t b = block_begin_[column]; b < block_begin_[column + 1]; ++b) {
-    const bool diagonal = b == block_begin_[column];
+    const bool on_diagonal = b == block_begin_[column];
     std::array<std::array<double, 3>, 3> sum{};
-    if (diagonal)
-      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis][axis] = potential.inertia(free_[column]);
+    if (on_diagonal)
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis][axis] = diagonal[free_[column]];
     for (std::size_t s = share_begin_[b]; s < share_begin_[b + 1]; ++s) {
       const Share& share = shares_[s];
-      const auto& hessian = derivatives.stencil[share.stencil].hessian;
+      const auto& hessian = stencils[share.stencil].hessian;
       for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c) sum[r][c] += hessian[12 * (3 * share.row + r) + 3 * share.column + c];
     }
     for (std::size_t c = 0; c < 3; ++c) {
       const auto begin = static_cast<std::size_t>(column_begin_[3 * column + c]);
-      const std::size_t first = diagonal ? begin - c : begin + 3 * (b - block_begin_[column]) - c;
-      for (std::size_t r = diagonal ? c : 0; r < 3; ++r) values_[first + r] = sum[r][c];
+      const std::size_t first = on_diagonal ? begin - c : begin + 3 * (b - block_begin_[column]) - c;
+      for (std::size_t r = on_diagonal ? c : 0; r < 3; ++r) values_[first + r] = sum[r][c];
     }
   }
 }

@@ -4,20 +4,25 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "reference/solvers/newton_potential.hpp"
 
 namespace ogc::reference {
 
+/// Vertices of a stencil in the order of its derivatives; those that it lacks are −1.
+using StencilVertices = std::array<compare::Index, 4>;
+
 class BlockMatrix {
  public:
+  /// A row of blocks for each vertex that is free.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of the potential's present stencils. Returns whether the pattern changed.
-  bool set_stencils(const Potential& potential);
-  /// Sums the stencils' Hessians and m/h².
-  void assemble(const Potential& potential, const PotentialDerivatives& derivatives);
+  /// Finds the blocks of these stencils. Returns whether the pattern changed.
+  bool set_stencils(std::span<const StencilVertices> stencils);
+  /// Sums the stencils' Hessians and, by vertex, what stands on the diagonal (m/h²) [N/m].
+  void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
   std::size_t rows() const { return 3 * free_.size(); }
   const std::vector<std::int32_t>& column_begin() const { return column_begin_; }
@@ -36,9 +41,9 @@ class BlockMatrix {
     std::uint32_t stencil = 0;
     std::uint8_t row = 0, column = 0;
   };
-  std::vector<Share> shares_of(const Potential& potential) const;
+  std::vector<Share> shares_of(std::span<const StencilVertices> stencils) const;
   void set_pattern(std::vector<std::uint64_t> blocks);
-  void assemble_column(std::size_t column, const Potential& potential, const PotentialDerivatives& derivatives);
+  void assemble_column(std::size_t column, std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
   std::vector<std::size_t> free_;
   std::vector<std::int32_t> number_;                    ///< of each vertex among the free ones, or −1

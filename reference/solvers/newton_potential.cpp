@@ -172,6 +172,19 @@ std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
   return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
 }
 
+std::vector<std::array<Index, 4>> Potential::vertices() const {
+  std::vector<std::array<Index, 4>> all;
+  all.reserve(stencil_count());
+  for (std::size_t i = 0; i < stencil_count(); ++i) all.push_back(vertices(i));
+  return all;
+}
+
+std::vector<double> Potential::inertias() const {
+  std::vector<double> all;
+  for (std::size_t v = 0; v < mass_.size(); ++v) all.push_back(inertia(v));
+  return all;
+}
+
 double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   if (stencil < membranes_.size()) return membranes_[stencil].energy(gathered<3>(membranes_[stencil].vertex, x));
   stencil -= membranes_.size();

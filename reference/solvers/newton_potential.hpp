@@ -56,6 +56,7 @@ class Potential {
   std::size_t stencil_count() const { return membranes_.size() + hinges_.size() + contacts_.size() + frictions_.size(); }
   /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
+  std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
 
   double elastic_energy(const State& x) const;  ///< without damping [J]
   double contact_energy(const State& x) const;  ///< normal energies [J]
@@ -70,6 +71,7 @@ class Potential {
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
   const State& target() const { return target_; }  ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
+  std::vector<double> inertias() const;  ///< by vertex
   std::size_t free_count() const { return free_count_; }
 
  private:

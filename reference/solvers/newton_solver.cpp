@@ -129,9 +129,9 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(const PotentialDeriva
 
 bool NewtonSolver::factorized(const PotentialDerivatives& derivatives) {
   timed(assembly, [&] {
-    if (pattern_stale_ && matrix_.set_stencils(potential_)) timed(factorization, [&] { factor_.analyze(matrix_); });
+    if (pattern_stale_ && matrix_.set_stencils(potential_.vertices())) timed(factorization, [&] { factor_.analyze(matrix_); });
     pattern_stale_ = false;
-    matrix_.assemble(potential_, derivatives);
+    matrix_.assemble(potential_.inertias(), derivatives.stencil);
   });
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }

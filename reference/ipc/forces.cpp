@@ -1,0 +1,184 @@
+#include "reference/ipc/forces.hpp"
+
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace ogc::reference {
+namespace {
+
+using compare::ContactSides;
+using compare::HessianProjection;
+using compare::Index;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+template <std::size_t Count>
+std::array<Triple<double>, Count> gathered(const std::array<Index, 4>& vertex, const State& x) {
+  std::array<Triple<double>, Count> corners;
+  for (std::size_t k = 0; k < Count; ++k) corners[k] = x[at(vertex[k])];
+  return corners;
+}
+
+/// Calls `visit` with the corners as an array of their number.
+template <class Visit>
+auto with_corners(std::size_t count, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
+  switch (count) {
+    case 2: return visit(gathered<2>(vertex, x));
+    case 3: return visit(gathered<3>(vertex, x));
+    default: return visit(gathered<4>(vertex, x));
+  }
+}
+
+template <class Term>
+StencilDerivatives differentiated(const Term& energy_of, std::size_t count, const std::array<Index, 4>& vertex, const State& x, HessianProjection projection) {
+  return with_corners(count, vertex, x, [&]<std::size_t Count>(const std::array<Triple<double>, Count>& corners) {
+    return stencil_derivatives<Count>(corners, projection, energy_of);
+  });
+}
+
+void scale(StencilDerivatives& d, double factor) {
+  d.energy *= factor;
+  for (double& g : d.gradient) g *= factor;
+  for (double& h : d.hessian) h *= factor;
+}
+
+constexpr std::array<ContactSides, 5> sides_of_count{ContactSides::point_point, ContactSides::point_point, ContactSides::point_point, ContactSides::point_edge,
+                                                     ContactSides::point_triangle};
+
+std::size_t count_of(const FrictionTerm& term) { return static_cast<std::size_t>(vertex_count(term.sides)); }
+
+double sum(const std::vector<double>& values) {
+  double total = 0;
+  for (const double value : values) total += value;
+  return total;
+}
+
+}  // namespace
+
+double change(const IpcEnergy& from, const IpcEnergy& to) {
+  return Potential::change(from.elastic, to.elastic) + (to.barrier - from.barrier) + (to.rest - from.rest);
+}
+
+double value_noise(const IpcEnergy& energy) {
+  double moduli = energy.barrier + std::abs(energy.rest);
+  for (const double e : energy.elastic.stencil) moduli += std::abs(e);
+  for (const double e : energy.elastic.inertia) moduli += e;
+  return 0x1p-52 * moduli;
+}
+
+IpcForces::IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape)
+    : scene_(scene), shape_(shape), potential_(scene, topology), elastic_vertices_(potential_.vertices()), body_(body_of_vertex(scene)) {}
+
+void IpcForces::begin_step(const State& start, const State& target) {
+  potential_.begin_step(start, target);
+  start_ = start;
+  target_ = target;
+  frictions_.clear();
+  pull_.reset();
+}
+
+double IpcForces::friction_coefficient(const BarrierTerm& term) const {
+  std::size_t first = 0, second = 0;
+  for (std::size_t k = 0; k < term.count; ++k) (term.form.weight[k] > 0 ? first : second) = at(body_[at(term.vertex[k])]);
+  return double{potential_.rest().meetings[first * scene_.bodies.size() + second].friction};
+}
+
+void IpcForces::lag_friction(const BarrierSet& set, const State& x, double stiffness) {
+  frictions_.clear();
+  for (const BarrierTerm& term : set.terms) {
+    const double friction = friction_coefficient(term);
+    if (friction == 0) continue;
+    std::array<Triple<double>, 4> corners{}, before{};
+    for (std::size_t k = 0; k < term.count; ++k) corners[k] = x[at(term.vertex[k])], before[k] = start_[at(term.vertex[k])];
+    const Triple<double> apart = separation(term.form.weight, corners);
+    const double squared = dot(apart, apart), distance = std::sqrt(squared);
+    double force = -stiffness * term.weight * barrier_slopes(shape_.gap(squared), shape_.support()).slope[0] * 2 * distance;
+    if (term.rest_squared > 0) force *= Mollifier<double>(corners[1] - corners[0], corners[3] - corners[2], term.rest_squared, 1).value();
+    frictions_.push_back({sides_of_count[term.count], term.vertex, term.form.weight, (1 / distance) * apart, separation(term.form.weight, before),
+                          friction * force, scene_.settings.friction_velocity * scene_.settings.time_step});
+  }
+}
+
+IpcEnergy IpcForces::energy(const State& x, const BarrierSet& set, double stiffness) const {
+  IpcEnergy result{potential_.terms(x), std::vector<double>(set.terms.size()), std::vector<double>(frictions_.size())};
+  tbb::parallel_for(std::size_t{0}, set.terms.size(), [&](std::size_t i) {
+    const BarrierTerm& term = set.terms[i];
+    result.barriers[i] = with_corners(term.count, term.vertex, x, [&](const auto& corners) { return term.energy(shape_, corners); });
+  });
+  tbb::parallel_for(std::size_t{0}, frictions_.size(), [&](std::size_t i) {
+    const FrictionTerm& term = frictions_[i];
+    result.friction[i] = with_corners(count_of(term), term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
+  });
+  result.barrier = stiffness * sum(result.barriers);
+  result.rest = sum(result.friction);
+  if (pull_)
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      if (potential_.mobility()[v] != Mobility::prescribed) continue;
+      const Triple<double> lag = x[v] - target_[v];
+      result.rest += 0.5 * pull_->stiffness * potential_.inertia(v) * dot(lag, lag) - dot(pull_->force[v], lag);
+    }
+  return result;
+}
+
+IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection) const {
+  PotentialDerivatives elastic = potential_.derivatives(x, projection);
+  IpcDerivatives result{std::move(elastic.stencil), elastic_vertices_, {}, elastic.energy_noise};
+  const std::size_t first = result.stencil.size(), second = first + set.terms.size();
+  result.stencil.resize(second + frictions_.size());
+  for (const BarrierTerm& term : set.terms) result.vertices.push_back(term.vertex);
+  for (const FrictionTerm& term : frictions_) result.vertices.push_back(term.vertex);
+  tbb::parallel_for(std::size_t{0}, set.terms.size(), [&](std::size_t i) {
+    const BarrierTerm& term = set.terms[i];
+    const auto energy_of = [&](const auto& variables) { return term.energy(shape_, variables); };
+    result.stencil[first + i] = differentiated(energy_of, term.count, term.vertex, x, projection);
+    scale(result.stencil[first + i], stiffness);
+  });
+  tbb::parallel_for(std::size_t{0}, frictions_.size(), [&](std::size_t i) {
+    const FrictionTerm& term = frictions_[i];
+    const auto energy_of = [&](const auto& variables) { return term.energy(variables); };
+    result.stencil[second + i] = differentiated(energy_of, count_of(term), term.vertex, x, projection);
+  });
+  add_gradient(result, x);
+  return result;
+}
+
+void IpcForces::add_gradient(IpcDerivatives& result, const State& x) const {
+  result.gradient.assign(x.size(), {});
+  for (std::size_t i = 0; i < result.stencil.size(); ++i)
+    for (std::size_t k = 0; k < 4 && result.vertices[i][k] >= 0; ++k) {
+      Triple<double>& g = result.gradient[at(result.vertices[i][k])];
+      for (std::size_t axis = 0; axis < 3; ++axis) g[axis] += result.stencil[i].gradient[3 * k + axis];
+    }
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (!unknown(v)) {
+      result.gradient[v] = {};
+    } else if (potential_.mobility()[v] == Mobility::free) {
+      result.gradient[v] = result.gradient[v] + potential_.inertia(v) * (x[v] - target_[v]);
+    } else {
+      result.gradient[v] = result.gradient[v] + pull_->stiffness * potential_.inertia(v) * (x[v] - target_[v]) - pull_->force[v];
+    }
+  }
+}
+
+State IpcForces::barrier_gradient(const State& x, const BarrierSet& set) const {
+  State gradient(x.size());
+  for (const BarrierTerm& term : set.terms) {
+    const auto energy_of = [&](const auto& variables) { return term.energy(shape_, variables); };
+    const StencilDerivatives d = differentiated(energy_of, term.count, term.vertex, x, HessianProjection::none);
+    for (std::size_t k = 0; k < term.count; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (unknown(at(term.vertex[k]))) gradient[at(term.vertex[k])][axis] += d.gradient[3 * k + axis];
+  }
+  return gradient;
+}
+
+std::vector<double> IpcForces::diagonal() const {
+  std::vector<double> diagonal = potential_.inertias();
+  if (pull_)
+    for (std::size_t v = 0; v < diagonal.size(); ++v)
+      if (potential_.mobility()[v] == Mobility::prescribed) diagonal[v] *= pull_->stiffness;
+  return diagonal;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,76 @@
+// The incremental potential of an IPC step: inertia, elasticity and damping as Newton-OGC has them, barriers in place of OGC's contacts, lagged friction, and, where
+// prescribed vertices could not go all the way, what pulls them to their targets. Its unknowns are the free vertices, with such a pull the prescribed ones too.
+#pragma once
+
+#include <optional>
+
+#include "reference/ipc/pairs.hpp"
+#include "reference/solvers/newton_matrix.hpp"
+
+namespace ogc::reference {
+
+/// The augmented Lagrangian of prescribed vertices that lag: Σ ρ m/(2h²) ‖x − t‖² − λ·(x − t).
+struct Pull {
+  double stiffness = 0;  ///< ρ, in inertias [1]
+  State force;           ///< λ, by vertex [N]
+};
+
+/// Energies at one state.
+struct IpcEnergy {
+  PotentialTerms elastic;  ///< and inertia
+  std::vector<double> barriers, friction;  ///< by term; b without κ [m⁴]; [J]
+  double barrier = 0, rest = 0;  ///< κ Σ b; friction and pull [J]
+};
+/// E(to) − E(from) [J]; the barriers may be others.
+double change(const IpcEnergy& from, const IpcEnergy& to);
+/// What rounding does to the sum [J].
+double value_noise(const IpcEnergy& energy);
+
+struct IpcDerivatives {
+  std::vector<StencilDerivatives> stencil;
+  std::vector<StencilVertices> vertices;  ///< of the stencils
+  State gradient;                         ///< by vertex; 0 where not unknown [N]
+  double energy_noise = 0;                ///< see PotentialDerivatives [J]
+};
+
+class IpcForces {
+ public:
+  /// Scene: rounded and valid. Both must outlive it.
+  IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape);
+
+  /// xᵗ and y of the step [m]. Friction and pull of the step before are gone.
+  void begin_step(const State& start, const State& target);
+  /// λ, n and weights of these barriers at x, until the next call.
+  void lag_friction(const BarrierSet& set, const State& x, double stiffness);
+
+  IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
+  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, compare::HessianProjection projection) const;
+  /// ∇ Σ b of the unknowns [m³].
+  State barrier_gradient(const State& x, const BarrierSet& set) const;
+
+  /// Prescribed vertices become unknowns, or are held where they are again (without a value).
+  void pull(std::optional<Pull> pull) { pull_ = std::move(pull); }
+  const std::optional<Pull>& pull() const { return pull_; }
+  /// Of every vertex at present.
+  bool unknown(std::size_t vertex) const {
+    return potential_.mobility()[vertex] == Mobility::free || (pull_ && potential_.mobility()[vertex] == Mobility::prescribed);
+  }
+  /// m/h², and of pulled vertices ρ times that, by vertex [N/m].
+  std::vector<double> diagonal() const;
+  const Potential& potential() const { return potential_; }
+
+ private:
+  void add_gradient(IpcDerivatives& result, const State& x) const;
+  double friction_coefficient(const BarrierTerm& term) const;
+
+  const compare::Scene& scene_;
+  BarrierShape shape_;
+  Potential potential_;
+  std::vector<StencilVertices> elastic_vertices_;
+  std::vector<compare::Index> body_;
+  std::vector<FrictionTerm> frictions_;
+  State start_, target_;
+  std::optional<Pull> pull_;
+};
+
+}  // namespace ogc::reference

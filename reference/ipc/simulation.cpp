@@ -1,0 +1,72 @@
+#include "reference/ipc/simulation.hpp"
+
+#include <string>
+
+#include <tbb/task_arena.h>
+
+#include "reference/ipc/solver.hpp"
+#include "reference/solvers/newton_detection.hpp"
+
+namespace ogc::reference {
+namespace {
+
+compare::Scene rounded_scene(compare::Scene scene) {
+  round_to_single(scene);
+  return scene;
+}
+
+class IpcSimulation : public compare::Simulation {
+ public:
+  IpcSimulation(const compare::Scene& scene, const compare::SimulationOptions& options)
+      : scene_(rounded_scene(scene)), topology_(compare::build_topology(scene_)), profile_(options.profile), solver_(scene_, topology_, options) {
+    set_state(0, compare::to_single(scene_.mesh.positions), compare::to_single(scene_.velocities));
+  }
+
+  std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
+    std::vector<compare::StepMetrics> rows;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      IpcStep step = solver_.step(position_, velocity_, number_ + 1);
+      const bool good = step.metrics.status == compare::step_clean;
+      rows.push_back(std::move(step.metrics));
+      if (!good) break;
+      ++number_;
+      position_ = std::move(step.position);
+      velocity_ = std::move(step.velocity);
+    }
+    return rows;
+  }
+
+  /// Without bounds: IPC has none, so that its certificate says nothing.
+  compare::Snapshot snapshot() override {
+    const std::vector<compare::Vec3f> position = rounded(position_);
+    return {number_, position, rounded(velocity_), position, std::vector<float>(position.size(), 0), 0};
+  }
+
+  void restore(const compare::Snapshot& snapshot) override { set_state(snapshot.step, snapshot.positions, snapshot.velocities); }
+
+  std::vector<std::string> stage_names() const override { return profile_ ? ipc_stage_names() : std::vector<std::string>{}; }
+  std::string device() const override { return std::to_string(tbb::this_task_arena::max_concurrency()) + " threads"; }
+
+ private:
+  void set_state(std::int64_t number, const std::vector<compare::Vec3f>& position, const std::vector<compare::Vec3f>& velocity) {
+    number_ = number;
+    position_ = widened(position);
+    velocity_ = widened(velocity);
+    solver_.check_start(position_);
+  }
+
+  compare::Scene scene_;
+  compare::Topology topology_;
+  bool profile_;
+  IpcSolver solver_;
+  std::int64_t number_ = 0;
+  State position_, velocity_;
+};
+
+}  // namespace
+
+std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
+  return std::make_unique<IpcSimulation>(scene, options);
+}
+
+}  // namespace ogc::reference

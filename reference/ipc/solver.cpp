@@ -1,0 +1,413 @@
+#include "reference/ipc/solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "compare/problem/error.hpp"
+#include "reference/geometry/box_tree.hpp"
+#include "reference/ipc/intersections.hpp"
+#include "reference/solvers/newton_measure.hpp"
+
+namespace ogc::reference {
+namespace {
+
+constexpr double smallest_share = 1e-10;      ///< of p; below it a step has come to nothing
+constexpr std::size_t window = 3;             ///< iterations over which `velocity` looks back
+constexpr double first_pull = 1e3, most_pull = 1e8;  ///< ρ (Li et al. 2020, supplement)
+constexpr double pulled_enough = 0.999;       ///< share of their way after which prescribed vertices are held where they are
+constexpr std::size_t most_named = 20;        ///< pairs in a message
+
+double now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+State moved(const State& x, double share, const State& p) {
+  State to = x;
+  for (std::size_t v = 0; v < x.size(); ++v) to[v] = x[v] + share * p[v];
+  return to;
+}
+
+double largest_component(const State& p) {
+  double largest = 0;
+  for (const Triple<double>& a : p)
+    for (const double c : a)
+      if (!(std::abs(c) <= largest)) largest = std::abs(c);
+  return largest;
+}
+
+double rest_diagonal(const compare::Scene& scene) {
+  Box box;
+  for (const compare::Vec3& p : scene.rest_positions) include(box, compare::Vec3f{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+}
+
+BarrierShape shape_of(const compare::Scene& scene) {
+  const compare::Settings& s = scene.settings;
+  return {s.ipc_distance > 0 ? s.ipc_distance : s.ipc_relative_distance * rest_diagonal(scene), s.ipc_thickness};
+}
+
+double mean_inertia(const Potential& potential) {
+  double sum = 0;
+  for (std::size_t v = 0; v < potential.mobility().size(); ++v)
+    if (potential.mobility()[v] == Mobility::free) sum += potential.inertia(v);
+  return potential.free_count() > 0 ? sum / static_cast<double>(potential.free_count()) : 0;
+}
+
+/// Prescribed vertices as free ones.
+std::vector<Mobility> all_movable(std::vector<Mobility> mobility) {
+  for (Mobility& m : mobility)
+    if (m == Mobility::prescribed) m = Mobility::free;
+  return mobility;
+}
+
+std::string number(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+}  // namespace
+
+std::vector<std::string> ipc_stage_names() {
+  return {"broad_phase", "barriers", "derivatives", "assembly", "factorization", "ccd", "line_search", "guard"};
+}
+
+IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options)
+    : scene_(scene),
+      topology_(topology),
+      settings_(scene.settings),
+      options_(options),
+      groups_(rigid_groups(scene)),
+      shape_(shape_of(scene)),
+      forces_(scene, topology, shape_),
+      mesh_{topology_, groups_, forces_.potential().rest().edge_length_squared},
+      guard_({rest_diagonal(scene), 0}, shape_, settings_.ipc_adaptation),
+      free_(forces_.potential().mobility()) {
+  scale_ = {rest_diagonal(scene), mean_inertia(forces_.potential())};
+  bounds_ = reference::stiffness_bounds(shape_, scale_, settings_.ipc_adaptation);
+  if (settings_.ipc_stiffness > 0) bounds_ = {settings_.ipc_stiffness, settings_.ipc_stiffness};
+  stiffness_ = bounds_.lower;
+}
+
+template <class Work>
+auto IpcSolver::timed(IpcStage stage, Work work) {
+  struct Clock {
+    double& sum;
+    double start = now_ms();
+    ~Clock() { sum += now_ms() - start; }
+  } clock{stage_ms_[static_cast<std::size_t>(stage)]};
+  return work();
+}
+
+void IpcSolver::check_start(const State& x) const {
+  std::vector<std::string> wrong;
+  for (const EdgeThroughTriangle& meeting : intersections(mesh_, x)) wrong.push_back(describe(topology_, meeting) + " intersect");
+  if (wrong.empty())
+    for (const PrimitivePair& pair : barriers_at(mesh_, shape_, near_pairs(mesh_, x, x, shape_.reach()), x).touching)
+      wrong.push_back(describe(topology_, pair) + " have no gap");
+  if (wrong.empty()) return;
+  std::string text = "IPC can't start: barriers keep gaps open and can't make any" + std::string(shape_.thickness > 0 ? " beyond the thickness" : "") + ". Move apart:";
+  for (std::size_t i = 0; i < std::min(most_named, wrong.size()); ++i) text += "\n" + wrong[i];
+  if (wrong.size() > most_named) text += "\nand " + std::to_string(wrong.size() - most_named) + " more";
+  throw compare::InputError(text);
+}
+
+IpcStep IpcSolver::step(const State& start, const State& velocity, std::int64_t number) {
+  started_ms_ = now_ms();
+  begin(start, velocity, number);
+  find_barriers(x_);
+  start_stiffness();
+  forces_.lag_friction(set_, x_, stiffness_);
+  move_prescribed();
+  return finish(solve());
+}
+
+void IpcSolver::begin(const State& start, const State& velocity, std::int64_t number) {
+  metrics_ = {};
+  metrics_.step = number;
+  rows_.clear();
+  stage_ms_ = {};
+  descend_ = false;
+  guard_.forget();
+  x_ = start_ = target_ = start;
+  const double h = settings_.time_step;
+  const std::vector<Mobility>& mobility = forces_.potential().mobility();
+  const Triple<double> fall{h * h * scene_.gravity.x, h * h * scene_.gravity.y, h * h * scene_.gravity.z};
+  for (std::size_t v = 0; v < target_.size(); ++v)
+    if (mobility[v] == Mobility::free) target_[v] = target_[v] + h * velocity[v] + fall;
+  for (const compare::PrescribedMotion& motion : scene_.motions) {
+    const State to = widened(prescribed_targets(scene_, motion, static_cast<double>(number) * h));
+    for (std::size_t k = 0; k < to.size(); ++k) target_[static_cast<std::size_t>(motion.vertices[k])] = to[k];
+  }
+  forces_.begin_step(start_, target_);
+}
+
+std::vector<PrimitivePair> IpcSolver::near(const State& from, const State& to) {
+  ++metrics_.broad_phases;
+  return timed(IpcStage::broad_phase, [&] { return near_pairs(mesh_, from, to, shape_.reach()); });
+}
+
+void IpcSolver::find_barriers(const State& x) {
+  const std::vector<PrimitivePair> pairs = near(x, x);
+  ++metrics_.discrete_detections;
+  set_ = timed(IpcStage::barriers, [&] { return barriers_at(mesh_, shape_, pairs, x); });
+}
+
+void IpcSolver::start_stiffness() {
+  if (settings_.ipc_stiffness > 0) return;
+  if (set_.terms.empty()) {
+    stiffness_ = bounds_.lower;
+    return;
+  }
+  const State energy = timed(IpcStage::derivatives, [&] { return forces_.derivatives(x_, {}, 0, compare::HessianProjection::none).gradient; });
+  stiffness_ = initial_stiffness(energy, forces_.barrier_gradient(x_, set_), bounds_);
+}
+
+/// All prescribed vertices by the same share of their ways, the others where they are.
+void IpcSolver::move_prescribed() {
+  const std::vector<Mobility>& mobility = forces_.potential().mobility();
+  State p(x_.size());
+  prescribed_way_ = 0;
+  for (std::size_t v = 0; v < x_.size(); ++v) {
+    if (mobility[v] != Mobility::prescribed) continue;
+    p[v] = target_[v] - x_[v];
+    prescribed_way_ += dot(p[v], p[v]);
+  }
+  if (prescribed_way_ == 0) return;
+  const std::vector<PrimitivePair> pairs = near(x_, moved(x_, 1, p));
+  ++metrics_.continuous_detections;
+  const StepBound bound = timed(IpcStage::ccd, [&] { return step_bound(mesh_, pairs, x_, p, shape_.thickness); });
+  x_ = moved(x_, bound.share, p);
+  if (bound.share == 1)
+    for (std::size_t v = 0; v < x_.size(); ++v)
+      if (mobility[v] == Mobility::prescribed) x_[v] = target_[v];
+  ++metrics_.discrete_detections;
+  set_ = timed(IpcStage::barriers, [&] { return barriers_at(mesh_, shape_, pairs, x_); });
+  if (bound.share < 1) forces_.pull(Pull{first_pull, State(x_.size())});
+}
+
+IpcSolver::Outcome IpcSolver::solve() {
+  for (std::int64_t solve = 1;; ++solve) {
+    const Outcome outcome = solve_once();
+    // A solve that had nothing to do: friction has settled.
+    if (outcome != Outcome::converged || solve >= settings_.friction_solves || (solve > 1 && iterations_ <= 1)) return outcome;
+    forces_.lag_friction(set_, x_, stiffness_);
+  }
+}
+
+IpcSolver::Outcome IpcSolver::solve_once() {
+  iterations_ = 0;
+  speeds_.clear();
+  for (;;)
+    if (const std::optional<Outcome> outcome = iterate()) return *outcome;
+}
+
+IpcSolver::System& IpcSolver::system() {
+  if (!forces_.pull()) return free_;
+  if (!pulled_) pulled_ = std::make_unique<System>(all_movable(forces_.potential().mobility()));
+  return *pulled_;
+}
+
+std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
+  if (options_.iterations) add_row();
+  const IpcDerivatives derivatives = timed(IpcStage::derivatives, [&] { return forces_.derivatives(x_, set_, stiffness_, settings_.projection); });
+  const std::optional<State> p = direction(derivatives);
+  if (!p) return Outcome::indefinite;
+  ++metrics_.iterations;
+  ++iterations_;
+  metrics_.residual = largest_component(*p) / settings_.time_step / scale_.diagonal;
+  if (!std::isfinite(metrics_.residual)) return Outcome::not_finite;
+  const bool done = converged(*p);
+  if (done && pulled_home()) return Outcome::converged;
+  if (!done) {
+    const Bounded bound = bounded(*p);
+    const double share = searched(*p, bound, derivatives);
+    if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(*p);
+    if (share < smallest_share) {
+      note((descend_ ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) + " of itself" +
+           (bound.pair ? ", held by " + describe(topology_, *bound.pair) : std::string()) + (descend_ ? "" : "; the next one follows the gradient"));
+      if (descend_) return Outcome::stuck;
+      descend_ = true;
+    } else {
+      descend_ = false;
+    }
+    adapt_stiffness();
+    release_pull();
+  }
+  return metrics_.iterations >= settings_.ipc_iterations ? std::optional(Outcome::limit) : std::nullopt;
+}
+
+std::optional<State> IpcSolver::direction(const IpcDerivatives& derivatives) {
+  System& now = system();
+  const std::vector<double> diagonal = forces_.diagonal();
+  State p(x_.size());
+  const std::vector<std::size_t>& unknowns = now.matrix.free_vertices();
+  if (descend_) {
+    for (const std::size_t v : unknowns) p[v] = (-1 / diagonal[v]) * derivatives.gradient[v];
+    return p;
+  }
+  const bool is_new = timed(IpcStage::assembly, [&] {
+    const bool changed = now.matrix.set_stencils(derivatives.vertices);
+    now.matrix.assemble(diagonal, derivatives.stencil);
+    return changed;
+  });
+  std::vector<double> right;
+  right.reserve(3 * unknowns.size());
+  for (const std::size_t v : unknowns)
+    for (const double g : derivatives.gradient[v]) right.push_back(-g);
+  return timed(IpcStage::factorization, [&]() -> std::optional<State> {
+    if (is_new) now.factor.analyze(now.matrix);
+    if (!now.factor.factorize(now.matrix)) return {};
+    const std::vector<double> solution = now.factor.solve(right);
+    for (std::size_t i = 0; i < unknowns.size(); ++i) p[unknowns[i]] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
+    return p;
+  });
+}
+
+/// Both published rules want a step to be taken at least once.
+bool IpcSolver::converged(const State& p) {
+  if (settings_.ipc_stopping == compare::IpcStopping::displacement)
+    return iterations_ > 1 && largest_component(p) < settings_.ipc_tolerance * scale_.diagonal * settings_.time_step;
+  double sum = 0;
+  for (const Triple<double>& a : p) sum += dot(a, a);
+  const double h = settings_.time_step, unknowns = static_cast<double>(std::max<std::size_t>(1, system().matrix.free_vertices().size()));
+  speeds_.push_back(sum / (unknowns * h * h));
+  if (speeds_.size() > window) speeds_.pop_front();
+  double mean = 0;
+  for (const double s : speeds_) mean += s / static_cast<double>(speeds_.size());
+  return iterations_ > 1 && std::sqrt(mean) < settings_.ipc_velocity_tolerance;
+}
+
+/// With a pull, a converged state is one of its own Lagrangian only: ρ doubles until the targets are near, then λ takes over.
+bool IpcSolver::pulled_home() {
+  if (!forces_.pull()) return true;
+  Pull pull = *forces_.pull();
+  if (pull.stiffness < most_pull) {
+    pull.stiffness *= 2;
+  } else {
+    for (std::size_t v = 0; v < x_.size(); ++v)
+      if (forces_.potential().mobility()[v] == Mobility::prescribed)
+        pull.force[v] = pull.force[v] - pull.stiffness * forces_.potential().inertia(v) * (x_[v] - target_[v]);
+  }
+  forces_.pull(std::move(pull));
+  return false;
+}
+
+void IpcSolver::release_pull() {
+  if (!forces_.pull()) return;
+  double left = 0;
+  for (std::size_t v = 0; v < x_.size(); ++v) {
+    if (forces_.potential().mobility()[v] != Mobility::prescribed) continue;
+    const Triple<double> lag = target_[v] - x_[v];
+    left += dot(lag, lag);
+  }
+  if (1 - std::sqrt(left / prescribed_way_) >= pulled_enough) forces_.pull({});
+}
+
+IpcSolver::Bounded IpcSolver::bounded(const State& p) {
+  ++metrics_.continuous_detections;
+  const StepBound active = timed(IpcStage::ccd, [&] { return step_bound(mesh_, set_.active, x_, p, shape_.thickness); });
+  const double fastest = largest_motion(p), free_share = fastest > 0 ? 0.5 * shape_.distance / fastest : 1;
+  Bounded bound{std::min(active.share, free_share), active.pair, {}};
+  const bool full = free_share < 0.5 * active.share;
+  bound.pairs = near(x_, moved(x_, full ? active.share : bound.share, p));
+  if (!full) return bound;
+  ++metrics_.continuous_detections;
+  const StepBound all = timed(IpcStage::ccd, [&] { return step_bound(mesh_, bound.pairs, x_, p, shape_.thickness, active.share); });
+  bound.share = all.share;
+  if (all.pair) bound.pair = all.pair;
+  return bound;
+}
+
+bool IpcSolver::intersects(const State& x) {
+  ++metrics_.broad_phases;
+  return timed(IpcStage::guard, [&] { return !intersections(mesh_, x).empty(); });
+}
+
+/// The share of p that was taken. A full step may also change the energy by less than its rounding: near the minimum no decrease can be seen any more.
+double IpcSolver::searched(const State& p, const Bounded& bound, const IpcDerivatives& derivatives) {
+  const IpcEnergy before = timed(IpcStage::line_search, [&] { return forces_.energy(x_, set_, stiffness_); });
+  const double noise = derivatives.energy_noise + value_noise(before);
+  for (double share = bound.share; share > 0; share *= 0.5) {
+    if (share < smallest_share) return share;
+    State trial = moved(x_, share, p);
+    ++metrics_.discrete_detections;
+    BarrierSet set = timed(IpcStage::barriers, [&] { return barriers_at(mesh_, shape_, bound.pairs, trial); });
+    if (!set.touching.empty()) continue;
+    const double difference = change(before, timed(IpcStage::line_search, [&] { return forces_.energy(trial, set, stiffness_); }));
+    if (!(difference < 0 || (share == bound.share && difference <= noise)) || intersects(trial)) continue;
+    if (on_accepted) on_accepted(difference, noise);
+    x_ = std::move(trial);
+    set_ = std::move(set);
+    return share;
+  }
+  return 0;
+}
+
+void IpcSolver::adapt_stiffness() {
+  const std::optional<PrimitivePair> pair = guard_.came_closer(set_);
+  if (!pair || settings_.ipc_stiffness > 0) return;
+  if (stiffness_ >= bounds_.upper)
+    note("κ is at its bound of " + number(bounds_.upper) + " J/m⁴ while " + describe(topology_, *pair) + " still come closer; it stays there");
+  stiffness_ = std::min(bounds_.upper, 2 * stiffness_);
+}
+
+/// Each text once a step.
+void IpcSolver::note(const std::string& what) {
+  const std::string text = "step " + std::to_string(metrics_.step) + ": " + what;
+  if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end()) metrics_.notes.push_back(text);
+}
+
+/// Counts are sums so far; `finish` turns them into those of the iteration.
+void IpcSolver::add_row() {
+  compare::IterationMetrics row;
+  row.step = metrics_.step;
+  row.iteration = metrics_.iterations;
+  row.wall_ms = now_ms() - started_ms_;
+  row.residual = metrics_.residual;
+  const IpcEnergy energy = forces_.energy(x_, set_, stiffness_);
+  row.energy = Potential::total(energy.elastic) + energy.barrier + energy.rest;
+  row.detected = 1;
+  row.condition_number = std::numeric_limits<double>::quiet_NaN();
+  row.broad_phases = metrics_.broad_phases;
+  row.discrete_detections = metrics_.discrete_detections;
+  row.continuous_detections = metrics_.continuous_detections;
+  rows_.push_back(row);
+}
+
+IpcStep IpcSolver::finish(Outcome outcome) {
+  IpcStep step;
+  step.position = x_;
+  step.velocity = x_;
+  for (std::size_t v = 0; v < x_.size(); ++v) step.velocity[v] = (1 / settings_.time_step) * (x_[v] - start_[v]);
+  const bool asked_for_all = settings_.ipc_stopping == compare::IpcStopping::displacement ? settings_.ipc_tolerance == 0 : settings_.ipc_velocity_tolerance == 0;
+  if (outcome == Outcome::limit && !asked_for_all)
+    note("ended at the limit of " + std::to_string(settings_.ipc_iterations) + " iterations, above its tolerance; the run goes on, as the published codes do");
+  metrics_.status = outcome == Outcome::not_finite   ? compare::step_not_finite
+                    : outcome == Outcome::indefinite ? compare::step_indefinite
+                    : outcome == Outcome::stuck      ? compare::step_not_converged
+                                                     : compare::step_clean;
+  for (const PrimitivePair& pair : set_.active) ++(pair.sides == compare::ContactSides::edge_edge ? metrics_.edge_edge_contacts : metrics_.vertex_facet_contacts);
+  metrics_.query_radius = shape_.reach();
+  metrics_.smallest_distance = set_.smallest;
+  metrics_.wall_ms = now_ms() - started_ms_;
+  if (options_.profile) metrics_.stage_ms.assign(stage_ms_.begin(), stage_ms_.end());
+  const Potential& potential = forces_.potential();
+  metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential);
+  metrics_.largest_lag = largest_lag(x_, target_, potential.mobility());
+  measure_energies(metrics_, {x_, start_, target_}, potential, scene_, options_.energies);
+  if (options_.energies) metrics_.contact_energy = forces_.energy(x_, set_, stiffness_).barrier;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto spent = [&](std::int64_t compare::IterationMetrics::*row, std::int64_t compare::StepMetrics::*whole) {
+      rows_[i].*row = (i + 1 < rows_.size() ? rows_[i + 1].*row : metrics_.*whole) - rows_[i].*row;
+    };
+    spent(&compare::IterationMetrics::broad_phases, &compare::StepMetrics::broad_phases);
+    spent(&compare::IterationMetrics::discrete_detections, &compare::StepMetrics::discrete_detections);
+    spent(&compare::IterationMetrics::continuous_detections, &compare::StepMetrics::continuous_detections);
+  }
+  metrics_.iteration_rows = std::move(rows_);
+  step.metrics = std::move(metrics_);
+  return step;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,127 @@
+// IPC (Li et al. 2020, Algorithm 1; choices of the official code), a step of implicit Euler:
+//
+//   barriers at xᵗ ── κ ── friction lagged ── prescribed vertices to their targets as far as CCD allows ──┐
+//                        ┌─────────────────────────────────────────────────────────────────────────────┘
+//                        ▼
+//     derivatives ── solve for p ── p small? ── bound by CCD ── halve until the energy falls and nothing intersects ── adapt κ, or the pull
+//                        ▲                                                                                                   │
+//                        └───────────────────────────────────────────────────────────────────────────────────────────────────┘
+//
+// The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like rule); where that rule would take more than
+// half of the step away, CCD of all pairs. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further, so that the pairs for the
+// continuous detection and for the barriers of every trial state are among those that it finds.
+//
+// Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal; where that comes to nothing, too, the step ends as not
+// converged. Each such event goes into the notes of the step, with the pair that caused it.
+//
+// Positions stay doubles from step to step: rounding them could take a gap away. What is stored of them is rounded.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "compare/problem/contestant.hpp"
+#include "reference/ipc/forces.hpp"
+#include "reference/ipc/step_bound.hpp"
+#include "reference/ipc/stiffness.hpp"
+#include "reference/solvers/newton_factor.hpp"
+
+namespace ogc::reference {
+
+/// Where the time of a step goes.
+enum class IpcStage : std::uint8_t { broad_phase, barriers, derivatives, assembly, factorization, ccd, line_search, guard };
+inline constexpr std::size_t ipc_stage_count = 8;
+std::vector<std::string> ipc_stage_names();
+
+/// What a step came to [m], [m/s]; of a step that failed it must not be used.
+struct IpcStep {
+  State position, velocity;
+  compare::StepMetrics metrics;
+};
+
+class IpcSolver {
+ public:
+  /// Scene: rounded and valid. Both must outlive it.
+  IpcSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options);
+
+  /// Throws compare::InputError that names the pairs which intersect or have no gap at x.
+  void check_start(const State& x) const;
+  /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
+  IpcStep step(const State& start, const State& velocity, std::int64_t number);
+
+  const BarrierShape& shape() const { return shape_; }
+  const StiffnessBounds& stiffness_bounds() const { return bounds_; }
+  double stiffness() const { return stiffness_; }  ///< κ at present [J/m⁴]
+  /// Called with each accepted step of the line search: the energy's change with κ as it was, and what rounding does to it [J].
+  std::function<void(double change, double noise)> on_accepted;
+
+ private:
+  enum class Outcome { converged, limit, indefinite, stuck, not_finite };
+  /// A system of the free vertices, or of those and the prescribed ones.
+  struct System {
+    BlockMatrix matrix;
+    Factor factor;
+    explicit System(const std::vector<Mobility>& mobility) : matrix(mobility) {}
+  };
+  struct Bounded {
+    double share = 1;
+    std::optional<PrimitivePair> pair;
+    std::vector<PrimitivePair> pairs;  ///< all that can come within d̂ on the way
+  };
+
+  void begin(const State& start, const State& velocity, std::int64_t number);
+  void find_barriers(const State& x);
+  void start_stiffness();
+  void move_prescribed();
+  Outcome solve();
+  Outcome solve_once();
+  /// One iteration; empty where it goes on.
+  std::optional<Outcome> iterate();
+  std::optional<State> direction(const IpcDerivatives& derivatives);
+  bool converged(const State& p);
+  bool pulled_home();
+  Bounded bounded(const State& p);
+  double searched(const State& p, const Bounded& bound, const IpcDerivatives& derivatives);
+  bool intersects(const State& x);
+  void adapt_stiffness();
+  void release_pull();
+  void note(const std::string& what);
+  void add_row();
+  IpcStep finish(Outcome outcome);
+  System& system();
+  std::vector<PrimitivePair> near(const State& from, const State& to);
+
+  template <class Work>
+  auto timed(IpcStage stage, Work work);
+
+  const compare::Scene& scene_;
+  const compare::Topology& topology_;
+  const compare::Settings& settings_;
+  compare::SimulationOptions options_;
+  std::vector<compare::Index> groups_;
+  BarrierShape shape_;
+  StiffnessScale scale_;
+  IpcForces forces_;
+  PairMesh mesh_;
+  StiffnessBounds bounds_;
+  StiffnessGuard guard_;
+  System free_;
+  std::unique_ptr<System> pulled_;  ///< made when it is first needed
+
+  State start_, target_, x_;
+  BarrierSet set_;                  ///< at x
+  double stiffness_ = 0;
+  double prescribed_way_ = 0;       ///< Σ ‖t − xᵗ‖² of prescribed vertices [m²]
+  std::int64_t iterations_ = 0;     ///< of this solve
+  bool descend_ = false;            ///< the next direction is the negative gradient
+  std::deque<double> speeds_;       ///< mean squared ‖p_v‖/h of the last iterations [m²/s²]
+  double started_ms_ = 0;
+  compare::StepMetrics metrics_;
+  std::vector<compare::IterationMetrics> rows_;
+  std::array<double, ipc_stage_count> stage_ms_{};
+};
+
+}  // namespace ogc::reference
