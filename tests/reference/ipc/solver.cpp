@@ -1,0 +1,274 @@
+#include "reference/ipc/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/global_control.h>
+
+#include "compare/problem/error.hpp"
+#include "reference/ipc/intersections.hpp"
+#include "reference/ipc/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/reference/solvers/sheets.hpp"
+
+using namespace ogc;
+using namespace ogc::tests;
+using Catch::Matchers::Contains;
+using reference::State;
+
+namespace {
+
+struct Run {
+  std::vector<compare::StepMetrics> rows;
+  compare::Snapshot end;
+};
+
+Run run(const compare::Scene& scene, std::int64_t steps) {
+  const auto simulation = reference::start_ipc(scene, {.iterations = true});
+  Run result{simulation->advance(steps), {}};
+  result.end = simulation->snapshot();
+  return result;
+}
+
+bool clean(const Run& run) {
+  return std::all_of(run.rows.begin(), run.rows.end(), [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
+}
+
+/// A sheet that falls askew onto a fixed one: contacts of all kinds, friction, damping.
+compare::Scene drop_scene() {
+  compare::Scene scene;
+  scene.name = "drop";
+  compare::Material material;
+  material.bending_damping = material.membrane_damping = 2e-6;
+  add_sheet(scene, 8, 0.07, 0.012, false, material);
+  add_sheet(scene, 6, 0.09, 0, true, material);
+  for (std::size_t v = 0; v < 64; ++v) {
+    compare::Vec3& x = scene.mesh.positions[v];
+    x.y += 0.1 * x.x + 0.05 * x.z;
+    scene.velocities[v] = {0.1, -0.3, 0.05};
+  }
+  scene.settings.ipc_distance = 2e-3;
+  return scene;
+}
+
+/// A stepper that shows every state in double.
+struct Stepper {
+  compare::Scene scene;
+  compare::Topology topology;
+  reference::IpcSolver solver;
+  State x, v;
+  std::int64_t number = 0;
+  explicit Stepper(compare::Scene of) : scene(rounded(std::move(of))), topology(build_topology(scene)), solver(scene, topology, {}) {
+    x = reference::widened(compare::to_single(scene.mesh.positions));
+    v = reference::widened(compare::to_single(scene.velocities));
+  }
+  static compare::Scene rounded(compare::Scene scene) {
+    round_to_single(scene);
+    return scene;
+  }
+  compare::StepMetrics step() {
+    reference::IpcStep next = solver.step(x, v, ++number);
+    x = next.position, v = next.velocity;
+    return next.metrics;
+  }
+  bool intersects() const {
+    const std::vector<compare::Index> groups = rigid_groups(scene);
+    const std::vector<float> rest(topology.edges.size(), 1);
+    return !reference::intersections({topology, groups, rest}, x).empty();
+  }
+};
+
+compare::Material heavy() {
+  compare::Material material;
+  material.density = 200;
+  material.lame_mu = material.lame_lambda = 1e4;
+  return material;
+}
+
+}  // namespace
+
+TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[property]") {
+  compare::Scene scene;
+  scene.name = "fall";
+  add_sheet(scene, 6, 0.05, 0, false);
+  const Run result = run(scene, 10);
+  REQUIRE(clean(result));
+  const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
+  for (const compare::Vec3f& x : result.end.positions) CHECK(double{x.y} == Approx(-fallen).epsilon(1e-6));
+  for (const compare::StepMetrics& row : result.rows) {
+    // A step, and the solve that finds nothing left to do.
+    CHECK(row.iterations == 2);
+    CHECK(row.continuous_detections >= 1);
+    CHECK(row.discrete_detections == 2);  // at the start, and at the one trial state
+  }
+}
+
+TEST_CASE("IPC: each accepted step lowers the energy, and no state intersects", "[property]") {
+  Stepper stepper(drop_scene());
+  int accepted = 0;
+  stepper.solver.on_accepted = [&](double change, double noise) {
+    CHECK((change < 0 || change <= noise));
+    ++accepted;
+  };
+  std::int64_t contacts = 0;
+  for (int step = 0; step < 20; ++step) {
+    const compare::StepMetrics row = stepper.step();
+    REQUIRE(row.status == compare::step_clean);
+    REQUIRE_FALSE(stepper.intersects());
+    CHECK(row.smallest_distance > 0);
+    contacts += row.vertex_facet_contacts + row.edge_edge_contacts;
+  }
+  CHECK(accepted > 40);
+  CHECK(contacts > 100);
+}
+
+TEST_CASE("IPC: both stopping rules end a step where they say, and counts of iterations add up to those of the step", "[property]") {
+  for (const auto rule : {compare::IpcStopping::displacement, compare::IpcStopping::velocity}) {
+    compare::Scene scene = drop_scene();
+    scene.settings.ipc_stopping = rule;
+    const Run result = run(scene, 12);
+    REQUIRE(clean(result));
+    for (const compare::StepMetrics& row : result.rows) {
+      if (rule == compare::IpcStopping::displacement) CHECK(row.residual < scene.settings.ipc_tolerance);
+      REQUIRE(static_cast<std::int64_t>(row.iteration_rows.size()) == row.iterations);
+      std::int64_t discrete = 0, continuous = 0, broad = 0;
+      for (const compare::IterationMetrics& iteration : row.iteration_rows)
+        discrete += iteration.discrete_detections, continuous += iteration.continuous_detections, broad += iteration.broad_phases;
+      CHECK(discrete == row.discrete_detections - 1);  // one at the start of the step belongs to no iteration
+      CHECK(broad == row.broad_phases - 1);
+      CHECK(continuous == row.continuous_detections);
+    }
+  }
+}
+
+TEST_CASE("IPC: what lies on a plane rests where the barrier carries its weight", "[property]") {
+  compare::Material material = heavy();
+  material.friction = 0;
+  compare::Scene scene = triangle_on_plane(1.5e-3, material);
+  scene.settings.ipc_distance = 2e-3;
+  scene.settings.ipc_stiffness = 1e10;
+  scene.settings.ipc_tolerance = 1e-9;
+  scene.settings.time_step = 0.05;
+  const Run result = run(scene, 60);
+  REQUIRE(clean(result));
+  const double weight = material.density * 0.5 * 1e-4 / 3 * 9.81, support = 4e-6;
+  const double y = double{result.end.positions[0].y};
+  // Each vertex meets the plane once; its triangle's edges are far from the plane's.
+  CHECK(-1e10 * reference::barrier_slopes(y * y, support).slope[0] * 2 * y == Approx(weight).epsilon(1e-3));
+}
+
+TEST_CASE("IPC: friction brakes what slides with its coefficient times gravity, and then holds it", "[property]") {
+  compare::Material material = heavy();
+  material.friction = 0.4;
+  compare::Scene scene = triangle_on_plane(0.8e-3, material);
+  for (std::size_t v = 0; v < 3; ++v) scene.velocities[v] = {0.3, 0, 0};
+  scene.settings.ipc_distance = 1e-3;
+  scene.settings.ipc_tolerance = 1e-7;
+  scene.settings.friction_velocity = 1e-4;
+  scene.settings.friction_solves = 20;
+  scene.settings.time_step = 0.005;
+  const Run result = run(scene, 40);
+  REQUIRE(clean(result));
+  const double way = 0.3 * 0.3 / (2 * 0.4 * 9.81);
+  CHECK(double{result.end.positions[0].x} == Approx(way).epsilon(0.1));
+  CHECK(std::abs(double{result.end.velocities[0].x}) < 1e-3);
+}
+
+TEST_CASE("IPC: prescribed vertices reach their targets where nothing is in the way", "[unit]") {
+  compare::Scene scene;
+  scene.name = "carried";
+  add_sheet(scene, 5, 0.04, 0, false);
+  compare::PrescribedMotion motion;
+  motion.vertices = {0, 1, 2, 3, 4};
+  motion.velocity = {-0.2, 0, 0};
+  scene.motions.push_back(motion);
+  const Run result = run(scene, 5);
+  REQUIRE(clean(result));
+  for (const compare::StepMetrics& row : result.rows) CHECK(row.largest_lag == 0);
+  CHECK(double{result.end.positions[0].x} == Approx(-0.02 - 0.05 * 0.2).epsilon(1e-6));
+}
+
+TEST_CASE("IPC: prescribed vertices that would go through free cloth push it along, without an intersection", "[property]") {
+  compare::Scene scene;
+  scene.name = "press";
+  add_sheet(scene, 5, 0.04, 0, false);
+  add_sheet(scene, 4, 0.03, 0.004, false);
+  compare::PrescribedMotion motion;
+  for (compare::Index v = 25; v < 41; ++v) motion.vertices.push_back(v);
+  motion.velocity = {0, -1, 0};
+  motion.end = 0.03;
+  scene.motions.push_back(motion);
+  scene.gravity = {};
+  scene.settings.ipc_distance = 1e-3;
+  Stepper stepper(scene);
+  for (int step = 0; step < 4; ++step) {
+    const compare::StepMetrics row = stepper.step();
+    REQUIRE(row.status == compare::step_clean);
+    REQUIRE_FALSE(stepper.intersects());
+    // A thousandth of the step's way is the share that the augmented Lagrangian leaves.
+    CHECK(row.largest_lag <= 2e-3 * 0.01);
+  }
+  CHECK(stepper.x[12][1] < -0.02);
+}
+
+TEST_CASE("IPC: a start that intersects or touches is refused with the pairs", "[unit]") {
+  compare::Scene crossing;
+  crossing.name = "crossing";
+  append_body(crossing, {.name = "a", .material = heavy()}, {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}, {}});
+  append_body(crossing, {.name = "b", .material = heavy()}, {{{0.2, -0.5, 0.2}, {0.2, 0.5, 0.2}, {0.3, 0.5, 0.4}}, {{0, 1, 2}}, {}});
+  CHECK_THROWS_WITH(reference::start_ipc(crossing, {}), Contains("(vertices 3, 4) and triangle 0 (vertices 0, 1, 2) intersect"));
+  compare::Scene thick = triangle_on_plane(1e-3, heavy());
+  thick.settings.ipc_thickness = 2e-3;
+  CHECK_THROWS_WITH(reference::start_ipc(thick, {}), Contains("vertex 0 and triangle 1 (vertices 3, 4, 5) have no gap") && Contains("beyond the thickness"));
+  CHECK_NOTHROW(reference::start_ipc(triangle_on_plane(1e-3, heavy()), {}));
+}
+
+TEST_CASE("IPC: a time of impact of zero ends the step with the pair's name, never a loop", "[unit]") {
+  compare::Material material = heavy();
+  compare::Scene scene = triangle_on_plane(0x1p-60, material);
+  scene.settings.ipc_distance = 1e-3;
+  const auto simulation = reference::start_ipc(scene, {});
+  const auto rows = simulation->advance(3);
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].status == compare::step_not_converged);
+  REQUIRE(rows[0].notes.size() == 2);
+  CHECK_THAT(rows[0].notes[0], Contains("held by vertex") && Contains("triangle 1") && Contains("follows the gradient"));
+  CHECK_THAT(rows[0].notes[1], Contains("along the gradient"));
+  CHECK(simulation->snapshot().step == 0);
+}
+
+TEST_CASE("IPC: one iteration a step is one iteration a step", "[unit]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.ipc_iterations = 1;
+  scene.settings.ipc_tolerance = 0;
+  const Run result = run(scene, 8);
+  REQUIRE(clean(result));
+  for (const compare::StepMetrics& row : result.rows) {
+    CHECK(row.iterations == 1);
+    CHECK(row.notes.empty());
+  }
+  scene.settings.ipc_tolerance = 1e-6;
+  CHECK_THAT(run(scene, 1).rows[0].notes.at(0), Contains("limit of 1 iterations"));
+}
+
+TEST_CASE("IPC: threads change no bit, and a run does not depend on those before", "[property]") {
+  const Run one = [] {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    return run(drop_scene(), 8);
+  }();
+  const Run two = run(drop_scene(), 8);
+  CHECK(one.end.positions == two.end.positions);
+  CHECK(one.end.velocities == two.end.velocities);
+}
+
+TEST_CASE("IPC: thickness is kept", "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.ipc_distance = 1e-3;
+  scene.settings.ipc_thickness = 1e-3;
+  const Run result = run(scene, 12);
+  REQUIRE(clean(result));
+  double smallest = 1;
+  for (const compare::StepMetrics& row : result.rows) smallest = std::min(smallest, row.smallest_distance);
+  CHECK(smallest > 1e-3);
+  CHECK(smallest < 2e-3);
+}
