@@ -1,7 +1,6 @@
 // `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and saved failures.
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,8 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/files/bytes.hpp"
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/judge.hpp"
+#include "compare/judge/page.hpp"
 #include "compare/judge/report.hpp"
 #include "compare/judge/shrink.hpp"
 #include "compare/judge/states.hpp"
@@ -20,6 +21,7 @@
 #include "experiments/plugins/contestant.hpp"
 #include "experiments/plugins/report.hpp"
 #include "experiments/progress.hpp"
+#include "experiments/stage_list.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 
@@ -42,6 +44,7 @@ struct CompareOptions {
   std::string backend = "cpu", generator, states, problem, batch, replay, report, plugin;
   std::uint64_t cases = 100000, seed = 1;
   unsigned time_limit = 10;
+  bool list = false, markdown = false, determinism = false;
 };
 
 fast::Backend backend_of(const std::string& name) {
@@ -176,10 +179,11 @@ class Shrinking {
   double spent_ = 0;
 };
 
-/// Saves the first failing cases of each generator, shrunk; returns the paths.
+/// Saves the first failing cases of each generator, shrunk, and their problem strings as a batch file; returns the paths.
 std::vector<std::string> save_failures(const std::vector<StageReport>& reports, std::span<const compare::TestCase> given, OpenStates& states,
                                        const std::filesystem::path& folder, Shrinking shrinking) {
   std::vector<std::string> paths;
+  std::string problems;
   for (const StageReport& report : reports) {
     std::vector<compare::CaseName> saved;
     for (const compare::Mismatch& mismatch : report.tally.mismatches) {
@@ -189,20 +193,33 @@ std::vector<std::string> save_failures(const std::vector<StageReport>& reports, 
       saved.push_back(mismatch.name);
       const auto [test, message] = shrinking.small(case_again(mismatch.name, given, states), mismatch.message);
       paths.push_back(compare::save_case(folder, test, message).string());
+      problems += "# " + message + "\n" + compare::print_problem(test.name) + "\n";
     }
   }
+  if (!paths.empty()) compare::write_bytes(folder / "problems.txt", problems);
   return paths;
 }
 
-void write_report(const std::filesystem::path& folder, const std::vector<StageReport>& reports) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  std::ofstream lines(folder / "report.jsonl"), table(folder / "report.txt");
-  for (const StageReport& report : reports) lines << compare::report_json(report).dump() << "\n";
-  table << compare::report_table(reports);
-  lines.flush();
-  table.flush();
-  if (!lines || !table) throw compare::ResourceError(folder.string() + ": the report cannot be written; check the folder and the space on its disk");
+void write_report(const std::filesystem::path& folder, const std::vector<StageReport>& reports, const std::string& judged) {
+  std::string lines;
+  for (const StageReport& report : reports) lines += compare::report_json(report).dump() + "\n";
+  compare::write_bytes(folder / "report.jsonl", lines);
+  compare::write_bytes(folder / "report.txt", compare::report_table(reports));
+  compare::write_bytes(folder / "report.html", compare::report_page(reports, judged + " against the reference"));
+}
+
+/// --list: what there is to compare.
+int list_stages(const CompareOptions& options) {
+  print_result(options.markdown ? stage_list_markdown() : stage_list_text());
+  return exit_success;
+}
+
+/// --determinism: no truth is asked for, only whether bits stay the same.
+int judge_bits(const CompareOptions& options, const CommandContext& context) {
+  const auto reports = determinism_of(backend_of(options.backend), stages_of(options), options.cases, options.seed);
+  if (context.json) print_result(Json{{"backend", options.backend}, {"stages", determinism_json(reports)}});
+  else print_result(compare::determinism_table(reports));
+  return std::all_of(reports.begin(), reports.end(), [](const auto& report) { return report.changed.empty(); }) ? exit_success : exit_check_failed;
 }
 
 void print_reports(const std::vector<StageReport>& reports, const std::optional<PluginSeen>& plugin, const std::vector<std::string>& saved,
@@ -224,6 +241,8 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
 }
 
 int run(CompareOptions options, const CommandContext& context) {
+  if (options.list) return list_stages(options);
+  if (options.determinism) return judge_bits(options, context);
   const Judged judged = judged_of(options);
   if (judged.plugin) choose_stages_of_plugin(options, judged);
   const compare::Authority authority = reference::authority();
@@ -239,7 +258,7 @@ int run(CompareOptions options, const CommandContext& context) {
   if (judged.plugin) plugin = PluginSeen{judged.plugin->name(), judged.backend, *judged.times, judged.plugin->notes()};
   const std::filesystem::path folder = options.report.empty() ? "ogc-compare" : options.report;
   const std::vector<std::string> saved = options.replay.empty() ? save_failures(reports, given, states, folder / "failures", {judged.contestant, authority}) : std::vector<std::string>{};
-  if (!options.report.empty()) write_report(folder, reports);
+  if (!options.report.empty()) write_report(folder, reports, judged.plugin ? judged.plugin->name() : options.backend);
   print_reports(reports, plugin, saved, context);
   bool any = false, passed = true;
   for (const StageReport& report : reports) {
@@ -276,7 +295,11 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   batch->excludes(replay);
   command->add_option("--plugin", options->plugin, "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
   command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")->capture_default_str()->check(CLI::Range(1, 3600));
-  command->add_option("--report", options->report, "Folder for report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
+  command->add_option("--report", options->report, "Folder for report.html, report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
+  command->add_flag("--determinism", options->determinism, "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of threads? The digests of "
+                                                           "two machines or builds may be compared");
+  auto* list = command->add_flag("--list", options->list, "Print all stages with what they are asked, their generators and parameters");
+  command->add_flag("--markdown", options->markdown, "With --list: as the table of README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer("Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of compare/stages.\n"
                   "Exit status 1: a mismatch, too many grey decisions, or a plug-in that crashes, hangs or writes out of range.\n\n"
@@ -284,7 +307,8 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
                   "  ogc compare --cases 1000000\n"
                   "  ogc compare closest_face truncate --backend cuda --report reports/cuda\n"
                   "  ogc compare truncate --plugin ./mine.so\n"
-                  "  ogc compare --problem \"stage=closest_face gen=ladder.needle seed=7 index=1234\"");
+                  "  ogc compare --problem \"stage=detect_edge_edge gen=few seed=7 index=12 r=2e-3 r_q=4e-3\"\n"
+                  "  ogc compare --determinism --backend cuda --json");
   command->callback([options, &context] { context.status = run(*options, context); });
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "compare/judge/questions.hpp"
 #include "compare/judge/sweep_question.hpp"
 
 namespace ogc::compare {
@@ -37,70 +38,9 @@ class Asker {
   Tally& tally_;
 };
 
-ClosestFaceIn face_question(Cases cases) {
-  ClosestFaceIn in;
-  for (const TestCase& test : cases) {
-    const auto& c = std::get<ClosestFaceCase>(test.data);
-    in.point.push_back(c.point);
-    in.triangle.push_back(c.triangle);
-  }
-  return in;
-}
-
-ClosestPointsIn points_question(Cases cases) {
-  ClosestPointsIn in;
-  for (const TestCase& test : cases) {
-    const auto& c = std::get<ClosestPointsCase>(test.data);
-    in.first.push_back(c.first);
-    in.second.push_back(c.second);
-  }
-  return in;
-}
-
-ActivationIn activation_question(Cases cases) {
-  ActivationIn in;
-  for (const TestCase& test : cases) {
-    const auto& c = std::get<ActivationCase>(test.data);
-    in.distance.push_back(c.distance);
-    in.contact_radius.push_back(c.contact_radius);
-    in.stiffness.push_back(c.stiffness);
-  }
-  return in;
-}
-
-TruncateIn truncate_question(Cases cases) {
-  TruncateIn in;
-  for (const TestCase& test : cases) {
-    const auto& c = std::get<TruncateCase>(test.data);
-    in.previous.push_back(c.previous);
-    in.position.push_back(c.position);
-    in.bound.push_back(c.bound);
-  }
-  return in;
-}
-
-/// In of a stage whose questions are its cases as they are.
-template <class In, class Case>
-In case_question(Cases cases, std::vector<Case> In::*questions) {
-  In in;
-  for (const TestCase& test : cases) (in.*questions).push_back(std::get<Case>(test.data));
-  return in;
-}
-
-DetectIn detect_question(const TestCase& test) {
-  const auto& c = std::get<MeshCase>(test.data);
-  return {c.topology.get(), c.rigid_groups, c.positions, c.contact_radius, c.query_radius};
-}
-
-BoundIn bound_question(const TestCase& test) {
-  const auto& c = std::get<BoundCase>(test.data);
-  return {c.topology.get(), c.d_min_vertex, c.d_min_edge, c.d_min_triangle, c.bound_relaxation};
-}
-
 /// Likewise, and each event of the answer is a question of its own.
 void ask_step(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
-  const auto& c = std::get<StepCase>(test.data);
-  const StepIn question{c.scene.get(), c.topology.get()};
+  const StepIn question = step_question(test);
   const StepOut out = asker.answer(question, contestant.step);
   if (!can_judge_step(test, question, out, tally)) return;
   const std::function<bool(const StepIn&)> about_answer = [&](const StepIn& in) {
@@ -129,14 +69,12 @@ void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, c
     return;
   }
   if (stage == Stage::rest_state) {
-    const auto& c = std::get<RestStateCase>(test.data);
-    const RestStateIn in{c.scene.get(), c.topology.get()};
+    const RestStateIn in = rest_question(test);
     judge_rest_state(test, asker.truth(in, authority.rest_state), asker.answer(in, contestant.rest_state), tally);
     return;
   }
   if (stage == Stage::block) {
-    const auto& c = std::get<BlockCase>(test.data);
-    const BlockIn in{c.topology.get(), c.positions, c.questions};
+    const BlockIn in = block_question(test);
     judge_block(test, asker.truth(in, authority.block), asker.answer(in, contestant.block), tally);
     return;
   }
@@ -188,7 +126,7 @@ void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority
     ask_guess(cases, contestant, authority, asker, tally);
   } else if (stage == Stage::activation) {
     const ActivationIn in = activation_question(cases);
-    judge_activation(cases, asker.truth(in, authority.activation), asker.answer(in, contestant.activation), tally);
+    judge_activation(cases, in, asker.truth(in, authority.activation), asker.answer(in, contestant.activation), tally);
   } else {
     const TruncateIn in = truncate_question(cases);
     judge_truncate(cases, in, asker.truth(in, authority.truncate), asker.answer(in, contestant.truncate), tally);

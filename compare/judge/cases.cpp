@@ -3,6 +3,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "compare/judge/parameters.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
@@ -17,6 +18,20 @@ std::uint64_t parse_number(const std::string& key, const std::string& value) {
   return number;
 }
 
+float parse_value(const std::string& key, const std::string& value) {
+  float number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  if (error != std::errc{} || end != value.data() + value.size() || value.empty())
+    throw InputError("problem string: '" + key + "=" + value + "' is not a number of single precision");
+  return number;
+}
+
+/// The shortest text that reads back as the same number.
+std::string print_value(float value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
 Stage parse_stage(const std::string& value) {
   if (const auto stage = find_stage(value)) return *stage;
   std::string known;
@@ -29,6 +44,7 @@ Stage parse_stage(const std::string& value) {
 std::string print_problem(const CaseName& name) {
   std::string line = "stage=" + std::string(stage_name(name.stage)) + " gen=" + name.generator + " seed=" + std::to_string(name.seed) +
                      " index=" + std::to_string(name.index);
+  for (const Override& parameter : name.overrides) line += " " + parameter.name + "=" + print_value(parameter.value);
   if (!name.states.empty()) line += " states=" + name.states;
   return line;
 }
@@ -55,12 +71,15 @@ CaseName parse_problem(const std::string& line) {
       name.seed = parse_number(key, value);
     } else if (key == "index") {
       name.index = parse_number(key, value);
+    } else if (equals == std::string::npos) {
+      throw InputError("problem string: '" + word + "' in '" + line + "' is no key=value; keys: stage, gen, seed, index, states and the stage's parameters");
     } else {
-      throw InputError("problem string: unknown key '" + key + "' in '" + line + "'; known: stage, gen, seed, index, states");
+      name.overrides.push_back({key, parse_value(key, value)});
     }
   }
   if (!has_stage || name.generator.empty())
     throw InputError("problem string: '" + line + "' lacks stage or gen; example: stage=closest_face gen=ladder.needle seed=7 index=1234");
+  make_canonical(name.stage, name.overrides);
   return name;
 }
 

@@ -17,18 +17,27 @@
 
 namespace ogc::compare {
 
-/// Names a generated case. Printed: `stage=closest_face gen=ladder.needle seed=7 index=1234`, for real states followed by ` states=RUN`.
+/// A parameter set after the case is made (compare/judge/parameters.hpp).
+struct Override {
+  std::string name;
+  float value = 0;
+  friend bool operator==(const Override&, const Override&) = default;
+};
+
+/// Names a generated case. Printed: `stage=detect_edge_edge gen=few seed=7 index=1234`, then parameters that are not the generator's own (` r=0.002`), and for
+/// real states ` states=RUN`.
 struct CaseName {
   Stage stage = Stage::closest_face;
   std::string generator;
   std::uint64_t seed = 0, index = 0;
-  std::string states;  ///< run folder; empty unless the generator is `states`
+  std::string states;                ///< run folder; empty unless the generator takes real states
+  std::vector<Override> overrides{};  ///< in the stage's order
   friend bool operator==(const CaseName&, const CaseName&) = default;
 };
 
 /// The canonical line.
 std::string print_problem(const CaseName& name);
-/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong.
+/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong, or the parameter that the stage lacks.
 CaseName parse_problem(const std::string& line);
 
 struct ClosestFaceCase {

@@ -1,12 +1,14 @@
 #include "compare/judge/corpus.hpp"
 
-#include <cstdio>
 #include <fstream>
 
+#include "compare/files/bytes.hpp"
+#include "compare/judge/case_hdf5.hpp"
 #include "compare/judge/corpus_forces.hpp"
 #include "compare/judge/corpus_rest.hpp"
 #include "compare/judge/corpus_scenes.hpp"
 #include "compare/judge/numbers_json.hpp"
+#include "compare/judge/shape.hpp"
 #include "compare/judge/topology_json.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"
@@ -86,72 +88,30 @@ CaseData to_data(Stage stage, const Json& data) {
   }
 }
 
-/// OBJ text: vertices in order, then faces and lines with indices from 1. Empty where the case has no shape.
-struct ToObj {
-  std::string text;
-  void point(const Vec3f& p) {
-    char buffer[96];
-    std::snprintf(buffer, sizeof buffer, "v %.9g %.9g %.9g\n", double{p.x}, double{p.y}, double{p.z});
-    text += buffer;
-  }
-  void operator()(const ClosestFaceCase& c) {
-    point(c.point);
-    for (const Vec3f& p : c.triangle) point(p);
-    text += "p 1\nf 2 3 4\n";
-  }
-  void operator()(const ClosestPointsCase& c) {
-    for (const auto& edge : {c.first, c.second})
-      for (const Vec3f& p : edge) point(p);
-    text += "l 1 2\nl 3 4\n";
-  }
-  void operator()(const MeshCase& c) {
-    for (const Vec3f& p : c.positions) point(p);
-    for (const Triangle& t : c.topology->triangles)
-      text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
-    for (std::size_t e = 0; e < c.topology->edges.size(); ++e)
-      if (c.topology->edge_triangles[e].empty())
-        text += "l " + std::to_string(c.topology->edges[e][0] + 1) + " " + std::to_string(c.topology->edges[e][1] + 1) + "\n";
-  }
-  void operator()(const SweepCase& c) { scene(*c.scene, c.previous); }
-  void operator()(const StepCase& c) { scene(*c.scene, to_single(c.scene->mesh.positions)); }
-  void scene(const Scene& scene, const std::vector<Vec3f>& positions) {
-    for (const Vec3f& p : positions) point(p);
-    for (const Triangle& t : scene.mesh.triangles)
-      text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
-  }
-  template <class Other>
-  void operator()(const Other&) {}
-};
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text << std::flush;
-  if (!file) throw ResourceError(path.string() + ": cannot be written; check the folder and the space on its disk");
-}
-
 }  // namespace
 
+nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message) {
+  return {{"format", case_format_version}, {"problem", print_problem(test.name)}, {"message", message}, {"data", std::visit(ToJson{}, test.data)}};
+}
+
 std::filesystem::path save_case(const std::filesystem::path& folder, const TestCase& test, const std::string& message) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw ResourceError(folder.string() + ": cannot be created: " + error.message());
   const CaseName& name = test.name;
-  const std::string stem =
-      std::string(stage_name(name.stage)) + "." + name.generator + "." + std::to_string(name.seed) + "." + std::to_string(name.index);
-  const Json json{{"format", case_format_version}, {"problem", print_problem(test.name)}, {"message", message}, {"data", std::visit(ToJson{}, test.data)}};
-  const std::filesystem::path path = folder / (stem + ".json");
-  write_text(path, json.dump(1) + "\n");
-  ToObj obj;
-  std::visit([&](const auto& data) { obj(data); }, test.data);
-  if (!obj.text.empty()) write_text(folder / (stem + ".obj"), obj.text);
+  std::string stem = std::string(stage_name(name.stage)) + "." + name.generator + "." + std::to_string(name.seed) + "." + std::to_string(name.index);
+  for (const Override& parameter : name.overrides) stem += "." + parameter.name + "=" + hexadecimal(parameter.value);
+  const std::filesystem::path path = folder / (stem + ".h5");
+  write_case_hdf5(path, case_to_json(test, message));
+  const Shape shape = shape_of(test.data);
+  if (shape.points.empty()) return path;
+  write_bytes(folder / (stem + ".obj"), print_shape_obj(shape));
+  write_bytes(folder / (stem + ".svg"), print_shape_svg(shape, print_problem(name) + ": " + message));
   return path;
 }
 
 TestCase load_case(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path.string() + ": cannot be read; give a file that `ogc compare` saved");
+  const bool is_text = path.extension() == ".json";
+  const std::string text = is_text ? read_bytes(path) : "";
   try {
-    const Json json = Json::parse(file);
+    const Json json = is_text ? Json::parse(text) : read_case_hdf5(path);
     const int format = json.at("format").get<int>();
     if (format != case_format_version)
       throw InputError("format " + std::to_string(format) + " is not the one this program reads (" + std::to_string(case_format_version) + ")");

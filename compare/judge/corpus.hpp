@@ -1,9 +1,11 @@
-// Cases as files: JSON with hexadecimal floats, so that every bit comes back whatever becomes of the generators, and an OBJ mesh to look at.
+// Cases as files: every bit comes back whatever becomes of the generators; a mesh and a picture to look at.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "compare/judge/cases.hpp"
 
@@ -11,11 +13,15 @@ namespace ogc::compare {
 
 inline constexpr int case_format_version = 1;
 
-/// Writes folder/STAGE.GENERATOR.SEED.INDEX.json and, where the case has a shape, .obj beside it. Returns the path of the JSON file. Throws
-/// ResourceError where the disk does not take it.
+/// The case with its problem string and message, numbers of single precision as hexadecimal text.
+nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message);
+
+/// Writes folder/STAGE.GENERATOR.SEED.INDEX.h5 (compare/judge/case_hdf5.hpp) and, where the case has coordinates, beside it a mesh (.obj) and a picture (.svg).
+/// Returns the path of the HDF5 file. Throws ResourceError where the disk does not take it.
 std::filesystem::path save_case(const std::filesystem::path& folder, const TestCase& test, const std::string& message);
 
-/// Reads a saved case. Throws InputError that names the file and the key that is missing or wrong.
+/// Reads a saved case, or one written by hand as JSON (.json, as case_to_json gives it). Throws InputError that names the file and the key that is missing or
+/// wrong.
 TestCase load_case(const std::filesystem::path& file);
 
 /// Reads a batch file: one problem string a line; empty lines and lines that begin with # are skipped. Throws InputError that names file and line.

@@ -51,14 +51,14 @@ class Asker {
     return {topology_.triangles[at(a.index)].begin(), topology_.triangles[at(a.index)].end()};
   }
 
-  /// One of the nearest vertices; in one of eight cases any.
+  /// One of the nearest vertices, of fine cases the nearest; in one of eight other cases any.
   Index near(Index v) {
-    if (random_.one_in(8)) return random_.below(topology_.vertex_count);
+    if (!random_.is_fine() && random_.one_in(8)) return random_.below(topology_.vertex_count);
     std::vector<std::pair<double, Index>> others;
     for (Index w = 0; w < topology_.vertex_count; ++w)
       if (w != v) others.emplace_back(squared_distance(positions_[at(v)], positions_[at(w)]), w);
     if (others.empty()) return v;
-    const std::size_t kept = std::min(others.size(), neighbours);
+    const std::size_t kept = std::min(others.size(), random_.is_fine() ? 1 : neighbours);
     std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(kept), others.end());
     return others[at(random_.below(static_cast<int>(kept)))].second;
   }
@@ -101,9 +101,9 @@ CaseData about(Random& random) {
 }
 
 constexpr std::string_view soup = "soup", cloth = "cloth", few = "few", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold",
-                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands";
+                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands", boundary = "ladder.boundary";
 
-constexpr std::array<Generator, 11> table{{{soup, 16, true, about<soup>},
+constexpr std::array<Generator, 12> table{{{soup, 16, true, about<soup>},
                                            {cloth, 16, true, about<cloth>},
                                            {few, 2, true, about<few>},
                                            {lattice, 16, false, about<lattice>},
@@ -113,7 +113,8 @@ constexpr std::array<Generator, 11> table{{{soup, 16, true, about<soup>},
                                            {fan, 7, false, about<fan>},
                                            {above, 7, false, about<above>},
                                            {book, 6, false, about<book>},
-                                           {strands, 6, false, about<strands>}}};
+                                           {strands, 6, false, about<strands>},
+                                           {boundary, 160, false, about<boundary>}}};
 
 }  // namespace
 

@@ -95,7 +95,14 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-constexpr std::array<Generator, 12> table{{{"uniform", 12, true, uniform},
+/// Next to a boundary: one of the ladders towards the planes, on its lower rungs.
+CaseData boundary(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 3> ladders{corner_plane, edge_plane, corner_edge};
+  random.be_fine();
+  return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
+}
+
+constexpr std::array<Generator, 13> table{{{"uniform", 12, true, uniform},
                                            {"bits", 12, false, bits},
                                            {"lattice", 20, false, lattice},
                                            {"ladder.corner_plane", 8, false, corner_plane},
@@ -106,7 +113,8 @@ constexpr std::array<Generator, 12> table{{{"uniform", 12, true, uniform},
                                            {"ladder.sliver", 6, false, sliver},
                                            {"ladder.base", 6, false, base},
                                            {"ladder.zero_area", 5, false, zero_area},
-                                           {"ladder.offset", 5, false, offset}}};
+                                           {"ladder.offset", 5, false, offset},
+                                           {"ladder.boundary", 90, false, boundary}}};
 
 }  // namespace
 

@@ -97,7 +97,14 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-constexpr std::array<Generator, 11> table{{{"uniform", 12, true, uniform},
+/// Next to a boundary: one of the ladders towards ends, overlaps and the rule for nearly parallel edges, on its lower rungs.
+CaseData boundary(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 3> ladders{threshold, overlap, end};
+  random.be_fine();
+  return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
+}
+
+constexpr std::array<Generator, 12> table{{{"uniform", 12, true, uniform},
                                            {"bits", 12, false, bits},
                                            {"lattice", 20, false, lattice},
                                            {"ladder.parallel", 10, false, parallel},
@@ -107,7 +114,8 @@ constexpr std::array<Generator, 11> table{{{"uniform", 12, true, uniform},
                                            {"ladder.end", 8, false, end},
                                            {"ladder.zero_length", 5, false, zero_length},
                                            {"ladder.near", 6, false, near},
-                                           {"ladder.offset", 5, false, offset}}};
+                                           {"ladder.offset", 5, false, offset},
+                                           {"ladder.boundary", 120, false, boundary}}};
 
 }  // namespace
 

@@ -79,6 +79,12 @@ CaseData bound(Random& random) {
   return c;
 }
 
+/// Likewise, on the lower rungs.
+CaseData boundary(Random& random) {
+  random.be_fine();
+  return bound(random);
+}
+
 /// Fast movers with small bounds: 10² … 10⁶ bounds a step.
 CaseData fast(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(0, 5));
@@ -107,13 +113,14 @@ CaseData still(Random& random) {
   return c;
 }
 
-constexpr std::array<Generator, 7> table{{{"uniform", 25, true, uniform},
+constexpr std::array<Generator, 8> table{{{"uniform", 25, true, uniform},
                                           {"bits", 15, false, bits},
                                           {"lattice", 20, false, lattice},
                                           {"ladder.bound", 15, false, bound},
                                           {"ladder.fast", 10, false, fast},
                                           {"ladder.far", 10, false, far},
-                                          {"ladder.still", 5, false, still}}};
+                                          {"ladder.still", 5, false, still},
+                                          {"ladder.boundary", 190, false, boundary}}};
 
 }  // namespace
 

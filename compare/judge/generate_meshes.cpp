@@ -14,10 +14,10 @@ using namespace placement;
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
 
 /// 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge (single precision holds no less at coordinates of one edge).
-double jitter_rung(Random& random) { return random.one_in(2) ? 0 : std::pow(10.0, -1 - random.below(7)); }
+double jitter_rung(Random& random) { return random.one_in(2) ? 0 : std::pow(10.0, random.is_fine() ? -5 - random.below(3) : -1 - random.below(7)); }
 
 /// h (1 + rung): the radius that just reaches, or just misses, what lies at height h.
-double radius_at(Random& random, double h) { return random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung()); }
+double radius_at(Random& random, double h) { return !random.is_fine() && random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung()); }
 
 /// Strips of triangles and a few loose edges, thrown into a box of about one vertex in a unit cube.
 MeshBuilder soup_of(Random& random, int size) {
@@ -180,7 +180,14 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-constexpr std::array<Generator, 13> table{{{"soup", 20, true, soup},
+/// Next to a boundary: arrangements whose radius just reaches, jittered by their last digits at most. In a stack that is so for nearly every vertex and edge.
+CaseData boundary(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
+  random.be_fine();
+  return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
+}
+
+constexpr std::array<Generator, 14> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
                                            {"large", 10, true, large, 100000},
@@ -192,7 +199,8 @@ constexpr std::array<Generator, 13> table{{{"soup", 20, true, soup},
                                            {"ladder.above", 7, false, above},
                                            {"ladder.book", 4, false, book},
                                            {"ladder.strands", 4, false, strands},
-                                           {"ladder.groups", 4, false, groups}}};
+                                           {"ladder.groups", 4, false, groups},
+                                           {"ladder.boundary", 150, false, boundary}}};
 
 /// One smallest distance: anything, a tie, 0.
 float smallest(Random& random, int kind) {

@@ -107,13 +107,13 @@ CaseData truncate_zero(Random& random) {
 constexpr std::array<Generator, 6> activation_table{{{"uniform", 20, true, activation_uniform},
                                                      {"bits", 20, false, activation_bits},
                                                      {"lattice", 20, false, activation_lattice},
-                                                     {"ladder.radius", 15, false, activation_radius},
-                                                     {"ladder.switch", 15, false, activation_switch},
+                                                     {"ladder.radius", 50, false, activation_radius},
+                                                     {"ladder.switch", 50, false, activation_switch},
                                                      {"ladder.touching", 10, false, activation_touching}}};
 constexpr std::array<Generator, 6> truncate_table{{{"uniform", 20, true, truncate_uniform},
                                                    {"bits", 20, false, truncate_bits},
                                                    {"lattice", 20, false, truncate_lattice},
-                                                   {"ladder.bound", 20, false, truncate_bound},
+                                                   {"ladder.bound", 60, false, truncate_bound},
                                                    {"ladder.far", 10, false, truncate_far},
                                                    {"ladder.zero", 10, false, truncate_zero}}};
 

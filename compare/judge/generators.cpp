@@ -1,5 +1,7 @@
 #include "compare/judge/generators.hpp"
 
+#include "compare/judge/mutate.hpp"
+#include "compare/judge/parameters.hpp"
 #include "compare/judge/states.hpp"
 #include "compare/problem/error.hpp"
 
@@ -9,7 +11,7 @@ namespace {
 
 // Detection decides within r alone. The pair stages and block decide wherever they are asked, and in a regular sheet every vertex lies on the planes of
 // its neighbours: there grey decisions say nothing of the kernel or of the state.
-constexpr Generator real_states{"states", 50, true, nullptr}, pairs_of_real_states{"states", 50, false, nullptr};
+constexpr Generator real_states{"states", 50, true, nullptr}, pairs_of_real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace
 
@@ -35,20 +37,25 @@ std::span<const Generator> generators(Stage stage) {
 
 const Generator& find_generator(Stage stage, std::string_view name) {
   if (name == real_states.name) return is_mesh_stage(stage) && stage != Stage::block ? real_states : pairs_of_real_states;
+  if (name == mutated_states.name && can_mutate(stage)) return mutated_states;
   std::string known;
   for (const Generator& generator : generators(stage)) {
     if (generator.name == name) return generator;
     known += std::string(generator.name) + ", ";
   }
-  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known + "states");
+  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known + (can_mutate(stage) ? "states, mutated" : "states"));
 }
 
-TestCase generate(const CaseName& name, const States* states) {
-  const Generator& generator = find_generator(name.stage, name.generator);
+TestCase generate(const CaseName& name, const States* states) { return generate(find_generator(name.stage, name.generator), name, states); }
+
+TestCase generate(const Generator& generator, CaseName name, const States* states) {
   Random random(stage_name(name.stage), name.generator, name.seed, name.index);
-  if (generator.make) return {name, generator.make(random)};
-  if (!states) throw InputError("'" + print_problem(name) + "' asks for real states: name the run folder, states=RUN");
-  return {name, states->make(name.stage, name.index, random)};
+  if (!generator.make && !states) throw InputError("'" + print_problem(name) + "' asks for real states: name the run folder, states=RUN");
+  CaseData data = generator.make ? generator.make(random) : states->make(name.stage, name.index, random);
+  TestCase test{std::move(name), std::move(data)};
+  if (generator.name == mutated_states.name) mutate(random, test.data);
+  if (!test.name.overrides.empty()) apply_overrides(test);
+  return test;
 }
 
 }  // namespace ogc::compare

@@ -21,14 +21,16 @@ struct Generator {
   std::uint64_t least = 0;  ///< left out of a run of fewer cases than this, of which one of its meshes would be too large a part
 };
 
-/// The generators of a stage, without `states`.
+/// The generators of a stage, without those that take real states: `states` as they are, `mutated` (compare/judge/mutate.hpp).
 std::span<const Generator> generators(Stage stage);
 
-/// The row of a generator, `states` included. Throws InputError that lists the known names.
+/// The row of a generator, `states` and `mutated` included. Throws InputError that lists the known names.
 const Generator& find_generator(Stage stage, std::string_view name);
 
-/// Makes a case. `states` is needed (and throws InputError where it is null) for the generator `states` alone.
+/// Makes a case. `states` is needed (and throws InputError where it is null) for the generators `states` and `mutated` alone.
 TestCase generate(const CaseName& name, const States* states = nullptr);
+/// The same where the row of `name.generator` is at hand.
+TestCase generate(const Generator& generator, CaseName name, const States* states = nullptr);
 
 /// Largest share of grey decisions in the generic generators (design.md §2).
 inline constexpr double grey_share_limit = 1e-5;

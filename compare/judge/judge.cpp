@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "compare/judge/ask.hpp"
+#include "compare/judge/mutate.hpp"
 #include "compare/judge/narrow.hpp"
 #include "compare/judge/states.hpp"
 
@@ -23,7 +24,7 @@ constexpr std::uint64_t mesh_batch = 4;
 /// The run of one generator: batches of consecutive indices until `cases` are counted.
 class GeneratorRun {
  public:
-  GeneratorRun(Stage stage, std::string_view generator, std::uint64_t cases, const Contestant& contestant, const Authority& authority,
+  GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant, const Authority& authority,
                const JudgeOptions& options)
       : stage_(stage), generator_(generator), wanted_(cases), contestant_(contestant), authority_(authority), options_(options), merged_(stage) {}
 
@@ -43,8 +44,10 @@ class GeneratorRun {
     const std::uint64_t size = is_mesh_stage(stage_) ? mesh_batch : options_.batch;
     const std::uint64_t first = number * size, last = is_mesh_stage(stage_) ? first + size : std::min(first + size, wanted_);
     std::vector<TestCase> cases;
+    cases.reserve(first < last ? last - first : 0);
+    const std::string states = generator_.make ? "" : options_.states->folder();
     for (std::uint64_t i = first; i < last; ++i)
-      cases.push_back(generate({stage_, generator_, options_.seed, i, generator_ == "states" ? options_.states->folder() : ""}, options_.states));
+      cases.push_back(generate(generator_, {stage_, std::string(generator_.name), options_.seed, i, states, {}}, options_.states));
     return cases;
   }
 
@@ -82,7 +85,7 @@ class GeneratorRun {
   }
 
   Stage stage_;
-  std::string generator_;
+  const Generator& generator_;
   std::uint64_t wanted_;
   const Contestant& contestant_;
   const Authority& authority_;
@@ -101,7 +104,10 @@ std::vector<Generator> chosen(Stage stage, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
   std::erase_if(rows, [&](const Generator& row) { return row.least > options.cases; });
-  if (options.states && options.states->has(stage)) rows.push_back(find_generator(stage, "states"));
+  if (options.states && options.states->has(stage)) {
+    rows.push_back(find_generator(stage, "states"));
+    if (can_mutate(stage)) rows.push_back(find_generator(stage, "mutated"));
+  }
   return rows;
 }
 
@@ -145,7 +151,7 @@ StageReport judge_stage(Stage stage, const Contestant& contestant, const Authori
   for (const Generator& row : rows) shares += row.share;
   for (const Generator& row : rows) {
     const auto cases = static_cast<std::uint64_t>(std::ceil(static_cast<double>(options.cases) * row.share / shares));
-    GeneratorRun run(stage, row.name, cases, contestant, authority, options);
+    GeneratorRun run(stage, row, cases, contestant, authority, options);
     report.tally.add(run.run(report.tally.total().cases, report.tally.mismatched));
     if (report.tally.failures >= failures_allowed) break;
   }

@@ -69,7 +69,7 @@ void rotate(Random& random, std::span<Vec3> points) {
 void place(Random& random, std::span<Vec3> points) {
   constexpr std::array<double, 8> scales{1, 1, 1, 1, 1, 0x1p10, 0x1p-10, 1000};
   permute(random, points);
-  if (random.one_in(2)) rotate(random, points);
+  if (random.is_fine() || random.one_in(2)) rotate(random, points);
   const double scale = random.pick(std::span<const double>(scales));
   for (Vec3& p : points) p = scaled(p, scale);
 }

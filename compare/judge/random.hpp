@@ -38,7 +38,10 @@ class Random {
     return std::bit_cast<float>(low + static_cast<std::uint32_t>(bits() % (high - low + 1)));
   }
   /// A rung of a ladder towards a degeneracy: 0 in one of four, otherwise ±10⁻ᵏ with k = 1 … 12.
-  double rung() { return one_in(4) ? 0.0 : sign() * std::pow(10.0, -1 - below(12)); }
+  double rung() { return one_in(4) ? 0.0 : sign() * std::pow(10.0, fine_ ? -5 - below(8) : -1 - below(12)); }
+  /// From now on only the lower rungs, 10⁻⁵ and below: for cases that lie next to a decision boundary.
+  void be_fine() { fine_ = true; }
+  bool is_fine() const { return fine_; }
 
  private:
   static std::uint64_t mix(std::uint64_t x) {
@@ -52,6 +55,7 @@ class Random {
     return h;
   }
   std::uint64_t key_, counter_ = 0;
+  bool fine_ = false;
 };
 
 }  // namespace ogc::compare

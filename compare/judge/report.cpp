@@ -1,20 +1,19 @@
 #include "compare/judge/report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "compare/judge/stage_table.hpp"
 
 namespace ogc::compare {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Row = std::array<std::string, 10>;
 
 std::string print(const char* format, double value) {
   char buffer[64];
@@ -24,52 +23,21 @@ std::string print(const char* format, double value) {
 
 double speed(const StageReport& report) { return report.seconds > 0 ? static_cast<double>(report.tally.total().cases) / report.seconds : 0; }
 
-std::string verdict(const StageReport& report) {
-  if (report.skipped) return "skipped";
-  if (report.passed()) return "passed";
-  return report.tally.mismatched > 0 ? "mismatch" : "too many grey decisions";
-}
-
 /// Width in characters of UTF-8 text: all bytes but continuations.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-std::vector<Row> stage_rows(const StageReport& report) {
-  const Tally& tally = report.tally;
-  std::vector<Row> rows;
-  const auto infos = metrics(tally.stage);
-  for (std::size_t i = 0; i < std::max<std::size_t>(1, infos.size()); ++i) {
-    Row row;
-    if (i == 0) {
-      row[0] = stage_name(tally.stage);
-      row[1] = std::to_string(tally.total().cases);
-      row[2] = report.skipped ? "skipped" : std::to_string(tally.mismatched);
-      row[3] = print("%.2g", tally.grey_share());
-      row[9] = print("%.3g", speed(report));
-    }
-    if (infos.empty()) return {row};  // all answers are discrete
-    const Histogram& errors = tally.metrics[i].errors;
-    row[4] = std::string(infos[i].name) + " [" + std::string(infos[i].unit) + "]";
-    row[5] = print("%.3g", errors.quantile(0.5));
-    row[6] = print("%.3g", errors.quantile(0.999));
-    row[7] = print("%.3g", errors.maximum());
-    row[8] = print("%g", infos[i].tolerance);
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-std::string print_rows(const std::vector<Row>& rows) {
-  std::array<std::size_t, 10> widths{};
-  for (const Row& row : rows)
+std::string print_rows(const std::vector<ReportRow>& rows) {
+  std::array<std::size_t, ReportRow{}.size()> widths{};
+  for (const ReportRow& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
   std::string text;
-  for (const Row& row : rows) {
+  for (const ReportRow& row : rows) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string gap(widths[c] - width(row[c]), ' ');
-      const bool left = c == 0 || c == 4;
+      const bool left = c == 0 || c == 5;
       line += (c == 0 ? "" : "  ") + (left ? row[c] + gap : gap + row[c]);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
@@ -77,14 +45,61 @@ std::string print_rows(const std::vector<Row>& rows) {
   return text;
 }
 
+/// The metrics whose tolerances are loose.
+std::string loose_metrics(const StageReport& report) {
+  std::string names;
+  const auto infos = metrics(report.tally.stage);
+  for (std::size_t i = 0; i < infos.size(); ++i)
+    if (report.tally.metrics[i].is_loose(infos[i])) names += (names.empty() ? "" : ", ") + std::string(infos[i].name);
+  return names;
+}
+
 }  // namespace
+
+std::string verdict(const StageReport& report) {
+  if (report.skipped) return "skipped";
+  if (report.passed()) return "passed";
+  return report.tally.mismatched > 0 ? "mismatch" : "too many grey decisions";
+}
+
+ReportRow report_columns() {
+  return {"stage", "cases", "mismatches", "grey share", "near share", "error [unit]", "median", "99.9 %", "maximum", "accepted", "room", "cases/s"};
+}
+
+std::vector<ReportRow> report_rows(const StageReport& report) {
+  const Tally& tally = report.tally;
+  std::vector<ReportRow> rows;
+  const auto infos = metrics(tally.stage);
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, infos.size()); ++i) {
+    ReportRow row;
+    if (i == 0) {
+      row[0] = stage_name(tally.stage);
+      row[1] = std::to_string(tally.total().cases);
+      row[2] = report.skipped ? "skipped" : std::to_string(tally.mismatched);
+      row[3] = print("%.2g", tally.grey_share());
+      row[4] = stage_info(tally.stage).has_boundary ? print("%.2g", tally.near_share()) : "–";
+      row[11] = print("%.3g", speed(report));
+    }
+    if (infos.empty()) return {row};  // all answers are discrete
+    const MetricTally& metric = tally.metrics[i];
+    row[5] = std::string(infos[i].name) + " [" + std::string(infos[i].unit) + "]";
+    row[6] = print("%.3g", metric.errors.quantile(0.5));
+    row[7] = print("%.3g", metric.errors.quantile(0.999));
+    row[8] = print("%.3g", metric.errors.maximum());
+    row[9] = print("%g", infos[i].tolerance);
+    row[10] = metric.errors.count() == 0 ? "" : print("%.3g", metric.room(infos[i]));
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 Json report_json(const StageReport& report) {
   const Tally& tally = report.tally;
   const GeneratorTally total = tally.total();
   Json json{{"stage", stage_name(tally.stage)}, {"verdict", verdict(report)},           {"cases", total.cases},
             {"mismatches", tally.mismatched},   {"grey", total.grey},                   {"decisions", total.decisions},
-            {"grey_share_generic", tally.grey_share()}, {"seconds", report.seconds},   {"cases_per_second", speed(report)},
+            {"grey_share_generic", tally.grey_share()}, {"near", total.near},
+            {"near_share", stage_info(tally.stage).has_boundary ? Json(tally.near_share()) : Json()}, {"seconds", report.seconds},   {"cases_per_second", speed(report)},
             {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
   const auto infos = metrics(tally.stage);
   json["metrics"] = Json::array();
@@ -92,23 +107,25 @@ Json report_json(const StageReport& report) {
     const MetricTally& metric = tally.metrics[i];
     json["metrics"].push_back({{"name", infos[i].name}, {"unit", infos[i].unit}, {"tolerance", infos[i].tolerance}, {"median", metric.errors.quantile(0.5)},
                                {"p999", metric.errors.quantile(0.999)}, {"maximum", metric.errors.maximum()},
+                               {"room", std::isfinite(metric.room(infos[i])) ? Json(metric.room(infos[i])) : Json()}, {"loose", metric.is_loose(infos[i])},
                                {"worst", metric.errors.count() ? print_problem(metric.worst) : ""}});
   }
   for (const auto& [name, row] : tally.generators)
-    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"mismatches", row.mismatches}});
+    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"near", row.near}, {"mismatches", row.mismatches}});
   json["listed"] = Json::array();
   for (const Mismatch& item : tally.mismatches) json["listed"].push_back({{"problem", print_problem(item.name)}, {"message", item.message}});
   return json;
 }
 
 std::string report_table(std::span<const StageReport> reports) {
-  std::vector<Row> rows{{"stage", "cases", "mismatches", "grey share", "error [unit]", "median", "99.9 %", "maximum", "accepted", "cases/s"}};
+  std::vector<ReportRow> rows{report_columns()};
   for (const StageReport& report : reports)
-    for (const Row& row : stage_rows(report)) rows.push_back(row);
+    for (const ReportRow& row : report_rows(report)) rows.push_back(row);
   std::string text = print_rows(rows);
   for (const StageReport& report : reports) {
     if (report.skipped) continue;
     text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
+    if (const std::string loose = loose_metrics(report); !loose.empty()) text += "  loose, never within a factor of 50 of what is accepted: " + loose + "\n";
     const auto infos = metrics(report.tally.stage);
     for (std::size_t i = 0; i < infos.size(); ++i)
       if (report.tally.metrics[i].errors.count()) text += "  " + std::string(infos[i].name) + ": " + print_problem(report.tally.metrics[i].worst) + "\n";

@@ -1,8 +1,10 @@
-// Reports: one JSON object a stage, and a table for people.
+// Reports: one JSON object a stage, and a table for people (as a page: compare/judge/page.hpp).
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,11 +12,21 @@
 
 namespace ogc::compare {
 
-/// One stage: counts, grey zone, errors by metric (median, 99.9th percentile, maximum, worst problem string), speed, the listed mismatches, each
+/// One stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th percentile, maximum, room below the tolerance, whether that is loose,
+/// worst problem string), speed, the listed mismatches, each
 /// generator's counts.
 nlohmann::ordered_json report_json(const StageReport& report);
 
-/// One row a metric: stage, cases, mismatches, grey share, median, 99.9 %, maximum and tolerance in the metric's unit, cases per second, worst case.
+/// The columns of report_table, and one row a metric: stage, cases, mismatches, grey share, share near a boundary, error and its unit, median, 99.9 %, maximum
+/// and tolerance in that unit, their ratio, cases per second. What belongs to a stage stands in its first row.
+using ReportRow = std::array<std::string, 12>;
+ReportRow report_columns();
+std::vector<ReportRow> report_rows(const StageReport& report);
+
+/// "passed", "skipped", or what went wrong.
+std::string verdict(const StageReport& report);
+
+/// All rows, then verdict, loose tolerances and worst cases of each stage.
 std::string report_table(std::span<const StageReport> reports);
 
 /// The listed mismatches, problem string and message, at most `limit` a generator, then the count of all others.

@@ -25,6 +25,7 @@ void accumulate(GeneratorTally& sum, const GeneratorTally& row) {
   sum.cases += row.cases;
   sum.decisions += row.decisions;
   sum.grey += row.grey;
+  sum.near += row.near;
   sum.mismatches += row.mismatches;
 }
 
@@ -87,6 +88,18 @@ double Histogram::quantile(double q) const {
   return 0;
 }
 
+std::vector<Histogram::Octave> Histogram::octaves(int lowest) const {
+  std::vector<Octave> octaves;
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    if (bins_[i] == 0) continue;
+    const double edge = std::bit_cast<float>(static_cast<std::uint32_t>(i) << 16);
+    const int exponent = edge > 0 ? std::max(lowest, std::ilogb(edge)) : lowest;
+    while (octaves.empty() || octaves.back().exponent < exponent) octaves.push_back({octaves.empty() ? exponent : octaves.back().exponent + 1, 0});
+    octaves.back().count += bins_[i];
+  }
+  return octaves;
+}
+
 std::span<const MetricInfo> metrics(Stage stage) {
   switch (stage) {
     case Stage::closest_face: return face_metrics;
@@ -115,24 +128,25 @@ void Tally::begin(const CaseName& name) {
   current_ = name;
 }
 
-void Tally::count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey) {
+void Tally::count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near) {
   row_->cases += cases;
   row_->decisions += decisions;
   row_->grey += grey;
+  row_->near += near;
 }
 
-void Tally::error(std::size_t metric, double value, const std::function<std::string()>& where) {
+std::optional<std::string> Tally::note_error(std::size_t metric, double value) {
   if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
   MetricTally& tally = metrics[metric];
   const MetricInfo& info = compare::metrics(stage)[metric];
   if (tally.errors.count() == 0 || value > tally.errors.maximum()) tally.worst = current_;
   tally.errors.add(value);
-  if (value <= info.tolerance) return;
+  if (value <= info.tolerance) return std::nullopt;
   char numbers[128];
   std::snprintf(numbers, sizeof numbers, ": off by %.4g units of ", value);
   char accepted[64];
   std::snprintf(accepted, sizeof accepted, ", %g accepted", info.tolerance);
-  mismatch(std::string(info.name) + numbers + std::string(info.unit) + accepted + "; " + where());
+  return std::string(info.name) + numbers + std::string(info.unit) + accepted + "; ";
 }
 
 void Tally::mismatch(std::string message) {
@@ -172,6 +186,11 @@ GeneratorTally Tally::generic_total() const {
 double Tally::grey_share() const {
   const GeneratorTally sum = generic_total();
   return sum.decisions > 0 ? static_cast<double>(sum.grey) / static_cast<double>(sum.decisions) : 0;
+}
+
+double Tally::near_share() const {
+  const GeneratorTally sum = total();
+  return sum.cases > 0 ? static_cast<double>(sum.near) / static_cast<double>(sum.cases) : 0;
 }
 
 bool Tally::grey_within_limit() const {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +22,12 @@ class Histogram {
   double maximum() const { return maximum_; }
   /// Smallest bin edge below which the share `q` of the values lies (within 1 %); 0 where there are none.
   double quantile(double q) const;
+  /// How many values lie in [2^exponent, 2^(exponent+1)), ascending, without gaps in between; those below 2^lowest count there, 0 too.
+  struct Octave {
+    int exponent = 0;
+    std::uint64_t count = 0;
+  };
+  std::vector<Octave> octaves(int lowest) const;
 
  private:
   std::vector<std::uint64_t> bins_;
@@ -38,9 +44,15 @@ struct MetricInfo {
 /// The metrics of a stage, none where all its answers are discrete; their positions are the numbers that Tally::error takes.
 std::span<const MetricInfo> metrics(Stage stage);
 
+/// A tolerance that no error comes nearer to than this factor is loose: it would let a kernel become so much worse.
+inline constexpr double loose_factor = 50;
+
 struct MetricTally {
   Histogram errors;
   CaseName worst;  ///< of the largest error
+  /// By which factor the largest error stays below the tolerance; infinite where all are 0.
+  double room(const MetricInfo& info) const { return info.tolerance / errors.maximum(); }
+  bool is_loose(const MetricInfo& info) const { return errors.count() > 0 && !(room(info) <= loose_factor); }
 };
 
 /// A wrong answer: which case, which element of it, how.
@@ -50,7 +62,7 @@ struct Mismatch {
 };
 
 struct GeneratorTally {
-  std::uint64_t cases = 0, decisions = 0, grey = 0, mismatches = 0;
+  std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
 };
 
 /// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge (detect_edge_edge) or question (block),
@@ -60,9 +72,13 @@ class Tally {
   explicit Tally(Stage stage);
   /// All that follows belongs to this case, until the next call.
   void begin(const CaseName& name);
-  void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey);
+  /// `near`: cases within 2¹⁰ ulp of a decision boundary (near_factor), where the stage has one.
+  void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
   /// One error in units of the metric; beyond the tolerance it is a mismatch, described by `where` (called only then) and the numbers.
-  void error(std::size_t metric, double value, const std::function<std::string()>& where);
+  template <class Where>
+  void error(std::size_t metric, double value, const Where& where) {
+    if (const auto excess = note_error(metric, value)) mismatch(*excess + where());
+  }
   void mismatch(std::string message);
   void add(const Tally& other);
 
@@ -80,11 +96,16 @@ class Tally {
   GeneratorTally generic_total() const;
   /// Grey decisions over all decisions of the generic generators.
   double grey_share() const;
+  /// Cases within 2¹⁰ ulp of a decision boundary over all cases.
+  double near_share() const;
   /// Whether the share is compatible with grey_share_limit: of n decisions m = n · limit may be grey, and chance may add 3 √m + 3 (a Poisson count of
   /// mean m lies higher in less than one run of a hundred).
   bool grey_within_limit() const;
 
  private:
+  /// What is said of an error beyond the tolerance; nothing of others.
+  std::optional<std::string> note_error(std::size_t metric, double value);
+
   CaseName current_;
   GeneratorTally* row_ = nullptr;
 };

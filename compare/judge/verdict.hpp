@@ -17,7 +17,7 @@ void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceT
 /// The triple of features and nearly-parallel flag must be accepted. Where it is not the exact one the contact points may lie elsewhere: then only
 /// their ranges and the one-sided distance are judged.
 void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestPointsTruth& truth, const ClosestPointsOut& out, Tally& tally);
-void judge_activation(Cases cases, const ActivationTruth& truth, const ActivationOut& out, Tally& tally);
+void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth& truth, const ActivationOut& out, Tally& tally);
 /// The stored position must obey the bound exactly, decided by the judge itself.
 void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out, Tally& tally);
 

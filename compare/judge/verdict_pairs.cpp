@@ -94,7 +94,7 @@ void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceT
   if (!right_length(cases.size(), {out.feature.size(), out.weights.size(), out.distance.size(), out.distance_below.size()}, tally)) return;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     tally.begin(cases[i].name);
-    tally.count(1, 1, is_grey(truth.accepted[i]));
+    tally.count(1, 1, is_grey(truth.accepted[i]), truth.near[i]);
     double size = 0;
     for (const Vec3f& corner : in.triangle[i]) size += modulus(corner, in.point[i]);
     judge_face(i, truth, out, size, tally);
@@ -107,7 +107,7 @@ void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestP
                                    out.contact_distance.size(), out.distance_below.size()}, tally)) return;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     tally.begin(cases[i].name);
-    tally.count(1, 1, is_grey(truth.accepted[i]));
+    tally.count(1, 1, is_grey(truth.accepted[i]), truth.near[i]);
     const Vec3f& from = in.first[i][0];
     judge_points(i, truth, out, modulus(in.first[i][1], from) + modulus(in.second[i][0], from) + modulus(in.second[i][1], from), tally);
   }

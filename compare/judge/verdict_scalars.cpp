@@ -11,6 +11,9 @@ namespace ogc::compare {
 
 namespace {
 
+/// Whether d lies near r, or near τ = r/2 where the stages of the activation meet.
+bool near_join(double d, double r) { return std::min(std::abs(d - r), std::abs(d - r / 2)) <= near_factor * d; }
+
 bool finite(const Vec3f& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
 
 /// One vertex that truncation has answered about; `metric`: the number of the position's error.
@@ -36,7 +39,7 @@ void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, cons
 
 }  // namespace
 
-void judge_activation(Cases cases, const ActivationTruth& truth, const ActivationOut& out, Tally& tally) {
+void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth& truth, const ActivationOut& out, Tally& tally) {
   tally.begin(cases[0].name);
   const std::size_t n = cases.size();
   if (out.energy.size() != n || out.slope.size() != n || out.curvature.size() != n) {
@@ -45,7 +48,7 @@ void judge_activation(Cases cases, const ActivationTruth& truth, const Activatio
   }
   for (std::size_t i = 0; i < n; ++i) {
     tally.begin(cases[i].name);
-    tally.count(1, 1, 0);
+    tally.count(1, 1, 0, near_join(in.distance[i], in.contact_radius[i]));
     const auto one = [&](std::size_t metric, float value, double exact, double scale) {
       tally.error(metric, in_units(std::abs(value - exact), scale), [&] { return text("%.9g, exact %.17g", value, exact); });
     };
@@ -63,7 +66,7 @@ void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& trut
   }
   for (std::size_t i = 0; i < cases.size(); ++i) {
     tally.begin(cases[i].name);
-    tally.count(1, 1, truth.grey[i]);
+    tally.count(1, 1, truth.grey[i], truth.near[i]);
     if (out.exceeded[i] > 1 || (out.exceeded[i] != truth.exceeded[i] && !truth.grey[i])) {
       tally.mismatch("exceeded: " + std::to_string(out.exceeded[i]) + ", exact " + std::to_string(truth.exceeded[i]));
       continue;
@@ -95,7 +98,7 @@ void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGue
     const InitialGuessCase& c = in.cases[i];
     const Vec3f& y = out.target[i];
     tally.begin(cases[i].name);
-    tally.count(1, 1, cut.grey[i] && !c.held);
+    tally.count(1, 1, cut.grey[i] && !c.held, cut.near[i] && !c.held);
     const Vec3& exact = truth.target[i];
     const double error = std::max({std::abs(y.x - exact.x), std::abs(y.y - exact.y), std::abs(y.z - exact.z)});
     tally.error(0, finite(y) ? in_units(error, truth.target_scale[i]) : std::numeric_limits<double>::infinity(),

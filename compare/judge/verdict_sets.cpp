@@ -149,7 +149,7 @@ void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTrut
   const MeshCase& mesh = std::get<MeshCase>(test.data);
   const Topology& topology = *mesh.topology;
   tally.begin(test.name);
-  tally.count(static_cast<std::uint64_t>(topology.vertex_count), truth.pairs, truth.grey.size());
+  tally.count(static_cast<std::uint64_t>(topology.vertex_count), truth.pairs, truth.grey.size(), truth.near);
   SetVerdict<VertexFacetContact>(truth.exact.contacts, out.contacts, truth.grey, topology, tally).judge();
   double longest = 0;
   for (const Triangle& t : topology.triangles) longest = std::max(longest, longest_side(mesh, t));
@@ -166,7 +166,7 @@ void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& tru
   const MeshCase& mesh = std::get<MeshCase>(test.data);
   const Topology& topology = *mesh.topology;
   tally.begin(test.name);
-  tally.count(topology.edges.size(), truth.pairs, truth.grey.size());
+  tally.count(topology.edges.size(), truth.pairs, truth.grey.size(), truth.near);
   SetVerdict<EdgeEdgeContact>(truth.exact.contacts, out.contacts, truth.grey, topology, tally).judge();
   if (!right_length(out.d_min_edge.size(), truth.exact.d_min_edge.size(), "d_min_edge", tally)) return;
   double longest = 0;

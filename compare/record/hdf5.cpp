@@ -64,6 +64,13 @@ Hdf5Handle scalar_or_row(std::size_t count) {
   return {count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &length, nullptr), H5Sclose};
 }
 
+/// Of a text of so many bytes.
+Hdf5Handle text_type(std::size_t size) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  if (H5Tset_size(type.id(), size) < 0 || H5Tset_strpad(type.id(), H5T_STR_NULLPAD) < 0) type.release();
+  return type;
+}
+
 bool write_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type, const Hdf5Handle& space, const void* values) {
   const Hdf5Handle attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   return attribute.valid() && H5Awrite(attribute.id(), type, values) >= 0;
@@ -156,6 +163,22 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, std::si
   write_rows<T>(name, 0, values);
 }
 
+void Hdf5File::write_text(const std::string& name, std::string_view text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space = scalar_or_row(1);
+  const Hdf5Handle dataset(H5Dcreate2(file_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) refuse_write(name);
+}
+
+std::string Hdf5File::read_text(const std::string& name) const {
+  const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle stored(dataset.valid() ? H5Dget_type(dataset.id()) : -1, H5Tclose);
+  if (!stored.valid() || H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) > 0) refuse_read("text '" + name + "' is missing");
+  std::string text(H5Tget_size(stored.id()), '\0');
+  if (H5Dread(dataset.id(), text_type(text.size()).id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) refuse_read("text '" + name + "' can't be read");
+  return text;
+}
+
 std::vector<std::size_t> Hdf5File::shape(const std::string& name) const {
   const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.valid()) refuse_read("dataset '" + name + "' is missing");
@@ -183,9 +206,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::string_view text) {
-  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  const bool set = H5Tset_size(type.id(), text.size()) >= 0 && H5Tset_strpad(type.id(), H5T_STR_NULLPAD) >= 0;
-  if (!set || !write_attribute(file_.id(), object, name, type.id(), scalar_or_row(1), text.data())) refuse_write("attribute " + name);
+  const Hdf5Handle type = text_type(text.size());
+  if (!type.valid() || !write_attribute(file_.id(), object, name, type.id(), scalar_or_row(1), text.data())) refuse_write("attribute " + name);
 }
 
 template <class T>

@@ -54,8 +54,12 @@ class Hdf5File {
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::size_t columns = 0);
 
+  /// A text, not empty, as one string of fixed length.
+  void write_text(const std::string& name, std::string_view text);
+
   template <class T>
   std::vector<T> read(const std::string& name) const;
+  std::string read_text(const std::string& name) const;
   std::vector<std::size_t> shape(const std::string& name) const;
 
   /// One value becomes a scalar, more a one-dimensional attribute. `object` "/" is the root.

@@ -40,6 +40,7 @@ struct BlockOut {
 /// which point of `of` is closest.
 struct BlockTruth {
   std::vector<std::uint8_t> inside, grey;
+  std::vector<std::uint8_t> near;  ///< 1 where such a margin lies within near_factor
 };
 
 }  // namespace ogc::compare

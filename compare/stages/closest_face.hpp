@@ -30,8 +30,9 @@ struct ClosestFaceOut {
 struct ClosestFaceTruth {
   ClosestFaceOut exact;
   std::vector<std::uint8_t> accepted;
-  std::vector<double> distance;                        ///< [m], correctly rounded to double up to 1 ulp
-  std::vector<std::array<double, 3>> weights;
+  std::vector<std::uint8_t> near;                      ///< 1 where a margin between features lies within near_factor
+  std::vector<double> distance;                        ///< [m], within 2⁻⁴⁰ max(distance, Σ|δ|)
+  std::vector<std::array<double, 3>> weights;          ///< within 2⁻⁴⁰ weight_condition
   std::vector<double> weight_condition;  ///< ∂(weights)/∂(relative coordinates) summed with the coordinates' moduli; ≥ 1, infinite for zero area
 };
 

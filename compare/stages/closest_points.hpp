@@ -31,6 +31,7 @@ struct ClosestPointsOut {
 struct ClosestPointsTruth {
   ClosestPointsOut exact;
   std::vector<std::uint32_t> accepted;
+  std::vector<std::uint8_t> near;                     ///< 1 where a margin between answers lies within near_factor
   std::vector<double> contact_distance, distance;     ///< [m]
   std::vector<std::array<double, 2>> parameters;
   std::vector<double> parameter_condition;            ///< as weight_condition of closest_face

@@ -26,6 +26,7 @@ struct DetectEdgeEdgeTruth {
   DetectEdgeEdgeOut exact;
   std::vector<GreyDecision<EdgeEdgeContact>> grey;
   std::size_t pairs = 0;
+  std::size_t near = 0;  ///< edges of which some decision lies within near_factor
 };
 
 }  // namespace ogc::compare

@@ -27,6 +27,7 @@ struct DetectVertexFacetTruth {
   DetectVertexFacetOut exact;
   std::vector<GreyDecision<VertexFacetContact>> grey;
   std::size_t pairs = 0;       ///< candidates within r_q, the denominator of the grey share
+  std::size_t near = 0;        ///< vertices of which some decision lies within near_factor
 };
 
 }  // namespace ogc::compare

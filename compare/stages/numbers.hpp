@@ -11,4 +11,7 @@ inline constexpr double unit_roundoff = 0x1p-24;
 /// 4 roundings per factor. It is a property of the input; a kernel with a larger error is at fault.
 inline constexpr double grey_factor = 16 * unit_roundoff;
 
+/// Likewise, of cases *near* a decision boundary: within 2¹⁰ ulp, an ulp being 2 u. No verdict depends on it; reports say how many cases are near.
+inline constexpr double near_factor = 0x1p11 * unit_roundoff;
+
 }  // namespace ogc::compare

@@ -22,6 +22,7 @@ struct TruncateOut {
 
 struct TruncateTruth {
   std::vector<std::uint8_t> exceeded, grey;  ///< grey: the exact margin lies in the grey zone, either flag is accepted
+  std::vector<std::uint8_t> near;            ///< 1 where the margin lies within near_factor
   std::vector<Vec3> position;                ///< exact result, rounded to double
 };
 

@@ -46,14 +46,19 @@ std::vector<Bytes> inputs_of(const Topology& topology) {
 class Outputs {
  public:
   explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
+  template <class... Items>
+  void to(Items&... items) {
+    (next(items), ...);
+  }
+
+ private:
   template <class T>
-  void to(std::vector<T>& items) {
+  void next(std::vector<T>& items) {
     const auto& bytes = answer_.outputs[next_++];
     items.resize(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(items.data()), bytes.data(), items.size() * sizeof(T));
   }
 
- private:
   const PluginProcess::Answer& answer_;
   std::size_t next_ = 0;
 };
@@ -68,11 +73,7 @@ ClosestFaceOut ask_closest_face(PluginProcess& plugin, const ClosestFaceIn& in) 
   const std::vector<Bytes> inputs{bytes_of(in.point), bytes_of(in.triangle)};
   const auto answer = plugin.ask("closest_face", sizes_of(in.point.size()), inputs);
   ClosestFaceOut out;
-  Outputs outputs(answer);
-  outputs.to(out.feature);
-  outputs.to(out.weights);
-  outputs.to(out.distance);
-  outputs.to(out.distance_below);
+  Outputs(answer).to(out.feature, out.weights, out.distance, out.distance_below);
   return out;
 }
 
@@ -80,13 +81,7 @@ ClosestPointsOut ask_closest_points(PluginProcess& plugin, const ClosestPointsIn
   const std::vector<Bytes> inputs{bytes_of(in.first), bytes_of(in.second)};
   const auto answer = plugin.ask("closest_points", sizes_of(in.first.size()), inputs);
   ClosestPointsOut out;
-  Outputs outputs(answer);
-  outputs.to(out.first_feature);
-  outputs.to(out.second_feature);
-  outputs.to(out.nearly_parallel);
-  outputs.to(out.parameters);
-  outputs.to(out.contact_distance);
-  outputs.to(out.distance_below);
+  Outputs(answer).to(out.first_feature, out.second_feature, out.nearly_parallel, out.parameters, out.contact_distance, out.distance_below);
   return out;
 }
 
@@ -104,10 +99,7 @@ DetectVertexFacetOut ask_detect_vertex_facet(PluginProcess& plugin, const Detect
   const auto answer = ask_detection(plugin, "detect_vertex_facet", in);
   DetectVertexFacetOut out;
   std::vector<ogc_vertex_facet_contact> contacts;
-  Outputs outputs(answer);
-  outputs.to(contacts);
-  outputs.to(out.d_min_vertex);
-  outputs.to(out.d_min_triangle);
+  Outputs(answer).to(contacts, out.d_min_vertex, out.d_min_triangle);
   for (const auto& c : contacts) out.contacts.push_back({c.vertex, face(c.kind, c.face), c.owner});
   return out;
 }
@@ -116,9 +108,7 @@ DetectEdgeEdgeOut ask_detect_edge_edge(PluginProcess& plugin, const DetectIn& in
   const auto answer = ask_detection(plugin, "detect_edge_edge", in);
   DetectEdgeEdgeOut out;
   std::vector<ogc_edge_edge_contact> contacts;
-  Outputs outputs(answer);
-  outputs.to(contacts);
-  outputs.to(out.d_min_edge);
+  Outputs(answer).to(contacts, out.d_min_edge);
   for (const auto& c : contacts) out.contacts.push_back({face(c.first_kind, c.first_face), face(c.second_kind, c.second_face), c.first_edge, c.second_edge});
   return out;
 }
@@ -138,10 +128,7 @@ ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness)};
   const auto answer = plugin.ask("activation", sizes_of(in.distance.size()), inputs);
   ActivationOut out;
-  Outputs outputs(answer);
-  outputs.to(out.energy);
-  outputs.to(out.slope);
-  outputs.to(out.curvature);
+  Outputs(answer).to(out.energy, out.slope, out.curvature);
   return out;
 }
 
@@ -149,9 +136,7 @@ TruncateOut ask_truncate(PluginProcess& plugin, const TruncateIn& in) {
   const std::vector<Bytes> inputs{bytes_of(in.previous), bytes_of(in.position), bytes_of(in.bound)};
   const auto answer = plugin.ask("truncate", sizes_of(in.bound.size()), inputs);
   TruncateOut out;
-  Outputs outputs(answer);
-  outputs.to(out.position);
-  outputs.to(out.exceeded);
+  Outputs(answer).to(out.position, out.exceeded);
   return out;
 }
 
@@ -160,9 +145,7 @@ ForceOut ask_force(PluginProcess& plugin, std::string_view stage, const In& in) 
   const std::vector<Bytes> inputs{bytes_of(in.cases)};
   const auto answer = plugin.ask(stage, sizes_of(in.cases.size()), inputs);
   ForceOut out;
-  Outputs outputs(answer);
-  outputs.to(out.force);
-  outputs.to(out.block);
+  Outputs(answer).to(out.force, out.block);
   return out;
 }
 
@@ -170,10 +153,7 @@ InitialGuessOut ask_initial_guess(PluginProcess& plugin, const InitialGuessIn& i
   const std::vector<Bytes> inputs{bytes_of(in.cases)};
   const auto answer = plugin.ask("initial_guess", sizes_of(in.cases.size()), inputs);
   InitialGuessOut out;
-  Outputs outputs(answer);
-  outputs.to(out.target);
-  outputs.to(out.position);
-  outputs.to(out.cut);
+  Outputs(answer).to(out.target, out.position, out.cut);
   return out;
 }
 

@@ -16,6 +16,7 @@ using compare::BlockQuestion;
 struct Answer {
   bool inside = false;
   bool may_be_inside = false, may_be_outside = false;
+  bool near = false;
 };
 
 /// x lies in the block under a premise that holds, or could hold.
@@ -25,14 +26,24 @@ void add(Answer& answer, const Membership& premise, const Membership& block) {
   answer.may_be_outside = answer.may_be_outside || (premise.possible && !block.certain);
 }
 
+/// Adds the condition to both, examined once.
+void require(Membership& membership, Nearness& nearness, const Condition& condition) {
+  const MarginAnswer margin = examine(condition.margin);
+  const bool held = (margin.sign > 0) == condition.positive;
+  require(membership, held, margin.grey);
+  nearness.add(held, margin.near);
+}
+
 Answer vertex_in_surface(const Complex& mesh, const Vec3f& x, Face a) {
   Membership block;
+  Nearness nearness;
   visit_block(mesh, a, x, [&](const Boundary& boundary) {
-    require(block, boundary.condition);
-    return block.possible;
+    require(block, nearness, boundary.condition);
+    return nearness.within_reach();
   });
   Answer answer;
   add(answer, {}, block);
+  answer.near = nearness.is_near();
   return answer;
 }
 
@@ -46,6 +57,7 @@ Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   answer.inside = interior(closest);
   const auto accept = [&](EdgeFeatures on) { (interior(on) ? answer.may_be_inside : answer.may_be_outside) = true; };
   accept(closest);
+  answer.near = is_near_decision(pair, closest, false);
   if (are_closest(pair, closest).certain) return answer;
   for (int k = 0; k < edge_feature_pairs; ++k) {
     if (are_closest(pair, edge_features(k)).possible) accept(edge_features(k));
@@ -55,9 +67,11 @@ Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
 
 /// Eq. 15 for the point of cd that is closest to v: `plane(w)` is positive where that point lies on w's side of the plane through v.
 template <class Plane>
-Membership vertex_block(const Complex& mesh, Index v, Plane plane) {
+Membership vertex_block(const Complex& mesh, Index v, Nearness& nearness, Plane plane) {
   Membership block;
-  for (const Index f : mesh.edges_of(v)) require(block, {plane(mesh.at(mesh.across(f, v))), false});
+  for (const Index f : mesh.edges_of(v)) {
+    require(block, nearness, {plane(mesh.at(mesh.across(f, v))), false});
+  }
   return block;
 }
 
@@ -65,13 +79,17 @@ Answer edge_in_vertex(const Complex& mesh, Index e, Index v) {
   const Vec3f &x = mesh.at(v), &c = mesh.at(mesh.edge(e)[0]), &d = mesh.at(mesh.edge(e)[1]);
   Answer answer;
   Membership inside;
+  Nearness of_interior;
   for (const auto& [from, to] : {std::array{c, d}, std::array{d, c}}) {
     Membership beyond;
-    require(beyond, {along(from, to, x), false});
-    if (beyond.possible) add(answer, beyond, vertex_block(mesh, v, [&](const Vec3f& w) { return along(x, w, from); }));
-    require(inside, {along(from, to, x), true});
+    Nearness of_end;
+    require(beyond, of_end, {along(from, to, x), false});
+    if (beyond.possible) add(answer, beyond, vertex_block(mesh, v, of_end, [&](const Vec3f& w) { return along(x, w, from); }));
+    require(inside, of_interior, {along(from, to, x), true});
+    answer.near = answer.near || of_end.is_near();
   }
-  if (inside.possible) add(answer, inside, vertex_block(mesh, v, [&](const Vec3f& w) { return turn(x, w, c, d); }));
+  if (inside.possible) add(answer, inside, vertex_block(mesh, v, of_interior, [&](const Vec3f& w) { return turn(x, w, c, d); }));
+  answer.near = answer.near || of_interior.is_near();
   return answer;
 }
 
@@ -85,12 +103,14 @@ Answer answer_to(const Complex& mesh, const BlockQuestion& question) {
 
 compare::BlockTruth block(const compare::BlockIn& in) {
   const Complex mesh{*in.topology, in.positions};
-  compare::BlockTruth truth{std::vector<std::uint8_t>(in.questions.size()), std::vector<std::uint8_t>(in.questions.size())};
+  const std::vector<std::uint8_t> none(in.questions.size());
+  compare::BlockTruth truth{none, none, none};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.questions.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const Answer answer = answer_to(mesh, in.questions[i]);
       truth.inside[i] = answer.inside;
       truth.grey[i] = answer.may_be_inside && answer.may_be_outside;
+      truth.near[i] = answer.near;
     }
   });
   return truth;

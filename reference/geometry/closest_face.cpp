@@ -8,109 +8,172 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "reference/geometry/formulas.hpp"
-#include "reference/geometry/sensitivity.hpp"
 
 namespace ogc::reference {
 namespace {
 
 constexpr int feature_count = 7;
 
-struct Conditions {
-  std::array<Condition, 3> items;
-  int count = 0;
+/// The nine margins that separate the regions, each examined once: 0 … 2 along an edge from its first end, 3 … 5 from its second end, 6 … 8 across it.
+class Regions {
+ public:
+  Regions(const Corners& triangle, const Vec3f& point) : corners_(triangle), point_(point) {}
+
+  const MarginAnswer& margin(int number) const {
+    auto& known = margins_[static_cast<std::size_t>(number)];
+    if (!known) {
+      const int k = number % 3;
+      const Vec3f &a = corners_[k], &b = corners_[(k + 1) % 3], &c = corners_[(k + 2) % 3];
+      known = examine(number < 3 ? along(a, b, point_) : number < 6 ? along(b, a, point_) : side(a, b, c, point_));
+    }
+    return *known;
+  }
+
+  /// Corner k: on or behind both planes across its edges. Edge k: between its ends, on or beyond its side plane. Interior: inside all side planes.
+  struct Conditions {
+    std::array<int, 3> margins{};
+    std::array<bool, 3> positive{};
+    int count = 0;
+  };
+  static Conditions conditions_of(int feature) {
+    if (feature < 3) return {{feature, 3 + (feature + 2) % 3}, {false, false}, 2};
+    if (feature < 6) return {{feature - 3, feature, feature + 3}, {true, true, false}, 3};
+    return {{6, 7, 8}, {true, true, true}, 3};
+  }
+
+  bool holds(int feature) const {
+    const Conditions conditions = conditions_of(feature);
+    for (int k = 0; k < conditions.count; ++k)
+      if ((margin(conditions.margins[k]).sign > 0) != conditions.positive[k]) return false;
+    return true;
+  }
+
+  Membership membership(int feature) const {
+    const Conditions conditions = conditions_of(feature);
+    Membership membership;
+    for (int k = 0; k < conditions.count && membership.possible; ++k) {
+      const MarginAnswer& m = margin(conditions.margins[k]);
+      require(membership, (m.sign > 0) == conditions.positive[k], m.grey);
+    }
+    return membership;
+  }
+
+  bool is_near(int feature) const {
+    const Conditions conditions = conditions_of(feature);
+    return std::any_of(conditions.margins.begin(), conditions.margins.begin() + conditions.count, [&](int number) { return margin(number).near; });
+  }
+
+  int closest() const {
+    for (int f = 0; f + 1 < feature_count; ++f)
+      if (holds(f)) return f;
+    return feature_count - 1;
+  }
+
+  std::uint8_t possible(int closest, bool area) const {
+    const auto bit = [](int f) { return static_cast<std::uint8_t>(1u << f); };
+    std::uint8_t features = bit(closest);
+    if (area && membership(closest).certain) return features;
+    for (int f = 0; f < feature_count; ++f)
+      if ((area || f + 1 < feature_count) && membership(f).possible) features |= bit(f);
+    return features;
+  }
+
+ private:
+  const Corners& corners_;
+  const Vec3f& point_;
+  mutable std::array<std::optional<MarginAnswer>, 9> margins_;
 };
 
-/// Corner k: on or behind both planes across its edges. Edge k: between its ends, on or beyond its side plane. Interior: inside all side planes.
-Conditions conditions_of(const Corners& t, TriangleFeature feature, const Vec3f& p) {
-  const int f = static_cast<int>(feature);
-  if (f < 3) {
-    const Vec3f &a = t[f], &b = t[(f + 1) % 3], &c = t[(f + 2) % 3];
-    return {{Condition{along(a, b, p), false}, Condition{along(a, c, p), false}}, 2};
-  }
-  if (f < 6) {
-    const Vec3f &a = t[f - 3], &b = t[(f - 2) % 3], &c = t[(f - 1) % 3];
-    return {{Condition{along(a, b, p), true}, Condition{along(b, a, p), true}, Condition{side(a, b, c, p), false}}, 3};
-  }
-  return {{Condition{side(t[0], t[1], t[2], p), true}, Condition{side(t[1], t[2], t[0], p), true}, Condition{side(t[2], t[0], t[1], p), true}}, 3};
+/// Margins whose shares of their sum are the weights of the feature's corners, by corner; −1 where the weight is 0.
+std::array<int, 3> weight_margins(int f) {
+  if (f == 6) return {7, 8, 6};
+  std::array<int, 3> margins{-1, -1, -1};
+  margins[f - 3] = f;
+  margins[(f - 2) % 3] = f - 3;
+  return margins;
 }
 
-bool in_region(const Corners& triangle, TriangleFeature feature, const Vec3f& point) {
-  const Conditions conditions = conditions_of(triangle, feature, point);
-  return std::all_of(conditions.items.begin(), conditions.items.begin() + conditions.count, holds);
-}
-
-/// Margins whose shares of their sum are the weights of the feature's corners, and these corners.
-struct WeightRule {
-  std::array<Margin, 3> margins;
-  std::array<int, 3> corners{};
-  int count = 0;
-};
-
-WeightRule weight_rule(const Corners& t, TriangleFeature feature, const Vec3f& p) {
-  const int f = static_cast<int>(feature);
-  if (f < 3) return {{}, {f}, 1};
-  if (f < 6) {
-    const int a = f - 3, b = (f - 2) % 3;
-    return {{along(t[b], t[a], p), along(t[a], t[b], p)}, {a, b}, 2};
-  }
-  return {{side(t[1], t[2], t[0], p), side(t[2], t[0], t[1], p), side(t[0], t[1], t[2], p)}, {0, 1, 2}, 3};
-}
-
-std::array<double, 3> weights_of(const Corners& triangle, TriangleFeature feature, const Vec3f& point) {
-  const WeightRule rule = weight_rule(triangle, feature, point);
+/// The shares in exact numbers, for weights that double does not give.
+std::array<double, 3> exact_weights(const Corners& t, int f, const Vec3f& p) {
   std::array<double, 3> weights{};
-  if (rule.count == 1) {
-    weights[rule.corners[0]] = 1;
-    return weights;
+  if (f == 6) {
+    const std::array margins{side(t[1], t[2], t[0], p), side(t[2], t[0], t[1], p), side(t[0], t[1], t[2], p)};
+    const std::vector<double> values = shares(margins);
+    return {values[0], values[1], values[2]};
   }
-  const std::vector<double> values = shares({rule.margins.data(), static_cast<std::size_t>(rule.count)});
-  for (int k = 0; k < rule.count; ++k) weights[rule.corners[k]] = values[k];
+  const int a = f - 3, b = (f - 2) % 3;
+  const std::array margins{along(t[b], t[a], p), along(t[a], t[b], p)};
+  const std::vector<double> values = shares(margins);
+  weights[a] = values[0];
+  weights[b] = values[1];
   return weights;
 }
 
-using Number = Dual<9>;
+/// In double, and how far off they are at most.
+struct Weights {
+  std::array<double, 3> values{};
+  double error = 0;
+};
 
-/// The point and the last two corners relative to the first corner, each coordinate an input.
-std::array<Point<Number>, 4> seed(const Corners& t, const Vec3f& p) {
-  const std::array<Vec3f, 3> moving{t[1], t[2], p};
-  std::array<Point<Number>, 4> points{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3f& q = moving[k];
-    points[k + 1] = {Number(static_cast<double>(q.x) - t[0].x, 3 * k), Number(static_cast<double>(q.y) - t[0].y, 3 * k + 1),
-                     Number(static_cast<double>(q.z) - t[0].z, 3 * k + 2)};
+Weights weights_of(const Regions& regions, int feature) {
+  Weights weights;
+  if (feature < 3) {
+    weights.values[feature] = 1;
+    return weights;
   }
-  return points;
+  const std::array<int, 3> margins = weight_margins(feature);
+  double sum = 0, error = 0;
+  for (const int number : margins) {
+    if (number < 0) continue;
+    sum += regions.margin(number).value;
+    error += regions.margin(number).error;
+  }
+  if (!(error <= 0.25 * sum)) return {{}, std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < 3; ++k)
+    if (margins[k] >= 0) weights.values[k] = std::max(0.0, regions.margin(margins[k]).value / sum);
+  // A share m/Σ of a margin that is off by e is off by (e + m/Σ Σe)/(Σ − Σe), and by three roundings.
+  weights.error = 3 * error / sum + 0x1p-51;
+  return weights;
 }
 
-/// Σ|∂w/∂δᵢ||δᵢ| of one weight.
-double spread(const Number& weight, const std::array<Point<Number>, 4>& points) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point<Number>& q = points[k + 1];
-    sum += std::abs(weight.slope[3 * k] * q.x.value) + std::abs(weight.slope[3 * k + 1] * q.y.value) + std::abs(weight.slope[3 * k + 2] * q.z.value);
-  }
-  return sum;
+using Vector = Point<double>;
+
+Vector between(const Vec3f& from, const Vec3f& to) { return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z}; }
+Vector combined(double s, const Vector& a, double t, const Vector& b) { return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z}; }
+
+/// Σ |slope · δ| over the coordinates.
+double spread(const Vector& slope, const Vector& delta) { return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z); }
+
+/// Of w_b = (p − a)·e/‖e‖², e = b − a: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
+double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& origin) {
+  const Vector e = between(a, b), x = between(a, p);
+  const double squared = dot(e, e), w = dot(x, e) / squared;
+  const Vector by_p = combined(1 / squared, e, 0, e), by_b = combined(1 / squared, x, -2 * w / squared, e);
+  return spread(by_p, between(origin, p)) + spread(by_b, between(origin, b)) + spread(combined(-1, by_p, -1, by_b), between(origin, a));
 }
 
-/// The largest spread of the three weights, at least 1; infinite for a triangle of zero area.
-double condition_of(const Corners& triangle, TriangleFeature feature, const Vec3f& point) {
-  if (!has_area(triangle)) return std::numeric_limits<double>::infinity();
-  const int f = static_cast<int>(feature);
-  const auto q = seed(triangle, point);
-  std::array<Number, 3> parts{};
-  if (f < 3) return 1;
-  if (f < 6) {
-    const auto &a = q[f - 3], &b = q[(f - 2) % 3];
-    parts = {along(a, b, q[3]), along(b, a, q[3]), Number()};
-  } else {
-    parts = {side(q[0], q[1], q[2], q[3]), side(q[1], q[2], q[0], q[3]), side(q[2], q[0], q[1], q[3])};
+/// With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. Coordinates are relative to t₀.
+double interior_spread(const Corners& t, const Vec3f& p, const std::array<double, 3>& w) {
+  const Vector e1 = between(t[0], t[1]), e2 = between(t[0], t[2]), x = between(t[0], p), n = cross(e1, e2);
+  const double squared = dot(n, n), eta = dot(x, n) / squared;
+  const Vector g1 = cross(e2, n), g2 = cross(n, e1);
+  double worst = 0;
+  for (const Vector& unscaled : {combined(-1, g1, -1, g2), g1, g2}) {
+    const Vector g = combined(1 / squared, unscaled, 0, unscaled);
+    worst = std::max(worst, spread(g, x) + spread(combined(-w[1], g, -eta, cross(e2, g)), e1) + spread(combined(-w[2], g, -eta, cross(g, e1)), e2));
   }
-  const Number sum = parts[0] + parts[1] + parts[2];
-  double worst = 1;
-  for (const Number& part : parts) worst = std::max(worst, spread(part / sum, q));
-  return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
+  return worst;
+}
+
+/// The largest Σ|∂w/∂δᵢ||δᵢ| of the three weights, at least 1; infinite for a triangle of zero area.
+double condition_of(const Corners& t, int feature, const Vec3f& point, const std::array<double, 3>& weights, bool area) {
+  if (!area) return std::numeric_limits<double>::infinity();
+  if (feature < 3) return 1;
+  const double worst = feature < 6 ? edge_spread(t[feature - 3], t[(feature - 2) % 3], point, t[0]) : interior_spread(t, point, weights);
+  return std::isfinite(worst) ? std::max(1.0, worst) : std::numeric_limits<double>::infinity();
 }
 
 compare::ClosestFaceTruth sized(std::size_t n) {
@@ -120,6 +183,7 @@ compare::ClosestFaceTruth sized(std::size_t n) {
   truth.exact.distance.resize(n);
   truth.exact.distance_below.resize(n);
   truth.accepted.resize(n);
+  truth.near.resize(n);
   truth.distance.resize(n);
   truth.weights.resize(n);
   truth.weight_condition.resize(n);
@@ -127,46 +191,42 @@ compare::ClosestFaceTruth sized(std::size_t n) {
 }
 
 void answer(compare::ClosestFaceTruth& truth, std::size_t i, const Corners& triangle, const Vec3f& point) {
-  const TriangleFeature feature = closest_feature(triangle, point);
-  const Margin gap = feature_gap(triangle, feature, point);
+  const Regions regions(triangle, point);
+  const int closest = regions.closest();
+  const auto feature = static_cast<TriangleFeature>(closest);
+  const bool area = has_area(triangle);
+  const GapDistance gap = measure(feature_gap(triangle, feature, point));
   truth.exact.feature[i] = feature;
-  truth.accepted[i] = possible_features(triangle, point);
-  truth.distance[i] = distance(gap);
-  truth.exact.distance[i] = static_cast<float>(truth.distance[i]);
-  truth.exact.distance_below[i] = distance_below(gap);
-  truth.weights[i] = weights_of(triangle, feature, point);
+  truth.accepted[i] = regions.possible(closest, area);
+  truth.near[i] = regions.is_near(closest);
+  truth.distance[i] = gap.distance;
+  truth.exact.distance[i] = static_cast<float>(gap.distance);
+  truth.exact.distance_below[i] = gap.below;
+  const Weights weights = weights_of(regions, closest);
+  const double condition = condition_of(triangle, closest, point, weights.values, area);
+  truth.weights[i] = weights.error <= 0x1p-40 * (area ? condition : 1) ? weights.values : exact_weights(triangle, closest, point);
   for (std::size_t k = 0; k < 3; ++k) truth.exact.weights[i][k] = static_cast<float>(truth.weights[i][k]);
-  truth.weight_condition[i] = condition_of(triangle, feature, point);
+  truth.weight_condition[i] = condition;
 }
 
 }  // namespace
 
 bool has_area(const Corners& triangle) { return sign(side(triangle[0], triangle[1], triangle[2], triangle[2])) > 0; }
 
-TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point) {
-  for (int f = 0; f + 1 < feature_count; ++f) {
-    if (in_region(triangle, static_cast<TriangleFeature>(f), point)) return static_cast<TriangleFeature>(f);
-  }
-  return TriangleFeature::interior;
-}
+TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point) { return static_cast<TriangleFeature>(Regions(triangle, point).closest()); }
 
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point) {
   if (feature == TriangleFeature::interior && !has_area(triangle)) return {false, false, false};
-  const Conditions conditions = conditions_of(triangle, feature, point);
-  Membership membership;
-  for (int k = 0; k < conditions.count && membership.possible; ++k) require(membership, conditions.items[k]);
-  return membership;
+  return Regions(triangle, point).membership(static_cast<int>(feature));
 }
 
 std::uint8_t possible_features(const Corners& triangle, const Vec3f& point) {
-  const TriangleFeature closest = closest_feature(triangle, point);
-  const auto bit = [](int f) { return static_cast<std::uint8_t>(1u << f); };
-  std::uint8_t features = bit(static_cast<int>(closest));
-  if (has_area(triangle) && is_closest(triangle, closest, point).certain) return features;
-  for (int f = 0; f < feature_count; ++f) {
-    if (is_closest(triangle, static_cast<TriangleFeature>(f), point).possible) features |= bit(f);
-  }
-  return features;
+  const Regions regions(triangle, point);
+  return regions.possible(regions.closest(), has_area(triangle));
+}
+
+bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f& point) {
+  return Regions(triangle, point).is_near(static_cast<int>(feature));
 }
 
 Margin feature_gap(const Corners& t, TriangleFeature feature, const Vec3f& point) {

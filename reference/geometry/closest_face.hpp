@@ -23,6 +23,9 @@ Membership is_closest(const Corners& triangle, TriangleFeature feature, const Ve
 /// Bit k is set where feature k is, or could be, the closest one. Where the closest one is certain, no other region can begin: only its bit is set.
 std::uint8_t possible_features(const Corners& triangle, const Vec3f& point);
 
+/// Whether the point lies near the boundary of a feature's region (compare::near_factor).
+bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
+
 /// The distance to the corner, line or plane of a feature, as a gap: the distance to the triangle where the feature is the closest one.
 Margin feature_gap(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 

@@ -74,6 +74,12 @@ std::uint32_t accepted_codes(const EdgePair& pair, EdgeFeatures closest) {
   return codes;
 }
 
+bool is_near(const Conditions& conditions) {
+  Nearness nearness;
+  for (int k = 0; k < conditions.count; ++k) nearness.add(conditions.items[k]);
+  return nearness.is_near();
+}
+
 compare::ClosestPointsTruth sized(std::size_t n) {
   compare::ClosestPointsTruth truth;
   truth.exact.first_feature.resize(n);
@@ -83,6 +89,7 @@ compare::ClosestPointsTruth sized(std::size_t n) {
   truth.exact.contact_distance.resize(n);
   truth.exact.distance_below.resize(n);
   truth.accepted.resize(n);
+  truth.near.resize(n);
   truth.contact_distance.resize(n);
   truth.distance.resize(n);
   truth.parameters.resize(n);
@@ -94,22 +101,28 @@ void answer(compare::ClosestPointsTruth& truth, std::size_t i, const EdgePair& p
   const EdgeFeatures closest = closest_features(pair);
   const bool is_parallel = nearly_parallel(pair);
   const EdgeFeatures features = is_parallel ? interiors : closest;
-  const Margin gap = feature_gap(pair, closest);
+  const GapDistance gap = measure(feature_gap(pair, closest));
   const EdgeParameters parameters = is_parallel ? parallel_parameters(pair) : closest_parameters(pair, closest);
   truth.exact.first_feature[i] = features.first;
   truth.exact.second_feature[i] = features.second;
   truth.exact.nearly_parallel[i] = is_parallel;
   truth.parameters[i] = parameters.values;
   truth.parameter_condition[i] = parameters.condition;
-  truth.distance[i] = distance(gap);
+  truth.distance[i] = gap.distance;
   truth.contact_distance[i] = is_parallel ? parameters.distance : truth.distance[i];
   truth.exact.parameters[i] = {static_cast<float>(parameters.values[0]), static_cast<float>(parameters.values[1])};
   truth.exact.contact_distance[i] = static_cast<float>(truth.contact_distance[i]);
-  truth.exact.distance_below[i] = distance_below(gap);
+  truth.exact.distance_below[i] = gap.below;
   truth.accepted[i] = accepted_codes(pair, closest) | code_bit(features, is_parallel);
+  truth.near[i] = is_near_decision(pair, closest, is_parallel);
 }
 
 }  // namespace
+
+bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel) {
+  const Margin angle = parallel(pair.first[0], pair.first[1], pair.second[0], pair.second[1]);
+  return examine(angle).near || (!is_parallel && is_near(conditions_of(pair, closest)));
+}
 
 EdgeFeatures closest_features(const EdgePair& pair) {
   for (int k = 0; k + 1 < edge_feature_pairs; ++k) {

@@ -35,6 +35,9 @@ Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 Membership are_nearly_parallel(const EdgePair& pair);
 bool nearly_parallel(const EdgePair& pair);
 
+/// Whether the answer lies near a boundary: of the rule for nearly parallel edges, or, where that does not hold, of the region of the closest features.
+bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
+
 /// The distance of the points, point and line, or lines of the features, as a gap: the distance of the edges where these are the closest features.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 

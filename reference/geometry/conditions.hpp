@@ -21,12 +21,34 @@ struct Membership {
   bool certain = true;   ///< all hold, none of them in the grey zone
 };
 
-/// Adds one condition to a conjunction. Once `possible` is false the rest cannot matter.
-inline void require(Membership& membership, const Condition& condition) {
-  const bool held = holds(condition), doubtful = grey(condition.margin);
+/// Adds one condition, by whether it holds and whether its margin is grey, to a conjunction. Once `possible` is false the rest cannot matter.
+inline void require(Membership& membership, bool held, bool doubtful) {
   membership.exact = membership.exact && held;
   membership.possible = membership.possible && (held || doubtful);
   membership.certain = membership.certain && held && !doubtful;
 }
+
+inline void require(Membership& membership, const Condition& condition) {
+  const MarginAnswer margin = examine(condition.margin);
+  require(membership, (margin.sign > 0) == condition.positive, margin.grey);
+}
+
+/// Whether a conjunction lies next to where it ends or begins: no condition fails but near its boundary, and some condition is near.
+class Nearness {
+ public:
+  void add(bool held, bool near) {
+    within_reach_ = within_reach_ && (held || near);
+    near_ = near_ || near;
+  }
+  void add(const Condition& condition) {
+    const MarginAnswer margin = examine(condition.margin);
+    add((margin.sign > 0) == condition.positive, margin.near);
+  }
+  bool within_reach() const { return within_reach_; }
+  bool is_near() const { return within_reach_ && near_; }
+
+ private:
+  bool within_reach_ = true, near_ = false;
+};
 
 }  // namespace ogc::reference

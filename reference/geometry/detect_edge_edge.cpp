@@ -27,6 +27,7 @@ struct EdgeAnswer {
   std::vector<Generated> generated;
   std::vector<Doubt> doubts;
   std::size_t pairs = 0;
+  std::vector<Index> near;  ///< the other edges of near decisions
 };
 
 class EdgeQuery {
@@ -40,7 +41,9 @@ class EdgeQuery {
     const Margin gap = with_radius(feature_gap(pair, closest), in_.contact_radius);
     const float d = distance_below(gap);
     if (d < in_.query_radius) ++answer_.pairs;
-    const bool within = d < in_.contact_radius, doubtful = grey(gap);
+    const MarginAnswer reach = examine(gap);
+    const bool within = d < in_.contact_radius, doubtful = reach.grey;
+    if (reach.near || (within && is_near_decision(pair, closest, nearly_parallel(pair)))) answer_.near.push_back(other);
     if (within || doubtful) enter(other, pair, closest, within, doubtful);
     return d;
   }
@@ -127,7 +130,8 @@ class EdgeQuery {
     });
     if (!inside.possible) return inside;
     const Margin gap = pair_gap(mesh_, faces, in_.contact_radius);
-    const bool below = sign(gap) < 0, doubtful = grey(gap);
+    const MarginAnswer reach = examine(gap);
+    const bool below = reach.sign < 0, doubtful = reach.grey;
     return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
   }
 
@@ -169,14 +173,18 @@ compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) {
   compare::DetectEdgeEdgeTruth truth;
   std::vector<Generated> generated;
   std::vector<Doubt> doubts;
-  for (const EdgeAnswer& answer : answers) {
+  std::vector<bool> near(boxes.size());
+  for (std::size_t e = 0; e < answers.size(); ++e) {
+    const EdgeAnswer& answer = answers[e];
     truth.pairs += answer.pairs;
+    for (const Index other : answer.near) near[static_cast<std::size_t>(other)] = near[e] = true;
     generated.insert(generated.end(), answer.generated.begin(), answer.generated.end());
     doubts.insert(doubts.end(), answer.doubts.begin(), answer.doubts.end());
   }
   Assembled assembled = assemble({*in.topology, in.positions}, std::move(generated), doubts);
   truth.exact.contacts = std::move(assembled.contacts);
   truth.exact.d_min_edge = of_edge.take();
+  truth.near = static_cast<std::size_t>(std::count(near.begin(), near.end(), true));
   truth.grey = std::move(assembled.grey);
   return truth;
 }

@@ -26,6 +26,7 @@ struct VertexAnswer {
   std::vector<VertexFacetContact> contacts;
   std::vector<Grey> grey;
   std::size_t pairs = 0;
+  bool near = false;
 };
 
 class VertexQuery {
@@ -42,6 +43,7 @@ class VertexQuery {
     if (d < in_.query_radius) ++answer_.pairs;
     const bool within = d < in_.contact_radius;
     if (within) enter(face_of(t, feature));
+    answer_.near = answer_.near || examine(with_radius(gap, in_.contact_radius)).near || (within && near_feature(corners, feature, x_));
     if (within || grey(with_radius(gap, in_.contact_radius))) ask_about(t, corners);
     return d;
   }
@@ -88,7 +90,11 @@ class VertexQuery {
     if (entered(face)) return;
     if (face.kind != FaceKind::triangle) {
       bool inside = true;
-      visit_block(mesh_, face, x_, [&](const Boundary& boundary) { return inside = holds(boundary.condition); });
+      visit_block(mesh_, face, x_, [&](const Boundary& boundary) {
+        const MarginAnswer margin = examine(boundary.condition.margin);
+        answer_.near = answer_.near || margin.near;
+        return inside = (margin.sign > 0) == boundary.condition.positive;
+      });
       if (!inside) return;
     }
     answer_.contacts.push_back(contact(face));
@@ -209,6 +215,7 @@ compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in)
   compare::DetectVertexFacetTruth truth;
   for (VertexAnswer& answer : answers) {
     truth.pairs += answer.pairs;
+    truth.near += answer.near;
     truth.exact.contacts.insert(truth.exact.contacts.end(), answer.contacts.begin(), answer.contacts.end());
     std::move(answer.grey.begin(), answer.grey.end(), std::back_inserter(truth.grey));
   }

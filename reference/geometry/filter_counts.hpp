@@ -1,4 +1,4 @@
-// How often interval arithmetic decides by itself: every predicate that asks intervals first is counted, thread by thread, so that counting costs no
+// How often double and interval arithmetic decide by themselves: every predicate that asks them first is counted, thread by thread, so that counting costs no
 // more than an addition.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Sign by intervals first: one in some ten thousand random cases needs the exact number, and structured meshes with few digits need none,
-// because an interval without rounding is a point.
+// Double with an error bound first, then intervals, then exact numbers: one in some ten thousand random cases needs the last, and structured meshes with few
+// digits need none, because an interval without rounding is a point.
 #include "reference/geometry/margin.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "compare/stages/numbers.hpp"
@@ -132,18 +133,49 @@ Points<T> constants(const std::array<std::array<double, 3>, 4>& delta) {
   return points;
 }
 
-/// Σ|∂m/∂δᵢ||δᵢ|.
+/// Σ|∂m/∂δᵢ||δᵢ| over the first `count` points after the origin.
+template <std::size_t count>
 double sensitivity(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
-  using Number = Dual<9>;
+  using Number = Dual<3 * count>;
   Points<Number> points{};
-  for (std::size_t i = 1; i < 4; ++i) {
+  for (std::size_t i = 1; i <= count; ++i) {
     const std::size_t first = 3 * (i - 1);
     points[i] = {Number(delta[i][0], first), Number(delta[i][1], first + 1), Number(delta[i][2], first + 2)};
   }
   const Number m = evaluate(margin.kind, points, Number(margin.radius));
   double sum = 0;
-  for (std::size_t i = 0; i < 9; ++i) sum += std::abs(m.slope[i] * delta[1 + i / 3][i % 3]);
+  for (std::size_t i = 0; i < 3 * count; ++i) sum += std::abs(m.slope[i] * delta[1 + i / 3][i % 3]);
   return sum;
+}
+
+/// Of `side`, m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c) + c × (e × p).
+double side_sensitivity(const std::array<std::array<double, 3>, 4>& delta) {
+  const Points<double> at = constants<double>(delta);
+  const Point<double> &e = at[1], &c = at[2], &p = at[3], by_p = cross(cross(e, c), e), by_c = cross(cross(e, p), e);
+  const Point<double> first = cross(p, cross(e, c)), second = cross(c, cross(e, p));
+  const auto spread = [](const Point<double>& slope, const Point<double>& x) { return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z); };
+  return spread(by_p, p) + spread(by_c, c) + spread({first.x + second.x, first.y + second.y, first.z + second.z}, e);
+}
+
+/// The two margins that are asked about most have their derivatives written out.
+double sensitivity(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta, const Measured& m) {
+  switch (margin.kind) {
+    case MarginKind::along: return 2 * m.modulus;  // each term is a product of two coordinates that stand in no other term
+    case MarginKind::side: return side_sensitivity(delta);
+    case MarginKind::gap_points: return sensitivity<1>(margin, delta);
+    case MarginKind::gap_line: return sensitivity<2>(margin, delta);
+    default: return sensitivity<3>(margin, delta);
+  }
+}
+
+/// Largest error of a value in double, in units of its modulus. On the longest way from a coordinate to a margin lie 18 roundings (of a plane's gap: a
+/// difference twice, a product and a difference for n; a difference, a product and two sums for the height; that twice, the square, and the difference from
+/// r² n²); the modulus itself may be as much too small. Neither overflow nor underflow: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+constexpr double rounding = 0x1p-48;
+
+/// The margin in double, with the sum of the moduli of its terms.
+Measured measured(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
+  return evaluate(margin.kind, constants<Measured>(delta), Measured(margin.radius));
 }
 
 /// Leading 106 bits or more, of which long double keeps 64.
@@ -162,7 +194,7 @@ float round_down(double x) {
 
 /// The distance as an interval; everything from 0 to infinity where the denominator's interval holds 0.
 std::pair<double, double> distance_interval(const Margin& gap) {
-  const UpwardRounding rounding;
+  const UpwardRounding upwards;
   const Quotient<Interval> squared = squared_distance(gap.kind, widen<Interval>(gap));
   if (!(squared.denominator.inf() > 0)) return {0, std::numeric_limits<double>::infinity()};
   const Interval ratio = squared.numerator / squared.denominator;
@@ -186,13 +218,41 @@ float settle_below(const Margin& gap, float f) {
   }
 }
 
-}  // namespace
-
-int sign(const Margin& margin) {
+int filtered_sign(const Margin& margin, const Measured& m) {
+  const auto predicate = static_cast<Filtered>(margin.kind);
+  if (std::abs(m.value) > rounding * m.modulus || m.modulus == 0) {
+    count_filter(predicate, false);
+    return m.value > 0 ? 1 : m.value < 0 ? -1 : 0;
+  }
   const std::optional<int> decided = interval_sign(margin);
-  count_filter(static_cast<Filtered>(margin.kind), !decided);
+  count_filter(predicate, !decided);
   return decided ? *decided : exact_sign(margin);
 }
+
+/// The distance lies between these; where the first is the larger one, nothing is known. A numerator is the square of a number or vector, each component of
+/// which is off by `rounding` times the modulus of its own terms at most, so its root is off by as much of the root of their squares' sum.
+std::pair<double, double> filtered_distance(const Margin& gap) {
+  const Quotient<Measured> squared = squared_distance(gap.kind, constants<Measured>(relative(gap)));
+  const Measured& d = squared.denominator;
+  const double least = d.value - rounding * d.modulus;
+  if (!(least > 0)) return {1, 0};
+  // Two roots, their quotient, the slack and the sums: six roundings.
+  const double root = std::sqrt(squared.numerator.value), slack = rounding * std::sqrt(squared.numerator.modulus);
+  const double low = std::max(0.0, root - slack) / std::sqrt(d.value + rounding * d.modulus) * (1 - 0x1p-50);
+  return {low, (root + slack) / std::sqrt(least) * (1 + 0x1p-50)};
+}
+
+/// Σ|δᵢ|.
+double size(const Margin& margin) {
+  double sum = 0;
+  for (const auto& point : relative(margin))
+    for (const double x : point) sum += std::abs(x);
+  return sum;
+}
+
+}  // namespace
+
+int sign(const Margin& margin) { return filtered_sign(margin, measured(margin, relative(margin))); }
 
 int compare_distances(const Margin& a, const Margin& b) {
   const std::optional<int> decided = interval_order(a, b);
@@ -208,15 +268,25 @@ std::string squared_distance(const Margin& gap, float scale) {
   return text.str();
 }
 
+MarginAnswer examine(const Margin& margin) {
+  const auto delta = relative(margin);
+  const Measured m = measured(margin, delta);
+  MarginAnswer answer{filtered_sign(margin, m), false, false, m.value, rounding * m.modulus};
+  const double modulus = std::abs(m.value);
+  // Twice the bound, so that the roundings of m cannot hide a near case.
+  if (modulus > 2 * compare::near_factor * degree(margin.kind) * m.modulus) return answer;
+  const double reach = sensitivity(margin, delta, m);
+  answer.grey = reach > 0 && modulus <= compare::grey_factor * reach;
+  answer.near = modulus <= compare::near_factor * reach;
+  return answer;
+}
+
 bool grey(const Margin& margin) {
   const auto delta = relative(margin);
-  const double radius = margin.radius;
-  const double m = std::abs(evaluate(margin.kind, constants<double>(delta), radius));
-  const double modulus = evaluate(margin.kind, constants<Modulus>(delta), Modulus(radius)).value;
-  // Twice the bound, so that the roundings of m (some 2⁻⁵⁰ modulus) cannot hide a grey case.
-  if (m > 2 * compare::grey_factor * degree(margin.kind) * modulus) return false;
-  const double reach = compare::grey_factor * sensitivity(margin, delta);
-  return reach > 0 && m <= reach;
+  const Measured m = measured(margin, delta);
+  if (std::abs(m.value) > 2 * compare::grey_factor * degree(margin.kind) * m.modulus) return false;
+  const double reach = compare::grey_factor * sensitivity(margin, delta, m);
+  return reach > 0 && std::abs(m.value) <= reach;
 }
 
 double distance(const Margin& gap) {
@@ -224,20 +294,25 @@ double distance(const Margin& gap) {
   return static_cast<double>(std::sqrt(to_long_double(squared.numerator) / to_long_double(squared.denominator)));
 }
 
-float distance_below(const Margin& gap) {
-  const auto [low, high] = distance_interval(gap);
-  const float f = round_down(low), last = round_down(high), next = std::nextafter(f, last);
-  const bool adjacent = next == last;
-  if (f == last || !adjacent) {
-    count_filter(Filtered::distance_below, f != last);
-    return f == last ? f : settle_below(gap, round_down(distance(gap)));
-  }
+GapDistance measure(const Margin& gap) {
+  auto [low, high] = filtered_distance(gap);
+  if (!(low <= high) || round_down(low) != round_down(high)) std::tie(low, high) = distance_interval(gap);
+  GapDistance answer{low + (high - low) / 2, round_down(low)};
+  const float last = round_down(high), next = std::nextafter(answer.below, last);
+  const bool known = answer.below == last, one_left = !known && next == last;
+  if (!known || !(high - low <= 0x1p-40 * std::max(low, size(gap)))) answer.distance = distance(gap);
+  if (known || !one_left) count_filter(Filtered::distance_below, !known);
+  if (!known && !one_left) answer.below = settle_below(gap, round_down(answer.distance));
+  if (!one_left) return answer;
   // One number is in question, mostly because the distance is just that number.
   const Margin about_next = with_radius(gap, next);
   const std::optional<int> decided = interval_sign(about_next);
   count_filter(Filtered::distance_below, !decided);
-  return (decided ? *decided : exact_sign(about_next)) < 0 ? f : next;
+  if ((decided ? *decided : exact_sign(about_next)) >= 0) answer.below = next;
+  return answer;
 }
+
+float distance_below(const Margin& gap) { return measure(gap).below; }
 
 bool scaled_distance_less(const Margin& gap, float scale, float b) {
   const Quotient<Exact> d = squared_distance(gap.kind, widen<Exact>(gap));

@@ -1,5 +1,5 @@
-// Two number types that say how a formula reacts to its inputs: forward-mode derivatives, and the sum of the moduli of all terms. Both are for
-// sizes, never for signs, so double is enough.
+// Two number types that say how a formula reacts to its inputs: forward-mode derivatives, and the sum of the moduli of all terms, which bounds the rounding
+// error of the value too.
 #pragma once
 
 #include <array>
@@ -40,16 +40,18 @@ struct Dual {
   }
 };
 
-/// The value that a formula takes when every term counts with its modulus. For a homogeneous polynomial m of degree k it bounds
-/// Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial contributes its modulus once for each of its at most k factors.
-struct Modulus {
-  double value = 0;
+/// A value in double beside the one that the formula takes when every term counts with its modulus. For a homogeneous polynomial m of degree k the latter
+/// bounds Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial contributes its modulus once for each of its at most k factors; and n roundings on the longest
+/// way from an input to the value move it by n 2⁻⁵³ · modulus at most, to first order.
+struct Measured {
+  double value = 0, modulus = 0;
 
-  Modulus() = default;
-  explicit Modulus(double x) : value(std::abs(x)) {}
-  friend Modulus operator+(Modulus a, Modulus b) { return Modulus(a.value + b.value); }
-  friend Modulus operator-(Modulus a, Modulus b) { return Modulus(a.value + b.value); }
-  friend Modulus operator*(Modulus a, Modulus b) { return Modulus(a.value * b.value); }
+  Measured() = default;
+  explicit Measured(double x) : value(x), modulus(std::abs(x)) {}
+  Measured(double at, double terms) : value(at), modulus(terms) {}
+  friend Measured operator+(Measured a, Measured b) { return {a.value + b.value, a.modulus + b.modulus}; }
+  friend Measured operator-(Measured a, Measured b) { return {a.value - b.value, a.modulus + b.modulus}; }
+  friend Measured operator*(Measured a, Measured b) { return {a.value * b.value, a.modulus * b.modulus}; }
 };
 
 }  // namespace ogc::reference

@@ -22,9 +22,11 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
   for (std::size_t i = 0; i < in.position.size(); ++i) {
     const Vec3f &from = in.previous[i], &to = in.position[i];
     const Margin gap = gap_points(from, to, in.bound[i]);
-    const bool exceeded = sign(gap) > 0;
+    const MarginAnswer margin = examine(gap);
+    const bool exceeded = margin.sign > 0;
     truth.exceeded.push_back(exceeded);
-    truth.grey.push_back(grey(gap));
+    truth.grey.push_back(margin.grey);
+    truth.near.push_back(margin.near);
     truth.position.push_back(exceeded ? scaled_back(from, to, in.bound[i]) : compare::Vec3{to.x, to.y, to.z});
   }
   return truth;

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
 #include "compare/judge/generators.hpp"
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
@@ -33,18 +35,39 @@ TEST_CASE("a saved case comes back bit for bit, for every stage", "[property]") 
   const Folder folder;
   for (const Stage stage : all_stages)
     for (const Generator& generator : generators(stage)) {
-      const TestCase test = generate({stage, std::string(generator.name), 5, 17, ""});
-      const auto first = save_case(folder.path / "first", test, "why");
-      const auto second = save_case(folder.path / "second", load_case(first), "why");
-      INFO(first.string());
-      REQUIRE(read(first) == read(second));
-      REQUIRE(load_case(second).name == test.name);
+      const TestCase test = generate({stage, std::string(generator.name), 5, 17, "", {}});
+      const auto path = save_case(folder.path, test, "why");
+      INFO(path.string());
+      REQUIRE(path.extension() == ".h5");
+      const TestCase loaded = load_case(path);
+      REQUIRE(loaded.name == test.name);
+      REQUIRE(case_to_json(loaded, "why") == case_to_json(test, "why"));
     }
 }
 
-TEST_CASE("a mesh case is saved with a mesh to look at", "[unit]") {
+TEST_CASE("parameters stand in the file and in its name", "[unit]") {
   const Folder folder;
-  auto path = save_case(folder.path, generate({Stage::detect_edge_edge, "ladder.fan", 5, 1, ""}), "");
+  const CaseName name = parse_problem("stage=truncate gen=uniform seed=1 index=2 b=0.25");
+  const auto path = save_case(folder.path, generate(name), "");
+  REQUIRE(path != save_case(folder.path, generate(parse_problem("stage=truncate gen=uniform seed=1 index=2")), ""));
+  REQUIRE(load_case(path).name == name);
+  REQUIRE(std::get<TruncateCase>(load_case(path).data).bound == 0.25f);
+}
+
+TEST_CASE("a case written by hand as JSON is read too", "[unit]") {
+  const Folder folder;
+  const TestCase test = generate(parse_problem("stage=sweep gen=" + std::string(generators(Stage::sweep)[0].name) + " seed=1 index=2"));
+  write(folder.path / "case.json", case_to_json(test, "why").dump());
+  REQUIRE(case_to_json(load_case(folder.path / "case.json"), "") == case_to_json(test, ""));
+}
+
+TEST_CASE("a mesh case is saved with a mesh and a picture to look at", "[unit]") {
+  const Folder folder;
+  auto path = save_case(folder.path, generate({Stage::detect_edge_edge, "ladder.fan", 5, 1, "", {}}), "a < b");
+  const std::string picture = read(std::filesystem::path(path).replace_extension(".svg"));
+  REQUIRE(picture.starts_with("<svg "));
+  REQUIRE(picture.find("<polygon") != std::string::npos);
+  REQUIRE(picture.find("a &lt; b") != std::string::npos);
   const std::string obj = read(path.replace_extension(".obj"));
   REQUIRE(obj.starts_with("v "));
   REQUIRE(obj.find("\nf ") != std::string::npos);
@@ -63,6 +86,15 @@ TEST_CASE("a broken case file is refused with its name and what is wrong", "[uni
   REQUIRE_THROWS_WITH(load_case(path), Contains("1x"));
   write(path, R"({"format": 1, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"distance": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("contact_radius"));
+}
+
+TEST_CASE("a damaged HDF5 file is refused with its name", "[unit]") {
+  using Catch::Matchers::Contains;
+  const Folder folder;
+  const auto path = folder.path / "case.h5";
+  REQUIRE_THROWS_WITH(load_case(path), Contains("case.h5"));
+  write(path, "no HDF5");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("case.h5"));
 }
 
 TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is refused", "[unit]") {
@@ -89,7 +121,7 @@ TEST_CASE("a batch file holds one problem a line, comments and empty lines apart
   write(path, "# worst cases\n\nstage=bound gen=few seed=1 index=1\nstage=truncate gen=bits seed=2 index=9\n");
   const auto names = load_batch(path);
   REQUIRE(names.size() == 2);
-  REQUIRE(names[1] == CaseName{Stage::truncate, "bits", 2, 9, ""});
+  REQUIRE(names[1] == CaseName{Stage::truncate, "bits", 2, 9, "", {}});
   write(path, "stage=bound gen=few seed=1 index=1\nstage=bund\n");
   REQUIRE_THROWS_WITH(load_batch(path), Contains("line 2") && Contains("bund"));
   REQUIRE_THROWS_AS(load_batch(folder.path / "none.txt"), InputError);

@@ -22,7 +22,7 @@ std::array<Vec3f, 3> points_of(const MeshCase& mesh, const Triangle& t) { return
 
 TEST_CASE("shrinking a mesh keeps the two triangles that fail and drops all others with their vertices", "[property]") {
   for (std::uint64_t index = 0; index < 20; ++index) {
-    const TestCase test = generate({Stage::detect_vertex_facet, "soup", 3, index, ""});
+    const TestCase test = generate({Stage::detect_vertex_facet, "soup", 3, index, "", {}});
     const MeshCase& mesh = std::get<MeshCase>(test.data);
     if (mesh.topology->triangles.size() < 4) continue;
     const auto first = points_of(mesh, mesh.topology->triangles[1]), second = points_of(mesh, mesh.topology->triangles.back());
@@ -42,7 +42,7 @@ TEST_CASE("shrinking a mesh keeps the two triangles that fail and drops all othe
 }
 
 TEST_CASE("shrinking bound keeps the distances of what is kept", "[property]") {
-  const TestCase test = generate({Stage::bound, "soup", 3, 1, ""});
+  const TestCase test = generate({Stage::bound, "soup", 3, 1, "", {}});
   const BoundCase& all = std::get<BoundCase>(test.data);
   const float smallest = *std::min_element(all.d_min_triangle.begin(), all.d_min_triangle.end());
   const TestCase small = shrink(test, [&](const TestCase& candidate) {
@@ -57,7 +57,7 @@ TEST_CASE("shrinking bound keeps the distances of what is kept", "[property]") {
 }
 
 TEST_CASE("shrinking leaves coordinates with as few digits as the failure allows", "[property]") {
-  const TestCase test = generate({Stage::closest_face, "uniform", 3, 7, ""});
+  const TestCase test = generate({Stage::closest_face, "uniform", 3, 7, "", {}});
   const float limit = std::get<ClosestFaceCase>(test.data).point.z;
   const TestCase small = shrink(test, [&](const TestCase& candidate) {
     const float z = std::get<ClosestFaceCase>(candidate.data).point.z;

@@ -36,7 +36,7 @@ struct Judged {
   std::vector<float> bound{1, 1};
   SweepOut out{{{0.5f, 0, 0}, {1, 0, 0}}, 1};
   SweepTruth truth{{{0.5, 0, 0}, {1, 0, 0}}, {1e-6, 1e-6}, {0, 0}, 1, 0};
-  TestCase test{{Stage::sweep, "sheets", 1, 0, ""}, SweepCase{}};
+  TestCase test{{Stage::sweep, "sheets", 1, 0, "", {}}, SweepCase{}};
 
   Judged() { scene.mesh.positions.resize(2); }
   std::uint64_t mismatches() const {

@@ -19,7 +19,7 @@ TEST_CASE("quantiles of a histogram are right within one per cent", "[unit]") {
 
 TEST_CASE("an error beyond the tolerance is a mismatch, and so is one that is no number", "[unit]") {
   Tally tally(Stage::bound);
-  tally.begin({Stage::bound, "few", 1, 2, ""});
+  tally.begin({Stage::bound, "few", 1, 2, "", {}});
   tally.error(0, bound_below_tolerance, [] { return ""; });
   REQUIRE(tally.mismatched == 0);
   tally.error(0, bound_below_tolerance * 1.01, [] { return "here"; });
@@ -31,13 +31,13 @@ TEST_CASE("an error beyond the tolerance is a mismatch, and so is one that is no
 
 TEST_CASE("tallies add up, and the worst case is the first of the largest", "[unit]") {
   Tally a(Stage::bound), b(Stage::bound);
-  a.begin({Stage::bound, "few", 1, 1, ""});
+  a.begin({Stage::bound, "few", 1, 1, "", {}});
   a.count(10, 10, 0);
   a.error(0, 1, [] { return ""; });
-  b.begin({Stage::bound, "soup", 1, 2, ""});
+  b.begin({Stage::bound, "soup", 1, 2, "", {}});
   b.count(5, 5, 1);
   b.error(0, 2, [] { return ""; });
-  b.begin({Stage::bound, "soup", 1, 3, ""});
+  b.begin({Stage::bound, "soup", 1, 3, "", {}});
   b.error(0, 2, [] { return ""; });
   a.add(b);
   REQUIRE(a.total().cases == 15);
@@ -47,10 +47,10 @@ TEST_CASE("tallies add up, and the worst case is the first of the largest", "[un
 
 TEST_CASE("grey decisions of the generic generators are limited, those of the ladders are not", "[unit]") {
   Tally tally(Stage::truncate);
-  tally.begin({Stage::truncate, "ladder.bound", 1, 1, ""});
+  tally.begin({Stage::truncate, "ladder.bound", 1, 1, "", {}});
   tally.count(1000000, 1000000, 900000);
   REQUIRE(tally.grey_within_limit());
-  tally.begin({Stage::truncate, "uniform", 1, 1, ""});
+  tally.begin({Stage::truncate, "uniform", 1, 1, "", {}});
   tally.count(1000000, 1000000, 10);
   REQUIRE(tally.grey_within_limit());
   tally.count(0, 0, 40);
@@ -69,4 +69,42 @@ TEST_CASE("a generator that fails everywhere hides no other", "[unit]") {
   }
   REQUIRE(a.mismatched == 12 * Tally::listed);
   REQUIRE(a.mismatches.size() == 2 * Tally::listed);
+}
+
+TEST_CASE("a tolerance that no error comes within a factor of 50 of is loose, and one that errors come near is not", "[unit]") {
+  const MetricInfo info{"bound", "u b", 4};
+  MetricTally metric;
+  REQUIRE_FALSE(metric.is_loose(info));  // nothing was measured
+  metric.errors.add(0);
+  REQUIRE(metric.is_loose(info));
+  metric.errors.add(0.079);
+  REQUIRE(metric.is_loose(info));
+  metric.errors.add(0.081);
+  REQUIRE_FALSE(metric.is_loose(info));
+  REQUIRE(metric.room(info) == Approx(4 / 0.081));
+}
+
+TEST_CASE("octaves hold every value once, ascending and without gaps", "[property]") {
+  Histogram errors;
+  for (const double value : {0.0, 1e-9, 0.4, 0.5, 0.9, 1.0, 9.0}) errors.add(value);
+  const auto octaves = errors.octaves(-4);
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < octaves.size(); ++i) {
+    REQUIRE(octaves[i].exponent == -4 + static_cast<int>(i));
+    total += octaves[i].count;
+  }
+  REQUIRE(total == 7);
+  REQUIRE(octaves.front().count == 2);
+  REQUIRE(octaves.back().exponent == 3);
+  REQUIRE(octaves[3].count == 2);  // [0.5, 1)
+}
+
+TEST_CASE("cases near a boundary are counted and shared out over all cases", "[unit]") {
+  Tally tally(Stage::truncate);
+  tally.begin({Stage::truncate, "uniform", 1, 1, "", {}});
+  tally.count(30, 30, 0);
+  tally.begin({Stage::truncate, "ladder.bound", 1, 1, "", {}});
+  tally.count(10, 10, 1, 8);
+  REQUIRE(tally.total().near == 8);
+  REQUIRE(tally.near_share() == Approx(0.2));
 }

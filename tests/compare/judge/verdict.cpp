@@ -14,9 +14,9 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 /// A point 1 above the corner (0, 0, 0) of a right triangle, which is on both of its edges' planes: the exact answer is the corner.
 struct FaceFixture {
-  std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, ""}, ClosestFaceCase{}}};
+  std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
   ClosestFaceIn in{{{0, 0, 1}}, {{Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}}}};
-  ClosestFaceTruth truth{{{TriangleFeature::corner_0}, {{1, 0, 0}}, {1}, {1}}, {0b0001001}, {1}, {{1, 0, 0}}, {1}};
+  ClosestFaceTruth truth{{{TriangleFeature::corner_0}, {{1, 0, 0}}, {1}, {1}}, {0b0001001}, {0}, {1}, {{1, 0, 0}}, {1}};
   ClosestFaceOut out = truth.exact;
   std::string verdict() const {
     Tally tally(Stage::closest_face);
@@ -46,7 +46,7 @@ struct SetFixture {
   }
   std::string verdict() const {
     Tally tally(Stage::detect_vertex_facet);
-    judge_detect_vertex_facet({{Stage::detect_vertex_facet, "few", 0, 0, ""}, mesh}, truth, out, tally);
+    judge_detect_vertex_facet({{Stage::detect_vertex_facet, "few", 0, 0, "", {}}, mesh}, truth, out, tally);
     return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
   }
 };
@@ -54,7 +54,7 @@ struct SetFixture {
 TruncateOut moved(const Vec3f& position, bool exceeded) { return {{position}, {static_cast<std::uint8_t>(exceeded)}}; }
 
 std::string truncate_verdict(const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out) {
-  const std::vector<TestCase> cases{{{Stage::truncate, "uniform", 0, 0, ""}, TruncateCase{}}};
+  const std::vector<TestCase> cases{{{Stage::truncate, "uniform", 0, 0, "", {}}, TruncateCase{}}};
   Tally tally(Stage::truncate);
   judge_truncate(cases, in, truth, out, tally);
   return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
@@ -154,7 +154,7 @@ TEST_CASE("a smallest distance may be too small by rounding, never too large", "
 TEST_CASE("truncate: the stored position must obey its bound exactly", "[unit]") {
   // From (1, 0, 0) by (3, 4, 0) with bound 2.5: half of the way.
   const TruncateIn in{{{1, 0, 0}}, {{4, 4, 0}}, {2.5f}};
-  const TruncateTruth truth{{1}, {0}, {{2.5, 2, 0}}};
+  const TruncateTruth truth{{1}, {0}, {0}, {{2.5, 2, 0}}};
   REQUIRE(truncate_verdict(in, truth, moved({2.5f, 2, 0}, true)).empty());
   REQUIRE(truncate_verdict(in, truth, moved({2.5f, 2, 0}, false)).starts_with("exceeded"));
   REQUIRE(truncate_verdict(in, truth, moved({2.5f, std::nextafter(2.0f, 3.0f), 0}, true)).starts_with("position"));
@@ -165,7 +165,7 @@ TEST_CASE("truncate: the stored position must obey its bound exactly", "[unit]")
 
 TEST_CASE("truncate: what does not exceed its bound comes back bit for bit", "[unit]") {
   const TruncateIn in{{{1, 0, 0}}, {{4, 4, 0}}, {5}};
-  const TruncateTruth truth{{0}, {1}, {{4, 4, 0}}};
+  const TruncateTruth truth{{0}, {1}, {1}, {{4, 4, 0}}};
   REQUIRE(truncate_verdict(in, truth, moved({4, 4, 0}, false)).empty());
   REQUIRE(truncate_verdict(in, truth, moved({4, std::nextafter(4.0f, 0.0f), 0}, false)).starts_with("position"));
   // ‖x − x_prev‖ = b exactly is grey: calling it exceeded is accepted, and then the last bit may differ.

@@ -32,7 +32,7 @@ struct RestFixture {
   }
   std::string verdict() const {
     Tally tally(Stage::rest_state);
-    judge_rest_state({{Stage::rest_state, "soup", 0, 0, ""}, RestStateCase{}}, truth, out, tally);
+    judge_rest_state({{Stage::rest_state, "soup", 0, 0, "", {}}, RestStateCase{}}, truth, out, tally);
     return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
   }
   /// The verdict after a change to the right answer.
@@ -47,7 +47,7 @@ std::string block_verdict(std::vector<std::uint8_t> answer) {
   BlockCase c;
   c.questions = {{BlockQuestion::Kind::vertex_in_surface, 0, {FaceKind::edge, 7}}, {BlockQuestion::Kind::edge_in_edges, 3, {FaceKind::vertex, 1}}};
   Tally tally(Stage::block);
-  judge_block({{Stage::block, "soup", 0, 0, ""}, c}, {{1, 0}, {0, 1}}, {std::move(answer)}, tally);
+  judge_block({{Stage::block, "soup", 0, 0, "", {}}, c}, {{1, 0}, {0, 1}, {0, 1}}, {std::move(answer)}, tally);
   return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
 }
 
@@ -55,11 +55,11 @@ std::string block_verdict(std::vector<std::uint8_t> answer) {
 struct GuessFixture {
   InitialGuessIn in{{{{1, 0, 0}, {3, 4, 0}, {}, 1, {1, 0, 0}, 2.5f, 0}}};
   InitialGuessTruth truth{{{4, 4, 0}}, {4}};
-  TruncateTruth cut{{1}, {0}, {{2.5, 2, 0}}};
+  TruncateTruth cut{{1}, {0}, {0}, {{2.5, 2, 0}}};
   InitialGuessOut out{{{4, 4, 0}}, {{2.5f, 2, 0}}, {1}};
 
   std::string verdict() const {
-    const std::vector<TestCase> cases{{{Stage::initial_guess, "uniform", 0, 0, ""}, in.cases[0]}};
+    const std::vector<TestCase> cases{{{Stage::initial_guess, "uniform", 0, 0, "", {}}, in.cases[0]}};
     Tally tally(Stage::initial_guess);
     judge_initial_guess(cases, in, truth, cut, out, tally);
     return tally.mismatches.empty() ? "" : tally.mismatches[0].message;

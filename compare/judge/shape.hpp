@@ -1,0 +1,29 @@
+// What there is to see of a case: points, triangles, lines. An OBJ mesh and a picture are made of it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "compare/judge/cases.hpp"
+
+namespace ogc::compare {
+
+struct Shape {
+  std::vector<Vec3f> points;
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Index, 2>> lines;  ///< those of triangles left out
+  std::vector<Index> dots;                  ///< points that are asked about
+};
+
+/// Empty where a case has no coordinates (activation, bound).
+Shape shape_of(const CaseData& data);
+
+/// OBJ text: vertices in order, then points, faces and lines with indices from 1. Empty for an empty shape.
+std::string print_shape_obj(const Shape& shape);
+
+/// A static SVG picture: parallel projection along the direction in which the shape is least deep, to scale; vertices carry their numbers where they are few.
+/// Empty for an empty shape.
+std::string print_shape_svg(const Shape& shape, const std::string& title);
+
+}  // namespace ogc::compare

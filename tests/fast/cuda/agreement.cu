@@ -1,0 +1,44 @@
+// The device against the reference: the same judge, the same cases as on the CPU.
+#include "tests/catch.hpp"
+
+#include "compare/judge/judge.hpp"
+#include "compare/judge/report.hpp"
+#include "compare/judge/stage_table.hpp"
+#include "experiments/stage_list.hpp"
+#include "fast/contestant.hpp"
+#include "reference/contestant.hpp"
+
+using namespace ogc;
+using namespace ogc::compare;
+
+TEST_CASE("the fast path on CUDA agrees with the reference in every stage", "[gpu]") {
+  const Authority authority = reference::authority();
+  const Contestant device = fast::contestant(fast::Backend::cuda);
+  for (const Stage stage : all_stages) {
+    JudgeOptions options;
+    options.cases = is_mesh_stage(stage) ? 10000 : 40000;
+    options.seed = 5;
+    const StageReport report = judge_stage(stage, device, authority, options);
+    INFO(stage_name(stage) << "\n" << report_mismatches(report, 1));
+    CHECK(report.passed());
+  }
+}
+
+TEST_CASE("the device gives the same bits again, shuffled and in small batches, in every stage", "[gpu]") {
+  for (const DeterminismReport& report : experiments::determinism_of(fast::Backend::cuda, all_stages, 1000, 5)) {
+    INFO(stage_name(report.stage) << (report.changed.empty() ? "" : ": " + report.changed[0]));
+    CHECK_FALSE(report.skipped);
+    CHECK(report.changed.empty());
+  }
+}
+
+#if defined(OGC_STRICT)
+TEST_CASE("in the strict build every stage has the host's bits that promises them", "[gpu]") {
+  const auto host = experiments::determinism_of(fast::Backend::cpu, all_stages, 1000, 5);
+  const auto device = experiments::determinism_of(fast::Backend::cuda, all_stages, 1000, 5);
+  for (std::size_t i = 0; i < host.size(); ++i) {
+    INFO(stage_name(host[i].stage));
+    if (stage_info(host[i].stage).determinism == Determinism::cpu_to_gpu) CHECK(host[i].digest == device[i].digest);
+  }
+}
+#endif

@@ -1,0 +1,72 @@
+// All planted faults in one program, chosen at run time by number: `planted_faults` judges them all and prints how many cases each needed, as the table of
+// compare/README.md; `planted_faults NUMBER` judges one and prints what the judge says of it. Exit status 1 where the judge finds nothing in 10⁵ cases.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "compare/judge/judge.hpp"
+#include "compare/judge/report.hpp"
+#include "reference/contestant.hpp"
+#include "tests/compare/judge/faults.hpp"
+
+namespace {
+
+using namespace ogc;
+using namespace ogc::compare;
+
+constexpr std::uint64_t most_cases = 100000;
+
+StageReport judged(const tests::Fault& fault, const Authority& authority, std::uint64_t cases) {
+  Contestant wrong = tests::exact_contestant(authority);
+  fault.plant(wrong, authority);
+  JudgeOptions options;
+  options.cases = cases;
+  options.batch = 1000;
+  return judge_stage(fault.stage, wrong, authority, options);
+}
+
+/// Of the runs of 10, 20, 50, 100, … cases the first in which the judge finds the fault: how many cases it counted. 0: none.
+std::uint64_t cases_needed(const tests::Fault& fault, const Authority& authority) {
+  for (std::uint64_t decade = 10; decade <= most_cases; decade *= 10)
+    for (const std::uint64_t step : {1u, 2u, 5u}) {
+      if (decade * step > most_cases) return 0;
+      const StageReport report = judged(fault, authority, decade * step);
+      if (report.tally.mismatched > 0) return report.tally.total().cases;
+    }
+  return 0;
+}
+
+int judge_one(const tests::Fault& fault, const Authority& authority) {
+  const StageReport report = judged(fault, authority, 1000);
+  std::printf("%s\n%s", fault.name.c_str(), report_mismatches(report, 3).c_str());
+  return report.tally.mismatched > 0 ? 0 : 1;
+}
+
+int judge_all(const std::vector<tests::Fault>& faults, const Authority& authority) {
+  std::size_t missed = 0;
+  std::printf("| no. | stage | fault | cases |\n|---|---|---|---|\n");
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    const std::uint64_t cases = cases_needed(faults[i], authority);
+    missed += cases == 0;
+    const std::string name = faults[i].name.substr(faults[i].name.find(": ") + 2);
+    std::printf("| %zu | %s | %s | %s |\n", i + 1, std::string(stage_name(faults[i].stage)).c_str(), name.c_str(),
+                cases == 0 ? "not found" : std::to_string(cases).c_str());
+    std::fflush(stdout);
+  }
+  std::printf("\n%zu faults, %zu found\n", faults.size(), faults.size() - missed);
+  return missed == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const std::vector<tests::Fault> faults = tests::faults();
+  const Authority authority = reference::authority();
+  if (count < 2) return judge_all(faults, authority);
+  const std::size_t number = std::stoul(words[1]);
+  if (number < 1 || number > faults.size()) {
+    std::fprintf(stderr, "there are faults 1 to %zu\n", faults.size());
+    return 2;
+  }
+  return judge_one(faults[number - 1], authority);
+}
