@@ -56,7 +56,8 @@ std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
 
 void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
   command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
-  command.add_option("--solver", options->solver, "How a step is solved")->check(CLI::IsMember({"vbd", "newton", "reference_vbd", "ipc", "penalty"}))->capture_default_str();
+  command.add_option("--solver", options->solver, "How a step is solved")
+      ->check(CLI::IsMember({"vbd", "newton", "reference_vbd", "ipc", "penalty"}))->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember({"cpu", "cuda"}))->capture_default_str();
   command.add_option("--scale", options->scale, "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
   command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")->check(CLI::PositiveNumber);

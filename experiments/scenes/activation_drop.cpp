@@ -10,7 +10,7 @@ compare::Scene activation_drop(const ActivationDropSizes& sizes) {
   compare::Scene scene = cloth_on_sphere({sizes.vertices_a_side, sizes.sphere_subdivisions, sizes.steps});
   scene.name = "activation_drop";
   append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()}, ground(sizes.vertices_a_side, -0.272));
-  scene.settings.iterations = 500;
+  scene.settings.iterations = sizes.iterations;
   scene.settings.redetect_fraction = 0;
   scene.settings.newton_iterations = 200;
   return scene;

@@ -57,7 +57,7 @@ compare::Scene fifty_layers_1m_at(Scale scale) {
 
 compare::Scene three_cloths_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 24});
+    case Scale::smoke: return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 24, .iterations = 40});
     case Scale::small: return three_cloths_on_sphere({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 40});
     case Scale::paper: break;
   }
@@ -66,7 +66,7 @@ compare::Scene three_cloths_at(Scale scale) {
 
 compare::Scene activation_drop_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return activation_drop({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 30});
+    case Scale::smoke: return activation_drop({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 30, .iterations = 40});
     case Scale::small: return activation_drop({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 38});
     case Scale::paper: break;
   }

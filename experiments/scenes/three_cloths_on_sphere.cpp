@@ -16,7 +16,7 @@ compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes) {
   append_sphere(scene, sizes.sphere_subdivisions);
   scene.settings.time_step = 1.0 / 100;
   scene.settings.steps = sizes.steps;
-  scene.settings.iterations = 500;
+  scene.settings.iterations = sizes.iterations;
   scene.settings.newton_iterations = 50;
   scene.settings.contact_radius = radius;
   return scene;

@@ -10,6 +10,7 @@ struct ThreeClothsSizes {
   compare::Index vertices_a_side = 70;
   int sphere_subdivisions = 3;
   std::int64_t steps = 50;
+  std::int64_t iterations = 500;
 };
 
 /// The sphere of cloth_on_sphere, three of its cloths at y = 0.30 m and 2 r and 4 r above.
