@@ -257,7 +257,8 @@ int run(CompareOptions options, const CommandContext& context) {
   std::optional<PluginSeen> plugin;
   if (judged.plugin) plugin = PluginSeen{judged.plugin->name(), judged.backend, *judged.times, judged.plugin->notes()};
   const std::filesystem::path folder = options.report.empty() ? "ogc-compare" : options.report;
-  const std::vector<std::string> saved = options.replay.empty() ? save_failures(reports, given, states, folder / "failures", {judged.contestant, authority}) : std::vector<std::string>{};
+  std::vector<std::string> saved;
+  if (options.replay.empty()) saved = save_failures(reports, given, states, folder / "failures", {judged.contestant, authority});
   if (!options.report.empty()) write_report(folder, reports, judged.plugin ? judged.plugin->name() : options.backend);
   print_reports(reports, plugin, saved, context);
   bool any = false, passed = true;
@@ -294,10 +295,13 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   problem->excludes(replay);
   batch->excludes(replay);
   command->add_option("--plugin", options->plugin, "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
-  command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")->capture_default_str()->check(CLI::Range(1, 3600));
+  command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 3600));
   command->add_option("--report", options->report, "Folder for report.html, report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
-  command->add_flag("--determinism", options->determinism, "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of threads? The digests of "
-                                                           "two machines or builds may be compared");
+  command->add_flag("--determinism", options->determinism,
+                    "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of threads? The digests of two machines or builds "
+                    "may be compared");
   auto* list = command->add_flag("--list", options->list, "Print all stages with what they are asked, their generators and parameters");
   command->add_flag("--markdown", options->markdown, "With --list: as the table of README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");

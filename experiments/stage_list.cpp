@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/judge.hpp"
+#include "compare/judge/mutate.hpp"
 #include "compare/judge/parameters.hpp"
 #include "compare/judge/stage_table.hpp"
 #include "reference/contestant.hpp"
@@ -45,7 +46,7 @@ std::string stage_list_markdown() {
     // Both backends instantiate one list of probes (fast/stages/probes.hpp), so what the CPU has CUDA has.
     const bool is_there = compare::can_judge(info.stage, fast, authority);
     text += "| " + link(name, "compare/stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " + std::string(info.unit) + " | " +
-            link("exact", std::string(info.reference)) + " | " + (is_there ? "yes" : "no") + " | " + (is_there ? "yes" : "no") + " | " + generators_of(info.stage) + " | " +
+            link("exact", std::string(info.reference)) + (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(info.stage) + " | " +
             link("CPU", "tests/experiments/compare.cpp") + ", " + link("CUDA", "tests/fast/cuda/agreement.cu") + " | " +
             std::string(determinism_name(info.determinism)) + " |\n";
   }
@@ -54,10 +55,12 @@ std::string stage_list_markdown() {
 
 std::string stage_list_text() {
   std::string text;
-  for (const StageInfo& info : compare::stage_table())
+  for (const StageInfo& info : compare::stage_table()) {
     text += std::string(stage_name(info.stage)) + ": " + std::string(info.question) + "\n  a case: " + std::string(info.unit) + "; same bits: " +
-            std::string(determinism_name(info.determinism)) + "\n  generators: " + names_of(compare::generators(info.stage)) + ", states, mutated\n  parameters: " +
-            names_of(compare::parameters(info.stage)) + "\n";
+            std::string(determinism_name(info.determinism)) + "\n";
+    text += "  generators: " + names_of(compare::generators(info.stage)) + (compare::can_mutate(info.stage) ? ", mutated\n" : "\n");
+    text += "  parameters: " + names_of(compare::parameters(info.stage)) + "\n";
+  }
   return text;
 }
 

@@ -22,8 +22,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 KERNELS = ("closest_face closest_points predicates exact_sign segment block bound activation truncate membrane bending arctangent rounding vector accumulator "
-           "collect_contacts separation detect_vertex_facet detect_edge_edge").split()
-STAGES = "closest_face closest_points activation truncate membrane bending bound detect_vertex_facet detect_edge_edge".split()
+           "collect_contacts separation detect_vertex_facet detect_edge_edge "
+           "contact_force friction_force contact_stream solve3 inertia sweep initial_guess").split()
+STAGES = ("closest_face closest_points activation truncate membrane bending bound detect_vertex_facet detect_edge_edge contact_force friction_force "
+          "initial_guess sweep").split()
 
 BINARY = {  # operator -> (struct, what its alternatives are)
     "<": ("Less", ("<=", ">=")), ">": ("Greater", (">=", "<=")), "<=": ("LessEqual", ("<", ">")), ">=": ("GreaterEqual", (">", "<")),

@@ -229,7 +229,8 @@ DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint6
   for (std::size_t i = 0; i < order.size() && i < answers.size(); ++i) sorted[order[i]] = answers[i];
   compare_with("shuffled", sorted);
   if (!is_mesh_stage(stage))
-    for (const std::size_t size : {1u, 2u, 3u, 5u, 10u, 50u}) compare_with("batches of " + std::to_string(size), in_batches(stage, all, size, contestant, authority));
+    for (const std::size_t size : {1u, 2u, 3u, 5u, 10u, 50u})
+      compare_with("batches of " + std::to_string(size), in_batches(stage, all, size, contestant, authority));
   return report;
 }
 

@@ -43,7 +43,8 @@ const Generator& find_generator(Stage stage, std::string_view name) {
     if (generator.name == name) return generator;
     known += std::string(generator.name) + ", ";
   }
-  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known + (can_mutate(stage) ? "states, mutated" : "states"));
+  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known +
+                   (can_mutate(stage) ? "states, mutated" : "states"));
 }
 
 TestCase generate(const CaseName& name, const States* states) { return generate(find_generator(name.stage, name.generator), name, states); }

@@ -11,8 +11,8 @@ namespace ogc::compare {
 /// Whether a case has points that may be moved without making it illegal: all but scenes (rest_state, sweep, step), bounds and distances.
 bool can_mutate(Stage stage);
 
-/// Moves a few points, in one or more of these ways: next to another point, or halfway between two others, up to a rung of their distance; onto another point; by a
-/// rung; one coordinate taken over from another point; all points to few binary digits.
+/// Moves a few points, in one or more of these ways: next to another point, or halfway between two others, up to a rung of their distance; onto another
+/// point; by a rung; one coordinate taken over from another point; all points to few binary digits.
 void mutate(Random& random, CaseData& data);
 
 /// The same for points alone.

@@ -58,7 +58,8 @@ std::string histogram(const Histogram& errors, double tolerance, const std::stri
   svg.line({at, 6}, {at, plot_height}, "stroke:#cc3311;stroke-dasharray:3 2");
   svg.line({left - 4, plot_height}, {left + bar_width * (last - first + 1), plot_height}, "stroke:#888");
   for (int e = first; e <= last; ++e)
-    if ((e - first) % 4 == 0) svg.text({left + bar_width * (e - first), plot_height + 14}, (e == lowest_octave ? "≤2^" : "2^") + std::to_string(e), "font:10px sans-serif");
+    if ((e - first) % 4 == 0)
+      svg.text({left + bar_width * (e - first), plot_height + 14}, (e == lowest_octave ? "≤2^" : "2^") + std::to_string(e), "font:10px sans-serif");
   svg.text({2, 12}, std::to_string(errors.count()), "font:10px sans-serif");
   return svg.finish();
 }
@@ -94,11 +95,11 @@ std::string mismatches_html(const Tally& tally) {
 }  // namespace
 
 std::string report_page(std::span<const StageReport> reports, const std::string& heading) {
-  std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(heading) + "</title><style>" + style + "</style></head><body>\n";
-  html += "<h1>" + escaped(heading) + "</h1>\n" + main_table(reports);
-  html += "<p>Grey share: decisions of the generic generators that lie within 16 u of a boundary. Near share: cases within 2<sup>10</sup> ulp of one. Room: how many times "
-          "what is accepted exceeds the largest error; marked where loose, above 50. Histograms count errors by powers of two of their unit, on a logarithmic scale; the "
-          "dashed line is what is accepted.</p>\n";
+  std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(heading) + "</title><style>";
+  html += std::string(style) + "</style></head><body>\n<h1>" + escaped(heading) + "</h1>\n" + main_table(reports);
+  html += "<p>Grey share: decisions of the generic generators that lie within 16 u of a boundary. Near share: cases within 2<sup>10</sup> ulp of one. "
+          "Room: how many times what is accepted exceeds the largest error; marked where loose, above 50. Histograms count errors by powers of two of "
+          "their unit, on a logarithmic scale; the dashed line is what is accepted.</p>\n";
   for (const StageReport& report : reports) {
     if (report.skipped) continue;
     html += "<h2>" + std::string(stage_name(report.tally.stage)) + ": " + escaped(verdict(report)) + "</h2>\n";

@@ -28,7 +28,8 @@ constexpr std::array friction_parameters{radius, stiffness, friction, ParameterI
 constexpr std::array membrane_parameters{ParameterInfo{"lambda", "first Lamé constant times thickness [N/m]", 0, 0x1p40f},
                                          ParameterInfo{"G", "second Lamé constant times thickness [N/m]", 0x1p-30f, 0x1p40f},
                                          ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
-constexpr std::array bending_parameters{ParameterInfo{"c", "stiffness of the hinge [J]", 0x1p-60f, 0x1p40f}, ParameterInfo{"theta_0", "rest angle [rad]", -3.1415925f, 3.1415925f},
+constexpr std::array bending_parameters{ParameterInfo{"c", "stiffness of the hinge [J]", 0x1p-60f, 0x1p40f},
+                                        ParameterInfo{"theta_0", "rest angle [rad]", -3.1415925f, 3.1415925f},
                                         ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
 constexpr std::array sweep_parameters{radius, larger_radius, time_step, relaxation, stiffness, friction};
 constexpr std::array step_parameters{radius, time_step, relaxation, stiffness, friction};
@@ -108,8 +109,8 @@ void make_canonical(Stage stage, std::vector<Override>& overrides) {
     if (count > 1) throw InputError("problem string: '" + std::string(info.name) + "' is given twice");
     const Override& given = *std::find_if(overrides.begin(), overrides.end(), is_it);
     if (!(given.value >= info.minimum && given.value <= info.maximum))
-      throw InputError("problem string: " + std::string(info.name) + " (" + std::string(info.meaning) + ") lies between " + shortest(as_typed(info.minimum)) + " and " +
-                       shortest(as_typed(info.maximum)));
+      throw InputError("problem string: " + std::string(info.name) + " (" + std::string(info.meaning) + ") lies between " + shortest(as_typed(info.minimum)) +
+                       " and " + shortest(as_typed(info.maximum)));
     ordered.push_back(given);
   }
   for (const Override& given : overrides)

@@ -96,10 +96,11 @@ std::vector<ReportRow> report_rows(const StageReport& report) {
 Json report_json(const StageReport& report) {
   const Tally& tally = report.tally;
   const GeneratorTally total = tally.total();
+  const Json near_share = stage_info(tally.stage).has_boundary ? Json(tally.near_share()) : Json();
   Json json{{"stage", stage_name(tally.stage)}, {"verdict", verdict(report)},           {"cases", total.cases},
             {"mismatches", tally.mismatched},   {"grey", total.grey},                   {"decisions", total.decisions},
-            {"grey_share_generic", tally.grey_share()}, {"near", total.near},
-            {"near_share", stage_info(tally.stage).has_boundary ? Json(tally.near_share()) : Json()}, {"seconds", report.seconds},   {"cases_per_second", speed(report)},
+            {"grey_share_generic", tally.grey_share()}, {"near", total.near}, {"near_share", near_share},
+            {"seconds", report.seconds}, {"cases_per_second", speed(report)},
             {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
   const auto infos = metrics(tally.stage);
   json["metrics"] = Json::array();
@@ -111,7 +112,8 @@ Json report_json(const StageReport& report) {
                                {"worst", metric.errors.count() ? print_problem(metric.worst) : ""}});
   }
   for (const auto& [name, row] : tally.generators)
-    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"near", row.near}, {"mismatches", row.mismatches}});
+    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"near", row.near},
+                                  {"mismatches", row.mismatches}});
   json["listed"] = Json::array();
   for (const Mismatch& item : tally.mismatches) json["listed"].push_back({{"problem", print_problem(item.name)}, {"message", item.message}});
   return json;

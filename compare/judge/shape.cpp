@@ -157,7 +157,8 @@ std::string print_shape_svg(const Shape& shape, const std::string& title) {
     svg.text({x + 5, y - 5}, std::to_string(i), "font:12px sans-serif");
   }
   constexpr std::array axes{"x", "y", "z"};
-  svg.text({margin, picture_size - 5}, std::string(axes[projection.axis[0]]) + " to the right, " + axes[projection.axis[1]] + " upwards", "font:11px sans-serif;fill:#666");
+  const std::string legend = std::string(axes[projection.axis[0]]) + " to the right, " + axes[projection.axis[1]] + " upwards";
+  svg.text({margin, picture_size - 5}, legend, "font:11px sans-serif;fill:#666");
   return svg.finish();
 }
 

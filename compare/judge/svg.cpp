@@ -47,7 +47,8 @@ void Svg::line(At from, At to, const char* style) {
 }
 
 void Svg::circle(At centre, double radius, const char* style) {
-  text_ += "<circle" + attribute("cx", pixels(centre[0])) + attribute("cy", pixels(centre[1])) + attribute("r", pixels(radius)) + attribute("style", style) + "/>\n";
+  text_ += "<circle" + attribute("cx", pixels(centre[0])) + attribute("cy", pixels(centre[1])) + attribute("r", pixels(radius)) + attribute("style", style) +
+           "/>\n";
 }
 
 void Svg::rectangle(At corner, double width, double height, const char* style) {

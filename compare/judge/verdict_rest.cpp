@@ -116,7 +116,9 @@ void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const R
 void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& out, Tally& tally) {
   const auto& questions = std::get<BlockCase>(test.data).questions;
   tally.begin(test.name);
-  const auto marked = [](const std::vector<std::uint8_t>& flags) { return static_cast<std::uint64_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1})); };
+  const auto marked = [](const std::vector<std::uint8_t>& flags) {
+    return static_cast<std::uint64_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
+  };
   tally.count(questions.size(), questions.size(), marked(truth.grey), marked(truth.near));
   if (out.inside.size() != questions.size()) {
     tally.mismatch("inside has " + std::to_string(out.inside.size()) + " entries instead of " + std::to_string(questions.size()));

@@ -155,7 +155,8 @@ double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& 
   return spread(by_p, between(origin, p)) + spread(by_b, between(origin, b)) + spread(combined(-1, by_p, -1, by_b), between(origin, a));
 }
 
-/// With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. Coordinates are relative to t₀.
+/// With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. Coordinates are relative
+/// to t₀.
 double interior_spread(const Corners& t, const Vec3f& p, const std::array<double, 3>& w) {
   const Vector e1 = between(t[0], t[1]), e2 = between(t[0], t[2]), x = between(t[0], p), n = cross(e1, e2);
   const double squared = dot(n, n), eta = dot(x, n) / squared;

@@ -153,7 +153,9 @@ double side_sensitivity(const std::array<std::array<double, 3>, 4>& delta) {
   const Points<double> at = constants<double>(delta);
   const Point<double> &e = at[1], &c = at[2], &p = at[3], by_p = cross(cross(e, c), e), by_c = cross(cross(e, p), e);
   const Point<double> first = cross(p, cross(e, c)), second = cross(c, cross(e, p));
-  const auto spread = [](const Point<double>& slope, const Point<double>& x) { return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z); };
+  const auto spread = [](const Point<double>& slope, const Point<double>& x) {
+    return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z);
+  };
   return spread(by_p, p) + spread(by_c, c) + spread({first.x + second.x, first.y + second.y, first.z + second.z}, e);
 }
 

@@ -5,6 +5,7 @@
 // First line out: "right" and the numbers that the cases reach; then a line for each mutant: empty where it survives.
 #include <signal.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -57,6 +58,8 @@ Authority remembering(const Authority& a, const std::size_t& round) {
   r.friction_force = remembered(a.friction_force, round);
   r.block = remembered(a.block, round);
   r.initial_guess = remembered(a.initial_guess, round);
+  r.rest_state = remembered(a.rest_state, round);
+  r.sweep = a.sweep;  // its truth follows the answer
   return r;
 }
 
@@ -112,6 +115,8 @@ std::string judge_apart(int mutant, const Contestant& contestant, const Authorit
 
 int main(int count, char** words) {
   if (count < 6) return 2;
+  // Children are forked, and a pool of threads would be gone in them.
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   Plan plan;
   plan.options.cases = std::stoull(words[1]);
   plan.options.seed = std::stoull(words[2]);

@@ -32,7 +32,8 @@ std::vector<StageReport> two_reports() {
 
 TEST_CASE("the page of a report is closed, loads nothing and escapes what it quotes", "[unit]") {
   const std::string page = report_page(two_reports(), "cpu against <reference>");
-  for (const char* tag : {"html", "body", "table", "svg", "figure", "details", "h1", "h2"}) REQUIRE(count(page, "<" + std::string(tag)) == count(page, "</" + std::string(tag) + ">"));
+  for (const char* tag : {"html", "body", "table", "svg", "figure", "details", "h1", "h2"})
+    REQUIRE(count(page, "<" + std::string(tag)) == count(page, "</" + std::string(tag) + ">"));
   for (const char* foreign : {"<script", "<link", "<img", "src="}) REQUIRE(count(page, foreign) == 0);
   REQUIRE(count(page, "cpu against &lt;reference&gt;") == 2);
   REQUIRE(count(page, "feature: 1 &lt;b&gt; &amp; more") == 1);
