@@ -75,7 +75,7 @@ compare::Scene activation_drop_at(Scale scale) {
 
 compare::Scene knot_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return knot({.rows = 400, .columns = 5, .hold_steps = 20, .steps = 50});
+    case Scale::smoke: return knot({.rows = 400, .columns = 5, .hold_steps = 12, .steps = 30});
     case Scale::small: return knot({.rows = 1200, .columns = 10, .hold_steps = 150, .steps = 1350});
     case Scale::paper: break;
   }
