@@ -42,7 +42,7 @@ void run(const Options& options, const CommandContext& context) {
   }
   Json written = Json::array();
   for (const std::string& figure : figures) {
-    const Json json = to_json(figure, reference::illustration(figure));
+    const Json json = to_json(figure, figure == "fig21d" ? reference::activation_drawing() : reference::illustration(figure));
     std::filesystem::create_directories(options.folder);
     const std::string path = (std::filesystem::path(options.folder) / (figure + ".json")).string();
     std::ofstream file(path);
@@ -60,7 +60,7 @@ void run(const Options& options, const CommandContext& context) {
 void add_illustrate_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("illustrate", "Data of the paper's drawings of blocks, Gauss maps and contact sets (Fig. 3 to 8, 22a)");
-  command->add_option("FIGURE", options->figures, "fig03 fig04 fig05 fig06 fig07 fig08 fig22a (default: all)");
+  command->add_option("FIGURE", options->figures, "fig03 fig04 fig05 fig06 fig07 fig08 fig22a (default: all of these) fig21d (for paper_figures/fig21_activation_drop.py)");
   command->add_option("--out", options->folder, "Folder to write to, made where it is missing")->capture_default_str();
   command->footer("Everything is computed by the exact reference; nothing is drawn by hand. The pictures:\n"
                   "  python3 -m paper_figures.illustrations FOLDER\n\n"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/problem/contestant.hpp"
+#include "reference/energies/activation_drawing.hpp"
 #include "reference/geometry/block_margins.hpp"
 #include "reference/geometry/filter_counts.hpp"
 #include "reference/geometry/gauss_map.hpp"

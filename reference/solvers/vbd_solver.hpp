@@ -1,5 +1,5 @@
-// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other, vertices of a colour in parallel, read as
-// method.md §7 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's are.
+// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other, vertices of a colour in parallel, read
+// as method.md §7 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's.
 //
 // The residual of an iteration row is a measurement beside the run (residual.hpp), and its time no part of the step's.
 #pragma once
@@ -12,8 +12,8 @@ namespace ogc::reference {
 
 class VbdSolver : public StepSolver, private ContactStep {
  public:
-  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free; empty for colours of its own (colouring.hpp). No two vertices of
-  /// a membrane or hinge may share one.
+  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two vertices of a membrane or hinge may share
+  /// one. Empty: colours of its own (colouring.hpp). Throws std::invalid_argument where they do not fit the scene.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<compare::Index> colour = {});
 
   StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) override;

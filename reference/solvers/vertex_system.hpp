@@ -1,6 +1,6 @@
 // The 3×3 system of one vertex in double: the force of all energies and the sweep's approximation of their Hessian (method.md §4), by automatic
-// differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp) asks the stages, each with its errors, about single-precision positions;
-// this one is for whole runs, whose positions are doubles.
+// differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp) asks the stages, each with its errors, about single-precision
+// positions; this one is for whole runs, whose positions are doubles.
 #pragma once
 
 #include <array>

@@ -1,0 +1,109 @@
+"""Fig. 17: the residual of Eq. 29 over iterations and over time, one step of three cloths on a sphere, by VBD in single and in double precision and by Newton.
+
+All start from the same state, that of VBD in single precision after the step before. Runs are to convergence: contacts are detected again as soon as one vertex
+is cut, and, where the legend says so, every 20 (VBD) iterations, since a residual has contacts detected at its very state and a solver goes on with the older ones.
+Newton's residual has the contacts and the friction of its solve; it jumps where friction is lagged anew.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.runs import iterations, last_frame, provenance, run_once, write_table
+from plots import style
+from plots.run_folder import RunError
+
+SCENE = "three_cloths_on_sphere"
+STEPS = {"smoke": 24, "small": 40, "paper": 50}
+VBD = ["--set", "redetect_fraction=0", "--set", "iterations=500"]
+EVERY = ["--set", "redetect_every=20"]
+NEWTON = ["--solver", "newton", "--set", "newton_tolerance=0", "--set", "newton_step_tolerance=1e-9", "--set", "newton_iterations=50", "--set", "friction_solves=50"]
+
+
+def curves(folder, ogc, scale, backends):
+    """(label, run) of each curve."""
+    step = STEPS[scale]
+    base = [SCENE, "--scale", scale, "--audit", "end"]
+    start = last_frame(run_once(ogc, [*base, "--backend", backends[-1], "--steps", step - 1], folder / "start"))
+    solve = [*base, "--steps", step, "--from-state", start, "--iterations", "--profile"]
+    variants = []
+    for backend in backends:
+        variants.append((f"VBD, single, {backend}", f"vbd_{backend}", ["--backend", backend, *VBD]))
+        variants.append((f"VBD, single, {backend}, detection every 20", f"vbd_{backend}_every", ["--backend", backend, *VBD, *EVERY]))
+    variants.append(("VBD, double, detection every 20", "vbd_double_every", ["--solver", "reference_vbd", *VBD, *EVERY]))
+    variants.append(("Newton, double", "newton", [*NEWTON, "--set", "redetect_fraction=0"]))
+    variants.append(("Newton, double, detection every 1", "newton_every", [*NEWTON, "--set", "redetect_every=1"]))
+    return [(label, run_once(ogc, [*solve, *more], folder / name)) for label, name, more in variants]
+
+
+def detection_share(run):
+    stages = run.stage_columns()
+    return float(np.sum(stages["detection"]) / sum(np.sum(times) for times in stages.values()))
+
+
+def first_below(rows, level, name):
+    below = np.flatnonzero(rows["residual"] <= level)
+    return float(rows[name][below[0]]) if len(below) else float("nan")
+
+
+def summary(label, run, step):
+    rows = iterations(run, step)
+    residual = rows["residual"]
+    tail = residual[-max(1, len(residual) // 5):]
+    return {"curve": label, "iterations [1]": int(rows["iteration"][-1]), "smallest_residual [1]": f"{residual.min():.3g}",
+            "residual_of_last_fifth [1]": f"{np.median(tail):.3g}", "iterations_to_1e-3 [1]": first_below(rows, 1e-3, "iteration"),
+            "time_to_1e-3 [ms]": f"{first_below(rows, 1e-3, 'wall'):.4g}", "step [ms]": f"{run.column('wall')[-1]:.4g}",
+            "detections [1]": int(run.column("discrete_detections")[-1]), "detection_share_of_time [1]": f"{detection_share(run):.3g}",
+            "contacts [1]": int(run.column("vertex_facet_contacts")[-1] + run.column("edge_edge_contacts")[-1]), **provenance(run)}
+
+
+def draw_curve(axes, rows, abscissa, label, colour, dash):
+    residual = np.maximum(rows["residual"], 1e-16)
+    axes.plot(rows[abscissa], residual, color=colour, linestyle=dash, linewidth=1, label=label)
+    anew = rows["detected"] == 1
+    axes.plot(rows[abscissa][anew], residual[anew], ".", color=colour, markersize=3)
+
+
+def draw(runs, step, scale, claims, out):
+    plt = style.use()
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True)
+    for number, (label, run) in enumerate(runs):
+        rows = iterations(run, step)
+        colour, dash = style.COLOURS[number % len(style.COLOURS)], style.DASHES[number // len(style.COLOURS)]
+        share = f"{label} (detection {100 * detection_share(run):.2g} % of the time)"
+        draw_curve(left, rows, "iteration", share, colour, dash)
+        draw_curve(right, rows, "wall", label, colour, dash)
+    left.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title="Over iterations (dots: contacts detected anew)")
+    right.set(xscale="log", xlabel="time since the step began [ms]", title="Over time")
+    left.legend(fontsize=6.5)
+    first = runs[0][1].manifest
+    paper = ", ".join(f"{c['quantity'].replace('_', ' ')} {100 * c['value']:g} %" for c in claims)
+    figure.suptitle(f"{SCENE} ({scale}), step {step}; commit {first['commit'][:10]}; paper: {paper}", fontsize=9)
+    figure.savefig(out)
+    plt.close(figure)
+
+
+def main(folder, ogc, scale="small", backends=("cpu",)):
+    """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's path."""
+    folder = Path(folder)
+    claims = json.loads((Path(__file__).parent / "claims" / f"{SCENE}.json").read_text())["claims"]
+    runs = curves(folder, ogc, scale, list(backends))
+    write_table(folder / "fig17.csv", [summary(label, run, STEPS[scale]) for label, run in runs])
+    draw(runs, STEPS[scale], scale, claims, folder / "fig17.png")
+    return folder / "fig17.png"
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", help="where the runs are, or go, and the figure")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=STEPS)
+    parser.add_argument("--backend", action="append", choices=["cpu", "cuda"], help="of VBD; repeatable; the last one makes the start (default: cpu)")
+    arguments = parser.parse_args()
+    try:
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"]))
+    except RunError as error:
+        sys.exit(f"fig17: {error}")

@@ -1,0 +1,146 @@
+"""Fig. 21 and the ablation that the paper does not have: a cloth falls onto a sphere and the ground, 40 steps solved to convergence with each contact energy.
+
+`ogc ablate` runs all five energies with Newton's method. Step 40 is then taken again from each energy's own state 39: by Newton with the condition number of each
+matrix, and, for the paper's two energies, by VBD in double, whose convergence is the paper's panel c. Both energies' states are compared vertex by vertex.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.runs import iterations, provenance, run_once, write_table
+from plots import render, style
+from plots.run_folder import Run, RunError
+from plots.scene_figure import bodies_of
+
+SCENE = "activation_drop"
+STEPS = {"smoke": 30, "small": 40, "paper": 40}
+ENERGIES = ["ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed"]
+PAPER = ENERGIES[:2]
+TOLERANCE = ["--set", "newton_tolerance=1e-6"]
+CAMERA = ((1.6, 0.9, 1.9), (-0.08, -0.12, 0.0), (0, 1, 0))
+
+
+def ablation(folder, ogc, scale):
+    """The run of each energy, by `ogc ablate`; all of them again where one is not finished."""
+    folders = {energy: folder / "runs" / f"activation={energy}" for energy in ENERGIES}
+    states = [path / "run.json" for path in folders.values()]
+    if not all(path.is_file() and json.loads(path.read_text()).get("status") == "finished" for path in states):
+        if (folder / "runs").exists():
+            raise RunError(f"{folder / 'runs'} holds runs that are not finished: remove the folder to run them again")
+        command = [str(ogc), "ablate", SCENE, "--scale", scale, "--steps", str(STEPS[scale]), "--solver", "newton", *TOLERANCE, "--set", "frame_steps=1",
+                   "--audit", "end", "--vary", "activation=" + ",".join(ENERGIES), "--out", str(folder / "runs")]
+        print(" ".join(command), file=sys.stderr, flush=True)
+        if subprocess.run(command, stdout=subprocess.DEVNULL).returncode != 0:
+            raise RunError(f"{' '.join(command)}: failed; its last lines say why")
+    return {energy: Run(path) for energy, path in folders.items()}
+
+
+def last_step(folder, ogc, scale, energy, state, name, options):
+    return run_once(ogc, [SCENE, "--scale", scale, "--steps", STEPS[scale], "--set", f"activation={energy}", "--from-state", state, "--iterations",
+                          "--audit", "end", *options], folder / f"{name}_{energy}")
+
+
+def force_curves(folder, ogc):
+    """{energy: (distance, force)} of Fig. 21d."""
+    path = folder / "fig21d.json"
+    if not path.is_file() and subprocess.run([str(ogc), "illustrate", "fig21d", "--out", str(folder)], stdout=subprocess.DEVNULL).returncode != 0:
+        raise RunError("ogc illustrate fig21d failed; its last lines say why")
+    layers = json.loads(path.read_text())["panels"][0]["layers"]
+    return {layer["name"]: np.array(layer["points"])[:, :2].T for layer in layers}
+
+
+def largest_distance(first, second):
+    a, b = (run.frame(run.frames[-1]).positions.astype(float) for run in (first, second))
+    return np.linalg.norm(a - b, axis=1).max()
+
+
+def first_below(residual, level):
+    below = np.flatnonzero(residual <= level)
+    return int(below[0]) if len(below) else -1
+
+
+def row_of(energy, runs, newton, vbd, step):
+    run = runs[energy]
+    condition = iterations(newton, step)["condition_number"]
+    condition = condition[np.isfinite(condition)]
+    vbd_iterations = [first_below(iterations(vbd[energy], step)["residual"], level) if energy in vbd else "" for level in (1e-2, 1e-3)]
+    return {"activation": energy, "newton_iterations_of_all_steps [1]": int(run.column("iterations").sum()),
+            "newton_iterations_of_last_step [1]": int(newton.column("iterations")[-1]),
+            "vbd_iterations_to_1e-2 [1]": vbd_iterations[0], "vbd_iterations_to_1e-3 [1]": vbd_iterations[1],
+            "condition_number_at_end [1]": f"{condition[-1]:.4g}", "median_condition_number [1]": f"{np.median(condition):.4g}",
+            "steps_above_tolerance [1]": int((run.column("residual") > 1e-6).sum()), "largest_residual [1]": f"{run.column('residual').max():.3g}",
+            "smallest_distance [mm]": f"{1e3 * run.column('smallest_distance').min():.4g}", "median_step [ms]": f"{np.median(run.column('wall')):.4g}",
+            "largest_distance_from_ogc [mm]": f"{1e3 * largest_distance(runs['ogc'], run):.4g}", **provenance(run)}
+
+
+def draw_state(axes, run, title):
+    axes.axis("off")
+    axes.set_title(title)
+    usable, reason = render.available()
+    if usable:
+        axes.imshow(render.picture(bodies_of(run, run.frame(run.frames[-1])), CAMERA))
+    else:
+        axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
+
+
+def draw_convergence(axes, newton, vbd, step):
+    for number, energy in enumerate(PAPER):
+        for runs, dash, name in ((vbd, "-", "VBD, double"), (newton, "--", "Newton")):
+            rows = iterations(runs[energy], step)
+            axes.plot(rows["iteration"], np.maximum(rows["residual"], 1e-16), dash, color=style.COLOURS[number], linewidth=1, label=f"{energy}, {name}")
+    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title=f"Step {step}")
+    axes.legend(fontsize=7)
+
+
+def draw_forces(axes, curves):
+    for number, energy in enumerate(ENERGIES):
+        axes.plot(*curves[energy], color=style.COLOURS[number], linestyle=style.DASHES[number % len(style.DASHES)], label=energy)
+    axes.set(ylim=(0, 5), xlim=(0, 1.1), xlabel="distance [r]", ylabel="force [k_c r]", title="Force over distance (r = 1, k_c = 1)")
+    axes.legend(fontsize=7)
+
+
+def draw(runs, newton, vbd, curves, rows, step, scale, out):
+    plt = style.use()
+    figure, axes = plt.subplots(2, 2, figsize=(11, 8))
+    for panel, energy in zip(axes[0], PAPER):
+        draw_state(panel, runs[energy], f"{energy}, step {step}")
+    draw_convergence(axes[1, 0], newton, vbd, step)
+    draw_forces(axes[1, 1], curves)
+    ogc, ipc = rows[0], rows[1]
+    ratio = float(ipc["condition_number_at_end [1]"]) / float(ogc["condition_number_at_end [1]"])
+    figure.suptitle(f"{SCENE} ({scale}): the two states are at most {ipc['largest_distance_from_ogc [mm]']} mm apart; condition number of ipc_log {ratio:.3g} × "
+                    f"that of ogc (paper: 5 ×); VBD iterations to 10⁻³: {ogc['vbd_iterations_to_1e-3 [1]']} and {ipc['vbd_iterations_to_1e-3 [1]']} "
+                    f"(paper: 2 ×); commit {runs['ogc'].manifest['commit'][:10]}", fontsize=8)
+    figure.savefig(out)
+    plt.close(figure)
+
+
+def main(folder, ogc, scale="small"):
+    """Does the runs that are missing in `folder`, and writes fig21.png and fig21.csv there. Returns the picture's path."""
+    folder, step = Path(folder), STEPS[scale]
+    runs = ablation(folder, ogc, scale)
+    start = {energy: run.frames[-2] for energy, run in runs.items()}
+    newton = {e: last_step(folder, ogc, scale, e, start[e], "newton", ["--solver", "newton", *TOLERANCE, "--condition"]) for e in ENERGIES}
+    vbd = {e: last_step(folder, ogc, scale, e, start[e], "vbd", ["--solver", "reference_vbd", "--set", "redetect_every=10"]) for e in PAPER}
+    rows = [row_of(energy, runs, newton[energy], vbd, step) for energy in ENERGIES]
+    write_table(folder / "fig21.csv", rows)
+    draw(runs, newton, vbd, force_curves(folder, ogc), rows, step, scale, folder / "fig21.png")
+    return folder / "fig21.png"
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", help="where the runs are, or go, and the figure")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=STEPS)
+    arguments = parser.parse_args()
+    try:
+        print(main(arguments.folder, arguments.ogc, arguments.scale))
+    except (RunError, csv.Error) as error:
+        sys.exit(f"fig21: {error}")
