@@ -36,8 +36,9 @@ Json to_json(const SmallestDistances& distances, const compare::Topology& topolo
                                {"triangle_vertices", topology.triangles[static_cast<std::size_t>(distances.triangle)]}};
   }
   if (distances.edge >= 0) {
-    json["edge_edge"] = {{"distance", distances.edge_edge}, {"edge", distances.edge}, {"edge_vertices", topology.edges[static_cast<std::size_t>(distances.edge)]},
-                         {"other_edge", distances.other_edge}, {"other_edge_vertices", topology.edges[static_cast<std::size_t>(distances.other_edge)]}};
+    const auto vertices = [&](compare::Index e) { return topology.edges[static_cast<std::size_t>(e)]; };
+    json["edge_edge"] = {{"distance", distances.edge_edge}, {"edge", distances.edge}, {"edge_vertices", vertices(distances.edge)},
+                         {"other_edge", distances.other_edge}, {"other_edge_vertices", vertices(distances.other_edge)}};
   }
   return json;
 }

@@ -24,10 +24,15 @@ constexpr double default_radius_ratio = 0.2;
 struct Options {
   std::string mesh, engine = "exact";
   double radius = 0, query_radius = 0;
-  bool squares = false;
+  FurtherSets further;
+  bool schema = false, margins = true, squares = false;
 };
 
 void run(const Options& options, const CommandContext& context) {
+  if (options.schema) return print_result(contacts_schema());
+  if (options.mesh.empty()) throw compare::InputError("ogc contacts needs a mesh, or --schema; see ogc contacts --help");
+  if (options.engine != "exact" && (options.further.ipc || options.further.sdf))
+    throw compare::InputError("--ipc and --sdf are answered by the reference; take --engine exact");
   compare::Mesh mesh = compare::read_mesh(options.mesh);
   mesh.positions = compare::to_double(compare::to_single(mesh.positions));
   const std::string problems = compare::describe(compare::validate(mesh));
@@ -41,15 +46,15 @@ void run(const Options& options, const CommandContext& context) {
   const std::map<std::string, Engine> engines{{"exact", Engine::exact}, {"cpu", Engine::cpu}, {"cuda", Engine::cuda}};
   const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
   const ContactReport report =
-      find_contacts(mesh, engines.at(options.engine), static_cast<float>(radius), static_cast<float>(query_radius), bound_relaxation);
+      find_contacts(mesh, engines.at(options.engine), static_cast<float>(radius), static_cast<float>(query_radius), bound_relaxation, options.further);
   const std::size_t intersections = compare::audit(report.topology, mesh.positions).count;
   if (intersections > 0)
     log_line("ogc: " + options.mesh + " intersects itself (" + counted(intersections, "pair") + ", see ogc audit): these bounds keep nothing apart");
   if (!context.json) return print_result(describe(report));
-  Json json{{"mesh", options.mesh}, {"engine", options.engine}, {"bound_relaxation", bound_relaxation}, {"intersections", intersections}};
-  json.update(to_json(report));
-  if (options.squares) json.update(exact_squares(report, mesh, bound_relaxation));
-  print_result(json);
+  Json head{{"format", "ogc contacts 2"}, {"mesh", options.mesh}, {"engine", options.engine}, {"bound_relaxation", bound_relaxation},
+            {"intersections", intersections}};
+  if (options.squares) head.update(exact_squares(report, bound_relaxation));
+  print_json(head, report, options.margins);
 }
 
 }  // namespace
@@ -57,17 +62,20 @@ void run(const Options& options, const CommandContext& context) {
 void add_contacts_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("contacts", "Contact sets, distances and conservative bounds of a mesh");
-  command->add_option("MESH", options->mesh, "An .obj or .ply file")->required();
+  command->add_option("MESH", options->mesh, "An .obj or .ply file");
   command->add_option("--radius", options->radius, "Contact radius r [m] (default: a fifth of the mean edge length)")->check(CLI::PositiveNumber);
   command->add_option("--query-radius", options->query_radius, "Query radius r_q ≥ r [m] (default: 4 r)")->check(CLI::PositiveNumber);
   command->add_option("--engine", options->engine, "exact (the reference), cpu or cuda (the fast path)")
       ->check(CLI::IsMember({"exact", "cpu", "cuda"}))->capture_default_str();
-  command->add_flag("--json", context.json, "Print all contacts, smallest distances and bounds as JSON on standard output");
+  command->add_flag("--ipc", options->further.ipc, "List F_IPC (Eq. 3) too; exact engine, looks at all pairs of vertices and triangles");
+  command->add_flag("--sdf", options->further.sdf, "List F_SDF (Eq. 4) too; likewise");
+  command->add_flag("!--no-margins", options->margins, "Leave the margins of contacts out of the JSON, which they make several times as large");
   command->add_flag("--squares", options->squares, "With --json: the exact squares of smallest distances and bounds, as fractions [m²]");
-  command->footer("The exact engine's JSON has two things more: `margin` of a vertex-facet contact, the smallest distance to a boundary of the face's\n"
-                  "block, and `vertex_kind`, convex, mixed or saddle.\n"
-                  "A smallest distance of r_q in the JSON means that nothing is nearer. Lengths are in metres; coordinates are rounded to single\n"
-                  "precision first.\n\n"
+  command->add_flag("--schema", options->schema, "Print the JSON Schema of --json");
+  command->add_flag("--json", context.json, "Print all contacts, sets by primitive, smallest distances and bounds as JSON on standard output");
+  command->footer("The exact engine's JSON has the signed margins of every contact to the boundaries of its blocks and the kind of every vertex besides.\n"
+                  "The schema says what each key means: experiments/contacts.md.\n"
+                  "Lengths are in metres; coordinates are rounded to single precision first.\n\n"
                   "Examples:\n"
                   "  ogc contacts shirt.obj --radius 0.002\n"
                   "  ogc contacts shirt.ply --engine cpu --json > contacts.json");

@@ -43,19 +43,18 @@ compare::ClosestPointsIn edge_edge_cases(const ContactReport& report, const std:
   return cases;
 }
 
-/// What only the reference knows: how far each contact is from ending, and what kind of vertex each one is.
-void fill_geometry(ContactReport& report, const std::vector<Vec3f>& positions) {
-  constexpr std::array<const char*, 3> kinds{"convex", "mixed", "saddle"};
-  const reference::Complex mesh{report.topology, positions};
-  for (const compare::VertexFacetContact& contact : report.vertex_facet.contacts) {
-    const auto margins = reference::block_margins(mesh, contact.face, mesh.at(contact.vertex), report.contact_radius);
-    report.vertex_facet_margin.push_back(std::ranges::min(margins, {}, &reference::BlockMargin::length).length);
+ExactGeometry exact_geometry(const ContactReport& report, FurtherSets further) {
+  const reference::Complex mesh{report.topology, report.positions};
+  ExactGeometry exact;
+  for (compare::Index v = 0; v < report.topology.vertex_count; ++v) {
+    exact.vertex_kind.push_back(reference::classify(mesh, v));
+    if (further.ipc) exact.ipc.push_back(reference::ipc_face_set(mesh, v, report.contact_radius));
+    if (further.sdf) exact.sdf.push_back(reference::sdf_face_set(mesh, mesh.at(v), report.contact_radius));
   }
-  for (compare::Index v = 0; v < report.topology.vertex_count; ++v)
-    report.vertex_kind.push_back(kinds[static_cast<std::size_t>(reference::classify(mesh, v))]);
+  return exact;
 }
 
-void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation) {
+void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation, FurtherSets further) {
   const compare::Authority authority = reference::authority();
   const reference::FilterCounts before = reference::filter_counts();
   report.vertex_facet = authority.detect_vertex_facet(in).exact;
@@ -64,7 +63,7 @@ void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::v
                                   bound_relaxation}).exact.bound;
   report.vertex_facet_distance = authority.closest_face(vertex_facet_cases(report, positions)).distance;
   report.edge_edge_distance = authority.closest_points(edge_edge_cases(report, positions)).contact_distance;
-  fill_geometry(report, positions);
+  report.exact = exact_geometry(report, further);
   report.filters = reference::filter_counts().since(before);
 }
 
@@ -97,10 +96,6 @@ std::string name(const Face& face, const Topology& topology) {
   return text + " (vertices " + list + ")";
 }
 
-Json to_json(const Face& face, const Topology& topology) {
-  return {{"kind", name(face.kind)}, {"index", face.index}, {"vertices", vertices_of(face, topology)}};
-}
-
 /// Counts over tenths of r_q, and of those that have nothing within it.
 std::string distribution(const std::vector<float>& distances, float query_radius) {
   constexpr std::size_t parts = 10;
@@ -129,16 +124,6 @@ std::string closest(const Contacts& contacts, const std::vector<double>& distanc
   return text;
 }
 
-/// By predicate, for those that were asked.
-Json to_json(const reference::FilterCounts& filters) {
-  Json json = Json::object();
-  for (std::size_t k = 0; k < reference::filtered_predicates; ++k) {
-    const reference::FilterCount& count = filters.of[k];
-    if (count.calls > 0) json[std::string(name(static_cast<reference::Filtered>(k)))] = {{"calls", count.calls}, {"undecided", count.undecided}};
-  }
-  return json;
-}
-
 std::string describe(const reference::FilterCounts& filters) {
   const reference::FilterCount total = filters.total();
   if (total.calls == 0) return {};
@@ -155,16 +140,17 @@ std::string describe(const reference::FilterCounts& filters) {
 
 }  // namespace
 
-ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation) {
+ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation,
+                            FurtherSets further) {
   ContactReport report;
   report.topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
   report.contact_radius = contact_radius;
   report.query_radius = query_radius;
-  const std::vector<Vec3f> positions = compare::to_single(mesh.positions);
+  const std::vector<Vec3f>& positions = report.positions = compare::to_single(mesh.positions);
   const std::vector<compare::Index> groups(positions.size(), -1);
   const compare::DetectIn in{&report.topology, groups, positions, contact_radius, query_radius};
   if (engine == Engine::exact) {
-    fill_exact(report, in, positions, bound_relaxation);
+    fill_exact(report, in, positions, bound_relaxation, further);
   } else {
     fill_fast(report, in, positions, bound_relaxation, engine == Engine::cpu ? fast::Backend::cpu : fast::Backend::cuda);
   }
@@ -181,37 +167,8 @@ double mean_edge_length(const compare::Mesh& mesh) {
   return topology.edges.empty() ? 0 : sum / static_cast<double>(topology.edges.size());
 }
 
-Json to_json(const ContactReport& report) {
-  Json json{{"contact_radius", report.contact_radius},
-            {"query_radius", report.query_radius},
-            {"vertices", report.topology.vertex_count},
-            {"edges", report.topology.edges},
-            {"triangles", report.topology.triangles},
-            {"vertex_facet", Json::array()},
-            {"edge_edge", Json::array()},
-            {"d_min_vertex", report.vertex_facet.d_min_vertex},
-            {"d_min_edge", report.edge_edge.d_min_edge},
-            {"d_min_triangle", report.vertex_facet.d_min_triangle},
-            {"bound", report.bound}};
-  if (report.filters.total().calls > 0) json["filters"] = to_json(report.filters);
-  if (!report.vertex_kind.empty()) json["vertex_kind"] = report.vertex_kind;
-  for (std::size_t i = 0; i < report.vertex_facet.contacts.size(); ++i) {
-    const compare::VertexFacetContact& contact = report.vertex_facet.contacts[i];
-    json["vertex_facet"].push_back({{"vertex", contact.vertex}, {"face", to_json(contact.face, report.topology)}, {"owner", contact.owner},
-                                    {"distance", report.vertex_facet_distance[i]}});
-    if (!report.vertex_facet_margin.empty()) json["vertex_facet"].back()["margin"] = report.vertex_facet_margin[i];
-  }
-  for (std::size_t i = 0; i < report.edge_edge.contacts.size(); ++i) {
-    const compare::EdgeEdgeContact& contact = report.edge_edge.contacts[i];
-    json["edge_edge"].push_back({{"first", to_json(contact.first, report.topology)}, {"second", to_json(contact.second, report.topology)},
-                                 {"first_edge", contact.first_edge}, {"second_edge", contact.second_edge}, {"distance", report.edge_edge_distance[i]}});
-  }
-  return json;
-}
-
-Json exact_squares(const ContactReport& report, const compare::Mesh& mesh, float bound_relaxation) {
-  const std::vector<Vec3f> positions = compare::to_single(mesh.positions);
-  const compare::DetectIn in{&report.topology, {}, positions, report.contact_radius, report.query_radius};
+Json exact_squares(const ContactReport& report, float bound_relaxation) {
+  const compare::DetectIn in{&report.topology, {}, report.positions, report.contact_radius, report.query_radius};
   reference::ExactSquares squares = reference::exact_squares(in, bound_relaxation);
   return {{"d_min_vertex_squared", std::move(squares.vertex)},
           {"d_min_edge_squared", std::move(squares.edge)},

@@ -10,7 +10,7 @@ packages=(
   libegl1 libgl1 libgl1-mesa-dri libxrender1
 )
 # Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with these.
-fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-pytest)
+fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-pytest python3-jsonschema)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -4,10 +4,12 @@
 #include "compare/problem/contestant.hpp"
 #include "reference/energies/activation_drawing.hpp"
 #include "reference/geometry/block_margins.hpp"
+#include "reference/geometry/contact_sets.hpp"
 #include "reference/geometry/filter_counts.hpp"
 #include "reference/geometry/gauss_map.hpp"
 #include "reference/geometry/illustrations.hpp"
 #include "reference/geometry/nearest.hpp"
+#include "reference/geometry/pair_margins.hpp"
 #include "reference/solvers/residual.hpp"
 
 namespace ogc::reference {

@@ -33,6 +33,26 @@ TEST_CASE("ogc contacts finds the corners of parallel triangles, with distances 
   CHECK(json.at("d_min_triangle").size() == 2);
 }
 
+TEST_CASE("ogc contacts lists its sets by primitive, with margins, layers and kinds of vertices", "[unit]") {
+  const TemporaryFolder folder;
+  const nlohmann::json json = contacts(folder, "exact");
+  const nlohmann::json& sets = json.at("sets");
+  for (std::size_t v = 0; v < 6; ++v) {
+    CHECK(sets.at("layers").at(v) == 1);
+    REQUIRE(sets.at("faces_near_vertex").at(v).size() == 1);
+    CHECK(json.at("vertex_facet").at(sets.at("faces_near_vertex").at(v).at(0).get<std::size_t>()).at("vertex") == v);
+    CHECK(json.at("vertex_kind").at(v) == "convex");
+    CHECK(json.at("vertex_place").at(v) == "boundary");
+  }
+  CHECK(sets.at("vertices_near_facet") == nlohmann::json{{3, 4, 5}, {0, 1, 2}});
+  for (const auto& contact : json.at("vertex_facet")) {
+    CHECK(contact.at("penetration").get<double>() == Approx(0.009));
+    CHECK(contact.at("margins").size() == 3);  // the sphere and the planes across the corner's two edges, on which the vertex lies
+    CHECK(contact.at("margins").at(1).at("sign") == 0);
+    CHECK(contact.at("margins").at(1).at("closed") == true);
+  }
+}
+
 TEST_CASE("ogc contacts gives the same sets by the exact and the fast engine, and safe bounds", "[agreement]") {
   const TemporaryFolder folder;
   const nlohmann::json exact = contacts(folder, "exact"), fast = contacts(folder, "cpu");
@@ -103,5 +123,7 @@ TEST_CASE("ogc contacts refuses bad meshes and radii with exit status 2, naming 
   CHECK(result.status == 2);
   CHECK(contains(result.err, {"missing.obj"}));
   CHECK(run_ogc("contacts " + good + " --radius -1").status == 2);
+  CHECK(run_ogc("contacts --json").status == 2);
+  CHECK(run_ogc("contacts --ipc --engine cpu " + good).status == 2);
   CHECK(run_ogc("contacts " + good + " --radius 0.1 --query-radius 0.05").status == 2);
 }
