@@ -51,13 +51,13 @@ class Painter {
   }
 
   /// The surface between two rows of points; the rows themselves are the open ends' outlines.
-  void strip(Kind kind, bool closed, const std::vector<int>& low, const std::vector<int>& high) {
+  void strip(Kind kind, bool closed, const std::vector<int>& low, const std::vector<int>& high, bool around) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 0; k + 1 < low.size(); ++k) {
       wall.triangles.push_back({low[k], low[k + 1], high[k]});
       wall.triangles.push_back({low[k + 1], high[k + 1], high[k]});
     }
-    wall.outlines = {{low.front(), high.front()}, {low.back(), high.back()}};
+    if (!around) wall.outlines = {{low.front(), high.front()}, {low.back(), high.back()}};
   }
 
   std::vector<int> row(const Point3& centre, double r, const std::vector<Unit>& directions) {
@@ -137,7 +137,7 @@ void paint_edge(Painter& painter, const GaussMap& map, const Point3& a, const Po
     return;
   }
   const std::vector<Unit> arc = outline(map, step);
-  painter.strip(Kind::sphere, true, painter.row(a, r, arc), painter.row(b, r, arc));
+  painter.strip(Kind::sphere, true, painter.row(a, r, arc), painter.row(b, r, arc), map.closed);
   for (const Point3& end : {a, b}) {
     std::vector<int> sector = painter.row(end, r, arc);
     if (!map.closed) sector.push_back(painter.point(end));

@@ -22,6 +22,8 @@ std::vector<DrawingPanel> vertex_kinds();        ///< Fig. 5
 std::vector<DrawingPanel> face_normals();        ///< Fig. 6
 std::vector<DrawingPanel> surface_blocks();      ///< Fig. 7
 std::vector<DrawingPanel> edge_only_blocks();    ///< Fig. 8
+std::vector<DrawingPanel> one_iteration();       ///< Fig. 9
 std::vector<DrawingPanel> force_along_a_path();  ///< Fig. 22a
+std::vector<DrawingPanel> falling_triangles();   ///< Fig. 22b
 
 }  // namespace ogc::reference

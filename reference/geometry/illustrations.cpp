@@ -2,6 +2,7 @@
 #include "reference/geometry/illustrations.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "compare/problem/error.hpp"
 #include "reference/geometry/illustration_parts.hpp"
@@ -9,9 +10,15 @@
 namespace ogc::reference {
 namespace {
 
-constexpr std::array<std::string_view, 7> names{"fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig22a"};
-constexpr std::array<std::vector<DrawingPanel> (*)(), names.size()> makers{contact_face_sets, offset_geometries, vertex_kinds,      face_normals,
-                                                                           surface_blocks,    edge_only_blocks,  force_along_a_path};
+std::vector<DrawingPanel> limitations() {
+  std::vector<DrawingPanel> panels = force_along_a_path(), falling = falling_triangles();
+  std::move(falling.begin(), falling.end(), std::back_inserter(panels));
+  return panels;
+}
+
+constexpr std::array<std::string_view, 8> names{"fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22"};
+constexpr std::array<std::vector<DrawingPanel> (*)(), names.size()> makers{contact_face_sets, offset_geometries, vertex_kinds,  face_normals,
+                                                                           surface_blocks,    edge_only_blocks,  one_iteration, limitations};
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The data of the paper's drawings (Fig. 3 to 8, 22a), computed by the very functions that decide; plots only draw them.
+// The data of the paper's drawings (Fig. 3 to 9, 22), computed by the very functions that decide; plots only draw them.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace ogc::reference {
 
-/// Points with what connects them. Lengths in units of the drawing, which has no scale.
+/// Points with what connects them. Lengths in units of the drawing, which has no scale, but in Fig. 9 and 22b metres.
 struct DrawingLayer {
   std::string name;                             ///< what it shows: "surface", "block", "gauss_map", "arrows of OGC", …
   std::vector<std::array<double, 3>> points;
@@ -25,7 +25,7 @@ struct DrawingPanel {
   std::vector<DrawingLayer> layers;
 };
 
-/// "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig22a".
+/// "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22".
 std::span<const std::string_view> illustration_names();
 
 /// The panels of one figure. Throws InputError for a name that is not in the list.

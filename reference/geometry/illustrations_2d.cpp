@@ -117,6 +117,14 @@ DrawingLayer field(const std::string& name, const std::array<double, 4>& rectang
   return layer;
 }
 
+/// From vertex i of the polyline, half way between the directions to its neighbours.
+DrawingLayer bisector(const Slice& slice, std::size_t i, double length) {
+  const Point2 &a = slice.polyline()[i - 1], &b = slice.polyline()[i], &c = slice.polyline()[i + 1];
+  const double to_a = std::hypot(a[0] - b[0], a[1] - b[1]), to_c = std::hypot(c[0] - b[0], c[1] - b[1]);
+  const double x = (a[0] - b[0]) / to_a + (c[0] - b[0]) / to_c, y = (a[1] - b[1]) / to_a + (c[1] - b[1]) / to_c, scale = length / std::hypot(x, y);
+  return {"bisector", {{b[0], b[1], 0}, {b[0] + scale * x, b[1] + scale * y, 0}}, {}, {{0, 1}}, {}, true};
+}
+
 /// Two strands of one curve that come near each other.
 Slice hairpin() { return Slice({{-3, 0.9f}, {-1.5f, 0.55f}, {0, 0.5f}, {1.5f, 0.6f}, {2.5f, 0}, {1.5f, -0.6f}, {0, -0.35f}, {-1.5f, -0.6f}, {-3, -0.8f}}); }
 
@@ -143,21 +151,23 @@ std::vector<DrawingPanel> contact_face_sets() {
   const Slice row({{-2, 0.1f}, {-1, -0.05f}, {0, 0}, {1, -0.05f}, {2, 0.1f}, {3, 0}});
   const std::vector<Point2> between{{0.02f, 0.55f}};
   const Slice valley({{-1.6f, 1.1f}, {0, 0}, {1.6f, 1.1f}}, between);
-  return {face_set_panel("a", "IPC over a ridge: two facets, neither push normal to its facet", ridge, ridge.extra(0), 1),
-          face_set_panel("b", "IPC and a vertex's own neighbourhood: the second ring is pushed away", row, row.vertex(2), 1.4f),
-          face_set_panel("c", "SDF in a valley: one facet at a time, on either side of the bisector", valley, valley.extra(0), 1)};
+  std::vector<DrawingPanel> panels{face_set_panel("a", "IPC over a ridge: two facets, neither push normal to its facet", ridge, ridge.extra(0), 1),
+                                   face_set_panel("b", "IPC and a vertex's own neighbourhood: the second ring is pushed away", row, row.vertex(2), 1.4f),
+                                   face_set_panel("c", "SDF in a valley: one facet at a time, on either side of the bisector", valley, valley.extra(0), 1)};
+  panels[2].layers.push_back(bisector(valley, 1, 1.8));
+  return panels;
 }
 
 std::vector<DrawingPanel> offset_geometries() {
   constexpr float r = 0.6f;
   constexpr std::array<double, 4> rectangle{-3.8, 3.4, -1.7, 1.8};
-  constexpr int nx = 144, ny = 70;
+  constexpr int nx = 360, ny = 175;
   const Slice slice = hairpin();
   const auto layers = field("layers", rectangle, nx, ny, [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
   const auto inside = field("inside", rectangle, nx, ny, [&](const Vec3f& x) { return sdf_face_set(slice.mesh(), x, r).empty() ? 0.0 : 1.0; });
   return {{"a", "the original geometry M", {polyline_layer(slice)}},
           {"b", "the offset geometry of Eq. 5", {polyline_layer(slice), inside}},
-          {"c", "the intersection-aware offset geometry: number of layers", {polyline_layer(slice), layers}}};
+          {"c", "the intersection-aware manifold with its layers", {polyline_layer(slice), layers}}};
 }
 
 std::vector<DrawingPanel> force_along_a_path() {
@@ -181,13 +191,13 @@ std::vector<DrawingPanel> force_along_a_path() {
     left.lines[0].push_back(k);
     right.lines[0].push_back(k);
   }
-  const auto layers = field("layers", {-2.4, 2.4, -0.9, 1.9}, 120, 70, [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
+  const auto layers = field("layers", {-3, 3, -1, 2}, 300, 150, [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
   DrawingPanel way{"path", "a path through a valley, the blocks of its facets (dashed: open), and the number of layers", {polyline_layer(slice), layers, path}};
   for (const int segment : {0, 1}) {
     for (DrawingLayer& boundary : segment_block(slice, segment, r)) way.layers.push_back(std::move(boundary));
   }
   return {std::move(way),
-          {"force", "force of each facet along the path (quadratic stage, k_c = 1): it jumps where the open boundary is entered", {left, right}}};
+          {"force", "force of each facet along the path (quadratic stage): it jumps where the open boundary is entered", {left, right}}};
 }
 
 }  // namespace ogc::reference

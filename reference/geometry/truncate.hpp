@@ -8,4 +8,7 @@ namespace ogc::reference {
 /// Exceeded exactly where ‖x − x_prev‖ > b_v; then x_prev + (x − x_prev) b_v / ‖x − x_prev‖, otherwise x.
 compare::TruncateTruth truncate(const compare::TruncateIn& in);
 
+/// The nearest single-precision position, stepped towards X_prev until it obeys the bound.
+compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound);
+
 }  // namespace ogc::reference

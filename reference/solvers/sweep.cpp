@@ -54,12 +54,6 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
   return truth;
 }
 
-compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound) {
-  compare::Vec3f x{static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)};
-  while (sign(gap_points(previous, x, bound)) > 0) x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
-  return x;
-}
-
 compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils) {
   compare::SweepOut out{{in.old.begin(), in.old.end()}, 0};
   const auto store = [&](std::size_t v, const VertexUpdate& update) {

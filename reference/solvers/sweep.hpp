@@ -14,7 +14,4 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 /// bounds. `stencils`: those of the question.
 compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils);
 
-/// The nearest single-precision position, stepped towards X_prev until it obeys the bound.
-compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound);
-
 }  // namespace ogc::reference

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "reference/geometry/truncate.hpp"
 #include "reference/solvers/sweep.hpp"
 #include "tests/compare/judge/faults.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/oracle/audit.hpp"
 #include "compare/problem/error.hpp"
 #include "reference/geometry/slice.hpp"
 #include "tests/catch.hpp"
@@ -62,7 +63,7 @@ TEST_CASE("illustrations: Fig. 4, layers are at least one where the conventional
 }
 
 TEST_CASE("illustrations: Fig. 22a, the force of a facet jumps where its open boundary is entered and begins at zero nowhere else", "[unit]") {
-  const auto panels = reference::illustration("fig22a");
+  const auto panels = reference::illustration("fig22");
   const auto& force = layer(panels[1], "force of the right facet");
   double largest = 0;
   for (std::size_t k = 1; k < force.points.size(); ++k) largest = std::max(largest, std::abs(force.points[k][1] - force.points[k - 1][1]));
@@ -75,4 +76,60 @@ TEST_CASE("slice: a point beside a straight polyline has one layer, near a bend 
   CHECK(bend.layers({0, -0.5f, 0}, 1) == std::vector<reference::SliceFace>{{false, 1}});
   CHECK(bend.layers({-1, 0.25f, 0}, 0.5f) == std::vector<reference::SliceFace>{{true, 0}});
   CHECK(bend.layers({0, 3, 0}, 1).empty());
+}
+
+TEST_CASE("illustrations: Fig. 9, the full step penetrates, neither cut does, and cutting by vertex leaves more of it", "[property]") {
+  const auto panels = reference::illustration("fig09");
+  const auto swept = [](const DrawingLayer& moving, const DrawingLayer& obstacle) {
+    std::vector<compare::Vec3> positions;
+    std::vector<compare::Triangle> triangles;
+    for (const DrawingLayer* line : {&moving, &obstacle}) {
+      const auto first = static_cast<compare::Index>(positions.size());
+      for (const auto& p : line->points) {
+        positions.push_back({p[0], p[1], -1});
+        positions.push_back({p[0], p[1], 1});
+      }
+      for (compare::Index k = first; k + 3 < static_cast<compare::Index>(positions.size()); k += 2)
+        triangles.insert(triangles.end(), {{k, k + 1, k + 2}, {k + 1, k + 3, k + 2}});
+    }
+    return compare::audit(compare::build_topology(static_cast<compare::Index>(positions.size()), triangles), positions).count;
+  };
+  const DrawingLayer &obstacle = layer(panels[0], "obstacle"), &global = layer(panels[1], "after"), &local = layer(panels[3], "after");
+  const DrawingLayer &before = layer(panels[0], "before"), &target = layer(panels[0], "target"), &bounds = layer(panels[2], "bounds");
+  CHECK(swept(before, obstacle) == 0);
+  CHECK(swept(target, obstacle) > 0);
+  CHECK(swept(local, obstacle) == 0);
+  const double share = global.values[0];
+  for (const double change : {-1e-6, 1e-6}) {  // just short of the touch, and just beyond it
+    DrawingLayer near = before;
+    for (std::size_t i = 0; i < near.points.size(); ++i)
+      for (std::size_t k = 0; k < 2; ++k) near.points[i][k] += (share + change) * (target.points[i][k] - before.points[i][k]);
+    CHECK((swept(near, obstacle) > 0) == (change > 0));
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < local.points.size(); ++i) {
+    const double moved = std::hypot(local.points[i][0] - static_cast<float>(before.points[i][0]), local.points[i][1] - static_cast<float>(before.points[i][1]));
+    CHECK(moved <= bounds.values[i]);
+    sum += local.values[i];
+  }
+  CHECK(sum / static_cast<double>(local.values.size()) > 2 * share);
+}
+
+TEST_CASE("illustrations: Fig. 22b, rounds grow with speed, each within its bound, and end at the target", "[property]") {
+  const auto panels = reference::illustration("fig22");
+  const DrawingPanel& fall = panels[2];
+  const DrawingLayer &end = layer(fall, "end"), &target = layer(fall, "target"), *from = &layer(fall, "start");
+  CHECK(end.points == target.points);
+  for (const DrawingLayer& l : fall.layers) {
+    if (l.name != "round" && l.name != "end") continue;
+    for (std::size_t v = 0; v < l.points.size(); ++v) CHECK(std::abs(l.points[v][1] - from->points[v][1]) <= from->values[v]);
+    from = &l;
+  }
+  const DrawingLayer& rounds = layer(panels[3], "rounds");
+  for (std::size_t k = 1; k < rounds.points.size(); ++k) {
+    CHECK(rounds.points[k][0] > rounds.points[k - 1][0]);
+    CHECK(rounds.points[k][1] >= rounds.points[k - 1][1]);
+  }
+  CHECK(rounds.points.front()[1] == 1);
+  CHECK(rounds.points.back()[1] > layer(panels[3], "guess_rounds").points[0][1]);
 }
