@@ -14,7 +14,7 @@ struct FiftyLayersSizes {
   double contact_radius = 3e-3;  ///< r [m]
   double shift = 3e-3;           ///< standard deviation of each layer's shift in x and in z [m]
   CylinderCells cylinder{};
-  std::int64_t steps = 4800;     ///< 4 s
+  std::int64_t steps = 4800;     ///< 4 s; until everything rests it takes more, which no setting can say: ogc run --steps
   std::uint64_t seed = 0;        ///< of the shifts
 };
 
