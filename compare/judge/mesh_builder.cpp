@@ -96,7 +96,7 @@ MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan) {
   if (plan.jitter > 0)
     for (Vec3& p : builder.points) p = sum(p, in_box(random, -plan.jitter, plan.jitter));
   permute(random, builder.points);
-  if (plan.jitter > 0 && random.one_in(2)) rotate(random, builder.points);
+  if (plan.jitter > 0 && (random.is_fine() || random.one_in(2))) rotate(random, builder.points);
   const double scale = scale_of(random);
   const double radius = plan.contact_radius > 0 ? plan.contact_radius : random.magnitude(-2, 0.4);
   MeshCase mesh;

@@ -33,7 +33,7 @@ struct MeshPlan {
   double contact_radius = 0;  ///< r in edge lengths; 0: random, 10^−2 … 10^0.4
 };
 
-/// Jitter, one symmetry of the cube (with a rotation where the plan has jitter), a scale of 1, 2^±10, 2^±18 or 1000, and r_q = r × 1 … 4.
+/// Jitter, one symmetry of the cube (with a rotation in half of the plans that have jitter, in all fine ones), a scale of 1, 2^±10, 2^±18 or 1000, and r_q = r × 1 … 4.
 MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan);
 
 
