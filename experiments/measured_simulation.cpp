@@ -69,12 +69,17 @@ class MeasuredSimulation : public compare::Simulation {
     double now = times.begin;
     const auto begin = std::ranges::find(trace.events, StepEventKind::sweep, &StepEvent::kind);
     for (auto event = trace.events.begin(); event != trace.events.end(); ++event) {
-      if (event->kind == StepEventKind::detection) now += times.detection;
+      if (event->kind == StepEventKind::detection) {
+        now += times.detection;
+        contacts_ = {event->vertex_facet.contacts, event->edge_edge.contacts};
+        detected_ = event->position;
+      }
       if (event + 1 == begin) add_row(*event, now, step);
       if (event < begin) continue;
       if (event->kind == StepEventKind::detection) {
+        step.iteration_rows.pop_back();
+        add_row(*event, now, step);
         step.iteration_rows.back().detected = 1;
-        step.iteration_rows.back().wall_ms = now;
         continue;
       }
       now += times.sweep;
@@ -84,7 +89,7 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   void add_row(const StepEvent& event, double now, StepMetrics& step) {
-    const reference::Residual measured = meter_.at(event.position);
+    const reference::Residual measured = meter_.with(contacts_, detected_, event.position);
     compare::IterationMetrics row;
     row.step = step.step;
     row.iteration = static_cast<std::int64_t>(step.iteration_rows.size());
@@ -101,6 +106,8 @@ class MeasuredSimulation : public compare::Simulation {
   std::unique_ptr<Simulation> inner_;
   std::function<compare::StepOut(const compare::StepIn&)> trace_;
   reference::ResidualMeter meter_;
+  reference::ContactSets contacts_;        ///< of the trace's last detection
+  std::vector<compare::Vec3f> detected_;   ///< where it was
 };
 
 }  // namespace

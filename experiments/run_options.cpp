@@ -52,6 +52,13 @@ std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
   return fast::contestant(fast::Backend::cpu).step({&once, &topology}).colour;
 }
 
+compare::Contestant solver_of(const RunOptions& options) {
+  if (options.solver == "newton") return reference::newton();
+  if (options.solver == "ipc") return reference::ipc();
+  if (options.solver == "reference_vbd") return reference::vbd(fast_colours);
+  return fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu);
+}
+
 }  // namespace
 
 void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
@@ -67,8 +74,8 @@ void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& optio
       ->check(CLI::IsMember({"every", "frame", "end", "off"}))->capture_default_str();
   command.add_option("--from-state", options->from_state, "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
-  command.add_flag("--residual", options->residual, "With vbd, reference_vbd: the residual of Eq. 29 in steps.csv, measured beside the run (slow)");
-  command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration (slow with vbd and reference_vbd: each row detects anew)");
+  command.add_flag("--residual", options->residual, "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
+  command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration, measured beside the run");
   command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
 }
@@ -95,8 +102,8 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
                               "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");
   if (options.solver != "vbd" && options.backend != "cpu") throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
   if (options.solver != "newton" && options.condition) throw compare::InputError("--condition belongs to --solver newton");
-  if (options.residual && (options.solver == "newton" || options.solver == "ipc"))
-    throw compare::InputError("--solver " + options.solver + " has a measure of its own in that column; leave --residual out");
+  if (options.solver == "ipc" && options.residual)
+    throw compare::InputError("--solver ipc has a measure of its own in that column; leave --residual out");
   RunRequest request;
   request.scene = load_scene(options, request.scale);
   apply_settings(request.scene.settings, options);
@@ -119,11 +126,8 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
 }
 
 compare::Contestant contestant_of(const RunOptions& options) {
-  if (options.solver == "newton") return reference::newton();
-  if (options.solver == "ipc") return reference::ipc();
-  const compare::Contestant contestant =
-      options.solver == "vbd" ? fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu) : reference::vbd(fast_colours);
   const bool has_rows = options.iterations && options.solver == "vbd";
+  const compare::Contestant contestant = solver_of(options);
   return options.residual || has_rows ? measured(contestant, has_rows) : contestant;
 }
 

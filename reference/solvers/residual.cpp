@@ -31,14 +31,25 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
   Residual at(const State& x) {
     x_ = x;
     detect_here();
+    return measured(detected_.sets);
+  }
+
+  Residual with(const ContactSets& contacts, const State& detected, const State& x) {
+    x_ = x;
+    potential_.set_contacts(contacts, detected);
+    return measured(contacts);
+  }
+
+  double reference_force() const { return reference_force_; }
+
+ private:
+  Residual measured(const ContactSets& contacts) {
     systems_.read_contacts();
     const double force = systems_.mean_force(x_);
     set_residual(force);
-    return {residual_, force, Potential::total(potential_.terms(x_)),
-            static_cast<std::int64_t>(detected_.sets.vertex_facet.size() + detected_.sets.edge_edge.size())};
+    return {residual_, force, Potential::total(potential_.terms(x_)), static_cast<std::int64_t>(contacts.vertex_facet.size() + contacts.edge_edge.size())};
   }
 
- private:
   VertexSystems systems_;
 };
 
@@ -49,7 +60,13 @@ void ResidualMeter::begin_step(const std::vector<compare::Vec3f>& start, const s
   meter_->begin_step(start, velocity, number);
 }
 
+double ResidualMeter::reference_force() const { return meter_->reference_force(); }
+
 Residual ResidualMeter::at(const std::vector<compare::Vec3f>& position) { return meter_->at(widened(position)); }
 Residual ResidualMeter::at(const std::vector<std::array<double, 3>>& position) { return meter_->at(position); }
+
+Residual ResidualMeter::with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected, const std::vector<compare::Vec3f>& position) {
+  return meter_->with(contacts, widened(detected), widened(position));
+}
 
 }  // namespace ogc::reference

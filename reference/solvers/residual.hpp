@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
+#include "reference/solvers/contacts.hpp"
 
 namespace ogc::reference {
 
@@ -16,7 +17,7 @@ struct Residual {
   std::int64_t contacts = 0;
 };
 
-/// Forces are those of all energies at the state, in double, with contact sets detected at it and friction of its own λ, n and weights.
+/// Forces are those of all energies at the state, in double, with friction of its own λ, n and weights.
 class ResidualMeter {
  public:
   /// The scene is rounded here; it must be valid.
@@ -24,8 +25,12 @@ class ResidualMeter {
   ~ResidualMeter();
   /// Xᵗ, Vᵗ and the number of the step that ends at the states to be asked about. The guess loop is done here.
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
+  double reference_force() const;  ///< mean ‖f*‖ of the step [N]
+  /// With contacts detected at the state itself.
   Residual at(const std::vector<compare::Vec3f>& position);
   Residual at(const std::vector<std::array<double, 3>>& position);
+  /// With contacts that were detected at X_prev = `detected`: what a solver sees between two detections.
+  Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected, const std::vector<compare::Vec3f>& position);
 
  private:
   class Meter;

@@ -48,9 +48,13 @@ StepResult VbdSolver::step(const std::vector<Vec3f>& start, const std::vector<Ve
   guess();
   systems_.read_contacts();
   detect_next_ = false;
-  if (meter_) meter_->begin_step(start, velocity, number);
+  measured([&] {
+    meter_->begin_step(start, velocity, number);
+    reference_force_ = meter_->reference_force();
+  });
   while (metrics_.iterations < settings_.iterations && finite()) iterate();
-  if (meter_ && finite()) add_row();
+  add_row(false);
+  if (finite()) measured([&] { residual_ = meter_->at(x_).share; });
   StepResult result = finish(finite() ? compare::step_clean : compare::step_not_finite);
   result.metrics.wall_ms -= measuring_ms_;
   return result;
@@ -62,10 +66,7 @@ void VbdSolver::iterate() {
     detect_here();
     systems_.read_contacts();
   }
-  if (meter_) {
-    add_row();
-    rows_.back().detected = detects ? 1 : 0;
-  }
+  add_row(detects);
   cut_ = timed(sweeping, [&] { return sweep(); });
   if (meter_) rows_.back().vertices_at_bound = static_cast<std::int64_t>(cut_);
   ++metrics_.iterations;
@@ -91,17 +92,23 @@ std::size_t VbdSolver::sweep() {
   return cut;
 }
 
-void VbdSolver::add_row() {
-  const double now = elapsed_ms();
-  compare::IterationMetrics row = new_row(false);
-  const Residual measured = meter_->at(x_);
-  residual_ = row.residual = measured.share;
-  row.energy = measured.energy;
-  row.wall_ms = now - measuring_ms_;
-  row.largest_change = std::numeric_limits<double>::quiet_NaN();
-  row.share = 1;
-  rows_.push_back(row);
-  measuring_ms_ += elapsed_ms() - now;
+template <class Work>
+void VbdSolver::measured(Work work) {
+  if (!meter_) return;
+  const double start = elapsed_ms();
+  work();
+  measuring_ms_ += elapsed_ms() - start;
+}
+
+void VbdSolver::add_row(bool detects) {
+  const double now = elapsed_ms() - measuring_ms_;
+  measured([&] {
+    set_residual(systems_.mean_force(x_));
+    compare::IterationMetrics& row = rows_.emplace_back(new_row(detects));
+    row.wall_ms = now;
+    row.largest_change = std::numeric_limits<double>::quiet_NaN();
+    row.share = 1;
+  });
 }
 
 bool VbdSolver::finite() const {

@@ -1,7 +1,8 @@
 // The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other, vertices of a colour in parallel, read
 // as method.md §7 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's.
 //
-// The residual of an iteration row is a measurement beside the run (residual.hpp), and its time no part of the step's.
+// Residuals are measurements beside the run, and their time no part of the step's: those of the rows with the contacts of the last detection, that of the step
+// with contacts detected at its end.
 #pragma once
 
 #include "reference/solvers/contact_step.hpp"
@@ -23,7 +24,10 @@ class VbdSolver : public StepSolver, private ContactStep {
   enum Stage : std::size_t { detection = detection_stage, sweeping, stage_count };
   void iterate();
   std::size_t sweep();
-  void add_row();
+  /// Work that needs the meter and costs the step no time; none without one.
+  template <class Work>
+  void measured(Work work);
+  void add_row(bool detects);
   bool finite() const;
 
   VertexSystems systems_;

@@ -153,7 +153,6 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails("twist --scale smoke --solver newton --backend cuda", {"newton", "CPU"});
   fails("twist --scale smoke --iterations", {"--iterations", "prescribed", "reference_vbd"});
   fails("twist --scale smoke --condition", {"--condition", "newton"});
-  fails("twist --scale smoke --solver newton --residual", {"--residual"});
   fails("twist --scale smoke --solver reference_vbd --backend cuda", {"reference_vbd", "CPU"});
   fails("twist --scale smoke --solver newton --set activation=barrier", {"activation", "ipc_log"});
   fails("twist --scale smoke --solver magic", {"--solver"});
