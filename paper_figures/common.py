@@ -10,6 +10,13 @@ from plots.scene_figure import draw, load_claims
 CLAIMS = Path(__file__).parent / "claims"
 
 
+def label(run):
+    """A solver as the paper names it, and where it ran."""
+    names = {"ipc": "IPC", "newton": "Newton-OGC", "vbd": "VBD-OGC", "reference_vbd": "VBD-OGC in double"}
+    solver, backend = run.manifest["solver"], run.manifest["backend"]
+    return names.get(solver, solver) + (", CUDA" if backend == "cuda" else "")
+
+
 def main(scene, frames, camera):
     """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last of them."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")

@@ -23,11 +23,11 @@ constexpr std::array<IterationColumn, 13> columns{{
     {"largest_change [m]", &IterationMetrics::largest_change},
     {"share [1]", &IterationMetrics::share},
     {"vertices_at_bound [1]", &IterationMetrics::vertices_at_bound},
-    {"detected [1]", &IterationMetrics::detected},
-    {"condition_number [1]", &IterationMetrics::condition_number},
     {"broad_phases [1]", &IterationMetrics::broad_phases},
     {"discrete_detections [1]", &IterationMetrics::discrete_detections},
     {"continuous_detections [1]", &IterationMetrics::continuous_detections},
+    {"detected [1]", &IterationMetrics::detected},
+    {"condition_number [1]", &IterationMetrics::condition_number},
 }};
 
 std::string text_of(double value) { return value != value ? "nan" : shortest(value); }

@@ -16,19 +16,21 @@ compare::Material sphere_scene_material() {
   return material;
 }
 
-void append_sphere(compare::Scene& scene, int subdivisions) {
-  append_body(scene, {.name = "sphere", .fixed = true, .material = sphere_scene_material()}, icosphere(subdivisions, 0.262, {-0.15, 0, 0}));
+void append_sphere(compare::Scene& scene, int subdivisions, double radius) {
+  append_body(scene, {.name = "sphere", .fixed = true, .material = sphere_scene_material()}, icosphere(subdivisions, radius, {-0.15, 0, 0}));
 }
 
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {
   compare::Scene scene;
   scene.name = "cloth_on_sphere";
   append_body(scene, {.name = "cloth", .material = sphere_scene_material()}, grid(sizes.vertices_a_side, 1, 0.30));
-  append_sphere(scene, sizes.sphere_subdivisions);
+  append_sphere(scene, sizes.sphere_subdivisions, sizes.sphere_radius);
   scene.settings.time_step = 1.0 / 100;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 40;
   scene.settings.contact_radius = 5e-3 * 69 / (sizes.vertices_a_side - 1);
+  scene.settings.ipc_distance = scene.settings.contact_radius / 5;
+  scene.settings.ipc_stopping = compare::IpcStopping::velocity;
   return scene;
 }
 

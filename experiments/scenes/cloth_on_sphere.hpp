@@ -10,14 +10,15 @@ struct ClothOnSphereSizes {
   compare::Index vertices_a_side = 70;
   int sphere_subdivisions = 3;
   std::int64_t steps = 100;
+  double sphere_radius = 0.262;  ///< [m]
 };
 
 /// Cloth, sphere and ground of the scenes with a sphere.
 compare::Material sphere_scene_material();
-/// The fixed sphere of radius 0.262 m about (−0.15, 0, 0), as the next body of the scene.
-void append_sphere(compare::Scene& scene, int subdivisions);
+/// The fixed sphere of this radius [m] about (−0.15, 0, 0), as the next body of the scene.
+void append_sphere(compare::Scene& scene, int subdivisions, double radius = 0.262);
 
-/// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.262 m about (−0.15, 0, 0).
+/// 1 m × 1 m of cloth at y = 0.30 m above a sphere about (−0.15, 0, 0). For IPC a barrier distance of 1 mm on 70 × 70 and the tolerance of the codimensional scripts.
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 
 }  // namespace ogc::experiments

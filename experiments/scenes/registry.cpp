@@ -10,6 +10,8 @@
 #include "experiments/scenes/cloth_on_sphere.hpp"
 #include "experiments/scenes/fifty_layers.hpp"
 #include "experiments/scenes/knot.hpp"
+#include "experiments/scenes/large_radius_twist.hpp"
+#include "experiments/scenes/one_iteration_drop.hpp"
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
 #include "experiments/scenes/twist.hpp"
 
@@ -82,6 +84,24 @@ compare::Scene knot_at(Scale scale) {
   return knot();
 }
 
+compare::Scene large_radius_twist_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return large_radius_twist({.vertices_a_side = 16, .steps = 60});
+    case Scale::small: return large_radius_twist({.vertices_a_side = 60, .steps = 1200});
+    case Scale::paper: break;
+  }
+  return large_radius_twist();
+}
+
+compare::Scene one_iteration_drop_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return one_iteration_drop({.vertices_a_side = 16, .sphere_subdivisions = 2, .steps = 150});
+    case Scale::small: return one_iteration_drop({.vertices_a_side = 40, .sphere_subdivisions = 3, .steps = 600});
+    case Scale::paper: break;
+  }
+  return one_iteration_drop();
+}
+
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 150});
@@ -91,12 +111,14 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 7> table{{
+constexpr std::array<SceneInfo, 9> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence", activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
     {"fifty_layers", "Fig. 10, 1", "fifty square cloths fall off-centre onto a fixed cylinder", fifty_layers_at},
     {"fifty_layers_1m", "Table 1", "the same with a million vertices", fifty_layers_1m_at},
     {"knot", "Fig. 11, 1", "a long strip with four overhand knots, pulled at both ends", knot_at},
+    {"large_radius_twist", "Fig. 2", "half a turn of a cloth whose contact radius is as large as its edges", large_radius_twist_at},
+    {"one_iteration_drop", "Fig. 20", "a square cloth falls onto a small sphere, one iteration a step", one_iteration_drop_at},
     {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere", three_cloths_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
 }};

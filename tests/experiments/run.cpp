@@ -149,7 +149,7 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails("twist --scale smoke --set iterations", {"key=value"});
   fails("twist --scale huge", {"huge", "smoke"});
   fails("twist --scale smoke --steps 0", {"--steps"});
-  fails("twist --scale smoke --solver ipc", {"ipc", "not exist yet", "vbd", "newton"});
+  fails("twist --scale smoke --solver penalty", {"penalty", "not exist yet", "vbd", "newton", "ipc"});
   fails("twist --scale smoke --solver newton --backend cuda", {"newton", "CPU"});
   fails("twist --scale smoke --iterations", {"--iterations", "prescribed", "reference_vbd"});
   fails("twist --scale smoke --condition", {"--condition", "newton"});
@@ -181,6 +181,28 @@ TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee
   std::getline(iterations, first);
   CHECK(header.find("residual [1]") != std::string::npos);
   CHECK(first.find("nan") == std::string::npos);  // the condition number is there
+}
+
+TEST_CASE("IPC runs a scene into the same sort of folder, without an intersection, and counts its detections by kind", "[figure]") {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 12 --audit every --profile --iterations --json --out " + run);
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto summary = nlohmann::json::parse(result.out);
+  CHECK(summary["solver"] == "ipc");
+  CHECK(summary["guarantee_kept"] == true);
+  const compare::StepTable table = compare::read_steps(run);
+  REQUIRE(table.rows.size() == 12);
+  for (const compare::StepMetrics& row : table.rows) {
+    CHECK(row.continuous_detections >= row.iterations - 1);
+    CHECK(row.discrete_detections >= row.iterations);
+  }
+  CHECK(table.rows.back().vertex_facet_contacts > 0);
+  // From a state of another solver, as windows of long runs are timed.
+  const ProgramResult window = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 13 --from-state " + run + "/frames/frame_000012.h5 --out " + run + "_window");
+  INFO(window.err);
+  CHECK(window.status == 0);
 }
 
 TEST_CASE("vbd in single and in double record their residual over iterations of a step with contacts", "[figure]") {

@@ -1,0 +1,20 @@
+// Numbers: the paper's caption (size, radius, half a turn); speed, time step and iterations as for twist and dress (decided here), IPC's tolerance that of the
+// codimensional scripts.
+#include "experiments/scenes/large_radius_twist.hpp"
+
+#include "experiments/scenes/twist.hpp"
+
+namespace ogc::experiments {
+
+compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes) {
+  compare::Scene scene = twist({sizes.vertices_a_side, sizes.steps});
+  scene.name = "large_radius_twist";
+  for (compare::PrescribedMotion& motion : scene.motions) motion.angular_velocity /= 2;
+  scene.settings.iterations = 20;
+  scene.settings.contact_radius = 5e-3 * 199 / (sizes.vertices_a_side - 1);
+  scene.settings.ipc_distance = scene.settings.contact_radius;
+  scene.settings.ipc_stopping = compare::IpcStopping::velocity;
+  return scene;
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,18 @@
+// Numbers: the paper's caption; sphere and frames decided here, materials as in cloth_on_sphere.
+#include "experiments/scenes/one_iteration_drop.hpp"
+
+#include "experiments/scenes/cloth_on_sphere.hpp"
+
+namespace ogc::experiments {
+
+compare::Scene one_iteration_drop(const OneIterationDropSizes& sizes) {
+  compare::Scene scene = cloth_on_sphere({sizes.vertices_a_side, sizes.sphere_subdivisions, sizes.steps, 0.10});
+  scene.name = "one_iteration_drop";
+  scene.settings.time_step = 1.0 / 500;
+  scene.settings.frame_steps = 10;
+  scene.settings.iterations = scene.settings.newton_iterations = scene.settings.ipc_iterations = 1;
+  scene.settings.newton_tolerance = scene.settings.ipc_tolerance = scene.settings.ipc_velocity_tolerance = 0;
+  return scene;
+}
+
+}  // namespace ogc::experiments

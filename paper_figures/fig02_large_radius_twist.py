@@ -1,0 +1,106 @@
+"""Fig. 2: the end of half a turn with a contact radius of one edge, by IPC and by OGC, and the artefact in numbers: roughness, stretch, kinetic energy."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.common import label
+from plots import render, style
+from plots.run_folder import Run, RunError
+from plots.scene_figure import bodies_of
+
+CAMERA = ((0.75, 0.85, 1.25), (0, 0, 0), (0, 1, 0))
+
+
+def edges_of(triangles):
+    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    return np.unique(pairs, axis=0)
+
+
+def roughness(positions, triangles):
+    """Root mean square over inner vertices of the distance, along the normal, from the mean of the neighbours, in mean edge lengths."""
+    edges = edges_of(triangles)
+    count, mean, normal = np.zeros(len(positions)), np.zeros_like(positions, dtype=float), np.zeros_like(positions, dtype=float)
+    for a, b in ((0, 1), (1, 0)):
+        np.add.at(count, edges[:, a], 1)
+        np.add.at(mean, edges[:, a], positions[edges[:, b]])
+    face = np.cross(positions[triangles[:, 1]] - positions[triangles[:, 0]], positions[triangles[:, 2]] - positions[triangles[:, 0]])
+    for corner in range(3):
+        np.add.at(normal, triangles[:, corner], face)
+    used = np.zeros((len(positions),), dtype=int)
+    for corner in range(3):
+        np.add.at(used, triangles[:, corner], 1)
+    inner = (count == used) & (count > 0)  # as many triangles as neighbours: no boundary
+    unit = normal[inner] / np.linalg.norm(normal[inner], axis=1, keepdims=True)
+    offset = np.einsum("ij,ij->i", positions[inner] - mean[inner] / count[inner, None], unit)
+    length = np.linalg.norm(positions[edges[:, 0]] - positions[edges[:, 1]], axis=1).mean()
+    return float(np.sqrt(np.mean(offset**2)) / length)
+
+
+def stretch(positions, rest, triangles):
+    """Lengths of edges over their rest lengths: 1st percentile, median, 99th percentile."""
+    edges = edges_of(triangles)
+    length = [np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1) for x in (positions, rest)]
+    return np.percentile(length[0] / length[1], [1, 50, 99])
+
+
+def history(run):
+    """Time [s], roughness and stretch of each stored frame; the first frame is the rest shape."""
+    triangles = run.bodies()[0]["triangles"]
+    frames = [run.frame(path) for path in run.frames]
+    rest = frames[0].positions.astype(float)
+    return (np.array([f.time for f in frames]), np.array([roughness(f.positions.astype(float), triangles) for f in frames]),
+            np.array([stretch(f.positions.astype(float), rest, triangles) for f in frames]))
+
+
+def draw(runs, out):
+    plt = style.use()
+    figure = plt.figure(figsize=(11, 8))
+    grid = figure.add_gridspec(2, 6, height_ratios=[1.2, 1])
+    usable, reason = render.available()
+    axes = [figure.add_subplot(grid[1, 2 * i:2 * i + 2]) for i in range(3)]
+    for i, run in enumerate(runs[:2]):
+        picture = figure.add_subplot(grid[0, 3 * i:3 * i + 3])
+        picture.axis("off")
+        last = run.frame(run.frames[-1])
+        picture.set_title(f"{label(run)}, t = {last.time:.3g} s")
+        if usable:
+            picture.imshow(render.picture(bodies_of(run, last), CAMERA))
+        else:
+            picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
+    lines = []
+    for run, dash in zip(runs, style.DASHES):
+        time, rough, stretched = history(run)
+        h = run.setting("time_step")
+        axes[0].plot(time, rough, dash, label=label(run))
+        axes[1].fill_between(time, stretched[:, 0], stretched[:, 2], alpha=0.3)
+        axes[1].plot(time, stretched[:, 1], dash, label=f"{label(run)}: median, 1 % to 99 %")
+        axes[2].plot(run.column("step") * h, run.column("kinetic_energy"), dash, label=label(run))
+        lines.append(f"{label(run)}: at t = {time[-1]:.3g} s roughness {rough[-1]:.3g} edges, stretch {stretched[-1][0]:.3g} … {stretched[-1][2]:.3g}, "
+                     f"kinetic energy {run.column('kinetic_energy')[-1]:.3g} J, {np.mean(run.column('wall')):.4g} ms a step")
+    axes[0].set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
+    axes[1].set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges")
+    axes[2].set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
+    for a in axes:
+        a.legend()
+    figure.savefig(out)
+    figure.savefig(Path(out).with_suffix(".pdf"))
+    plt.close(figure)
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", nargs="+", help="run folders of large_radius_twist, IPC's first")
+    parser.add_argument("--out", required=True, help="PNG to write; a PDF is put beside it")
+    arguments = parser.parse_args()
+    try:
+        print("\n".join(draw([Run(folder) for folder in arguments.runs], arguments.out)))
+    except RunError as error:
+        sys.exit(f"fig02_large_radius_twist.py: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene, frames of the first run, and the ratios beside the paper's."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.common import label
+from paper_figures.fig18_cloth_on_sphere import CAMERA
+from plots import style
+from plots.run_folder import Run, RunError
+from plots.scene_figure import draw_frames
+
+# How much slower IPC is on average (CPU), as the paper says in the text beside Fig. 18.
+CLAIMS = {"newton": 9.2, "vbd": 128.0}
+
+
+def detections(run):
+    return run.column("discrete_detections") + run.column("continuous_detections")
+
+
+def ratios(runs):
+    """[(label, IPC's mean time a step over this run's, the paper's claim or None)] over the steps that both have."""
+    baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
+    if baseline is None:
+        return []
+    result = []
+    for run in runs:
+        if run is baseline:
+            continue
+        steps = min(len(run.column("step")), len(baseline.column("step")))
+        ratio = np.mean(baseline.column("wall")[:steps]) / np.mean(run.column("wall")[:steps])
+        result.append((label(run), ratio, CLAIMS.get(run.manifest["solver"]) if run.manifest["backend"] == "cpu" else None))
+    return result
+
+
+def summary(runs):
+    """A line a run, for the terminal and the title."""
+    lines = []
+    for run in runs:
+        wall, found = run.column("wall"), detections(run)
+        lines.append(f"{label(run)}: {np.mean(wall):.4g} ms a step (median {np.median(wall):.4g}, worst {wall.max():.4g}), "
+                     f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step")
+    for name, ratio, claim in ratios(runs):
+        lines.append(f"IPC is {ratio:.3g} times slower than {name}" + (f" (paper: {claim:g})" if claim else ""))
+    return lines
+
+
+def draw(runs, out):
+    for run in runs:
+        run.require_finished()
+    plt = style.use()
+    figure = plt.figure(figsize=(11, 9))
+    grid = figure.add_gridspec(3, 4, height_ratios=[0.9, 1, 1])
+    draw_frames(figure, [grid[0, i] for i in range(4)], runs[0], [round(f * runs[0].column("step")[-1]) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
+    linear, logarithmic, counts = figure.add_subplot(grid[1, :2]), figure.add_subplot(grid[1, 2:]), figure.add_subplot(grid[2, :2])
+    for run, dash in zip(runs, style.DASHES):
+        for axes in (linear, logarithmic):
+            axes.plot(run.column("step"), run.column("wall"), dash, label=label(run))
+        counts.step(run.column("step"), detections(run), where="mid", linestyle=dash, label=label(run))
+    linear.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
+    logarithmic.set(xlabel="step", ylabel="time a step [ms]", title="Time, logarithmic", yscale="log")
+    counts.set(xlabel="step", ylabel="detections a step", title="Detections, continuous and discrete", ylim=(0, None))
+    for axes in (linear, logarithmic, counts):
+        axes.legend()
+    words = figure.add_subplot(grid[2, 2:])
+    words.axis("off")
+    words.text(0, 1, "\n\n".join(summary(runs)), va="top", wrap=True, fontsize=8.5)
+    figure.savefig(out)
+    figure.savefig(Path(out).with_suffix(".pdf"))
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", nargs="+", help="run folders of one scene by different solvers; the first one's frames are drawn")
+    parser.add_argument("--out", required=True, help="PNG to write; a PDF is put beside it")
+    arguments = parser.parse_args()
+    try:
+        runs = [Run(folder) for folder in arguments.runs]
+        draw(runs, arguments.out)
+        print("\n".join(summary(runs)))
+    except RunError as error:
+        sys.exit(f"solvers_cloth_on_sphere.py: {error}")
+
+
+if __name__ == "__main__":
+    main()
