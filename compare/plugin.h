@@ -22,7 +22,7 @@
 #include <stdint.h>
 
 /* Of this interface. A library built for a newer one is refused by name. */
-#define OGC_PLUGIN_VERSION 1
+#define OGC_PLUGIN_VERSION 2
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1
@@ -183,9 +183,13 @@ OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
 
 /* ---- activation: contact energy over distance ---------------------------------------------------------------------------------------------------- */
 
+/* Which energy. */
+enum { OGC_ACTIVATION_OGC, OGC_ACTIVATION_OGC_AS_PRINTED, OGC_ACTIVATION_QUADRATIC, OGC_ACTIVATION_IPC_LOG, OGC_ACTIVATION_CUBIC };
+
 typedef struct ogc_activation_in {
   int64_t n;
   const float *distance, *contact_radius, *stiffness; /* [n] d > 0, r, k_c */
+  const int64_t* activation;                          /* [n] */
 } ogc_activation_in;
 
 typedef struct ogc_activation_out {
@@ -211,10 +215,16 @@ OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* 
 
 /* ---- membrane, bending, …: force and block of one vertex of one stencil -------------------------------------------------------------------------- */
 
+enum { OGC_MEMBRANE_NONE, OGC_ST_VENANT_KIRCHHOFF, OGC_STABLE_NEO_HOOKEAN };
+enum { OGC_BENDING_NONE, OGC_DISCRETE_HINGE, OGC_ISOMETRIC_QUADRATIC };
+enum { OGC_DAMPING_OF_STRAIN, OGC_DAMPING_PER_VERTEX };
+
 typedef struct ogc_membrane_case {
   ogc_vec3 corner[3], start[3]; /* asked about corner 0 */
   float gradient[2][2];         /* of N_1, N_2; that of N_0 is minus their sum */
   float area, lame_lambda, lame_mu, damping;
+  int32_t model;
+  int64_t damping_form;
 } ogc_membrane_case;
 
 typedef struct ogc_membrane_in {
@@ -225,13 +235,27 @@ typedef struct ogc_membrane_in {
 typedef struct ogc_bending_case {
   ogc_vec3 vertex[4], start[4];
   float stiffness, rest_angle, damping;
-  int32_t own; /* which vertex is asked about */
+  int32_t own;     /* which vertex is asked about */
+  int32_t model;
+  float weight[3]; /* isometric quadratic: of x1, o0, o1; that of x0 is minus their sum */
+  int64_t damping_form;
 } ogc_bending_case;
 
 typedef struct ogc_bending_in {
   int64_t n;
   const ogc_bending_case* cases; /* [n] */
 } ogc_bending_in;
+
+typedef struct ogc_spring_case {
+  ogc_vec3 vertex[2], start[2]; /* asked about vertex 0 */
+  float stiffness, rest_length, damping;
+  int64_t damping_form;
+} ogc_spring_case;
+
+typedef struct ogc_spring_in {
+  int64_t n;
+  const ogc_spring_case* cases; /* [n] */
+} ogc_spring_in;
 
 typedef struct ogc_force_out {
   ogc_vec3* force;   /* [n] minus the energy's derivative */
@@ -240,6 +264,7 @@ typedef struct ogc_force_out {
 
 OGC_PLUGIN_EXPORT int ogc_membrane(const ogc_membrane_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_bending(const ogc_bending_in* in, ogc_force_out* out);
+OGC_PLUGIN_EXPORT int ogc_spring(const ogc_spring_in* in, ogc_force_out* out);
 
 /* The faces that meet in a contact, and their vertices: first side | second side. */
 enum { OGC_POINT_POINT /* 0 | 1 */, OGC_POINT_EDGE /* 0 | 1 2 */, OGC_EDGE_EDGE /* 0 1 | 2 3 */, OGC_POINT_TRIANGLE /* 0 | 1 2 3 */ };
@@ -250,6 +275,7 @@ typedef struct ogc_contact_force_case {
   ogc_vec3 vertex[4], detected[4];
   float rest_squared[2];
   float contact_radius, stiffness;
+  int64_t activation;
 } ogc_contact_force_case;
 
 typedef struct ogc_contact_force_in {

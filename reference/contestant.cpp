@@ -1,12 +1,13 @@
 // The stages of the reference under the judge's names.
 #include "reference/contestant.hpp"
 
+#include "reference/energies/activation.hpp"
 #include "reference/energies/bending.hpp"
 #include "reference/energies/contact_force.hpp"
 #include "reference/energies/friction_force.hpp"
 #include "reference/energies/membrane.hpp"
 #include "reference/energies/rest_state.hpp"
-#include "reference/geometry/activation.hpp"
+#include "reference/energies/spring.hpp"
 #include "reference/geometry/block.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/closest_face.hpp"
@@ -34,6 +35,7 @@ compare::Authority authority() {
   authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
   authority.bending = [](const compare::BendingIn& in) { return bending(in); };
+  authority.spring = [](const compare::SpringIn& in) { return spring(in); };
   authority.contact_force = [](const compare::ContactForceIn& in) { return contact_force(in); };
   authority.friction_force = [](const compare::FrictionForceIn& in) { return friction_force(in); };
   authority.rest_state = rest_state;

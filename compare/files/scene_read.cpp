@@ -72,6 +72,7 @@ class SceneReader {
     object.optional("settings", [&](const JsonNode& node) { read_settings(node, scene_.settings); });
     object.required("bodies", [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
     object.optional("motions", [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
+    object.optional("springs", [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
     object.finish();
     stop_at_problems();
     round_to_single(scene_);
@@ -187,6 +188,29 @@ class SceneReader {
     object.optional_value("end", motion.end);
     object.finish();
     scene_.motions.push_back(std::move(motion));
+  }
+
+  void read_spring(const JsonNode& node) {
+    JsonObject object(node);
+    Spring spring;
+    object.required("first", [&](const JsonNode& end) { spring.first = read_end(end); });
+    object.required("second", [&](const JsonNode& end) { spring.second = read_end(end); });
+    object.required_value("stiffness", spring.stiffness);
+    object.optional_value("rest_length", spring.rest_length);
+    object.optional_value("damping", spring.damping);
+    object.finish();
+    scene_.springs.push_back(spring);
+  }
+
+  // A vertex by body and number within the body; -1 where there is none, which is a problem noted.
+  Index read_end(const JsonNode& node) {
+    JsonObject object(node);
+    const Body* body = nullptr;
+    std::vector<Index> vertices;
+    object.required("body", [&](const JsonNode& value) { body = find_body(value); });
+    object.required("index", [&](const JsonNode& value) { select_index(value, body, vertices); });
+    object.finish();
+    return vertices.empty() ? -1 : vertices.front();
   }
 
   const Body* find_body(const JsonNode& node) {

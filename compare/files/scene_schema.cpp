@@ -95,6 +95,23 @@ Json motion_schema() {
   return object(properties, {"name", "vertices"});
 }
 
+Json spring_schema() {
+  const Json end = object({{"body", value("string", "name of a body")}, {"index", value("integer", "vertex within the body, from 0")}}, {"body", "index"});
+  const auto number = [](const std::string& description) {
+    Json json = value("number", description);
+    json["minimum"] = 0;
+    return json;
+  };
+  const Json properties = {
+      {"first", end},
+      {"second", end},
+      {"stiffness", number("[N/m]")},
+      {"rest_length", number("[m]; default 0")},
+      {"damping", number("stiffness-proportional [s]; default 0")},
+  };
+  return object(properties, {"first", "second", "stiffness"});
+}
+
 }  // namespace
 
 std::string scene_schema() {
@@ -105,6 +122,7 @@ std::string scene_schema() {
       {"settings", settings_schema()},
       {"bodies", array(body_schema(), "in the order of their vertices")},
       {"motions", array(motion_schema(), "prescribed motions")},
+      {"springs", array(spring_schema(), "between two vertices; no part of contact")},
   };
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
   schema.update(object(properties, {"format_version", "name", "bodies"}));

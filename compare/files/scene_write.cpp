@@ -105,6 +105,19 @@ Json motion_json(const Scene& scene, const PrescribedMotion& motion) {
           {"end", motion.end}};
 }
 
+Json springs_json(const Scene& scene) {
+  const std::vector<Index> owner = body_of_vertex(scene);
+  const auto end = [&](Index v) -> Json {
+    const Body& body = scene.bodies[static_cast<std::size_t>(owner[static_cast<std::size_t>(v)])];
+    return {{"body", body.name}, {"index", v - body.first_vertex}};
+  };
+  Json springs = Json::array();
+  for (const Spring& spring : scene.springs)
+    springs.push_back({{"first", end(spring.first)}, {"second", end(spring.second)}, {"stiffness", as_typed(spring.stiffness)},
+                       {"rest_length", as_typed(spring.rest_length)}, {"damping", as_typed(spring.damping)}});
+  return springs;
+}
+
 void print(const Json& value, const std::string& indent, std::string& text) {
   const bool is_row = value.is_array() && std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_primitive(); });
   if (value.is_primitive() || value.empty()) {
@@ -136,6 +149,7 @@ std::filesystem::path write_scene(const std::filesystem::path& folder, const Sce
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_json(folder, scene, body));
   json["motions"] = Json::array();
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_json(scene, motion));
+  json["springs"] = springs_json(scene);
   std::string text;
   print(json, "", text);
   const std::filesystem::path file = folder / (scene.name + ".json");

@@ -103,6 +103,7 @@ void ask_force(Stage stage, Cases cases, const Contestant& contestant, const Aut
     case Stage::contact_force: return put(case_question(cases, &ContactForceIn::cases), authority.contact_force, contestant.contact_force);
     case Stage::friction_force: return put(case_question(cases, &FrictionForceIn::cases), authority.friction_force, contestant.friction_force);
     case Stage::membrane: return put(case_question(cases, &MembraneIn::cases), authority.membrane, contestant.membrane);
+    case Stage::spring: return put(case_question(cases, &SpringIn::cases), authority.spring, contestant.spring);
     default: return put(case_question(cases, &BendingIn::cases), authority.bending, contestant.bending);
   }
 }

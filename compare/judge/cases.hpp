@@ -14,6 +14,7 @@
 #include "compare/stages/friction_force.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/spring.hpp"
 
 namespace ogc::compare {
 
@@ -92,6 +93,7 @@ struct SweepCase {
 
 struct ActivationCase {
   float distance = 0, contact_radius = 0, stiffness = 0;
+  ContactActivation activation = ContactActivation::ogc;
 };
 
 struct TruncateCase {
@@ -100,7 +102,7 @@ struct TruncateCase {
 };
 
 using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase, MembraneCase, BendingCase, RestStateCase,
-                              BlockCase, InitialGuessCase, ContactForceCase, FrictionForceCase, SweepCase, StepCase>;
+                              BlockCase, InitialGuessCase, ContactForceCase, FrictionForceCase, SpringCase, SweepCase, StepCase>;
 
 struct TestCase {
   CaseName name;

@@ -6,8 +6,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Vertices that share a stencil with each, as the topology alone tells.
-std::vector<std::set<Index>> conflicts(const Topology& topology) {
+/// Vertices that share a stencil with each, as the topology and the springs tell.
+std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topology) {
   std::vector<std::set<Index>> near(static_cast<std::size_t>(topology.vertex_count));
   const auto join = [&](Index a, Index b) {
     near[static_cast<std::size_t>(a)].insert(b);
@@ -15,13 +15,14 @@ std::vector<std::set<Index>> conflicts(const Topology& topology) {
   };
   for (const Edge& e : topology.edges) join(e[0], e[1]);
   for (const Hinge& hinge : topology.hinges) join(hinge.opposite[0], hinge.opposite[1]);
+  for (const Spring& spring : scene.springs) join(spring.first, spring.second);
   return near;
 }
 
 }  // namespace
 
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology) {
-  const auto near = conflicts(topology);
+  const auto near = conflicts(scene, topology);
   const std::vector<Index> groups = rigid_groups(scene);
   std::vector<Index> order(near.size()), colour(near.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);

@@ -1,5 +1,6 @@
 #include "compare/judge/corpus.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "compare/files/bytes.hpp"
@@ -11,6 +12,7 @@
 #include "compare/judge/shape.hpp"
 #include "compare/judge/topology_json.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "compare/problem/validate.hpp"
 
 namespace ogc::compare {
@@ -29,7 +31,8 @@ struct ToJson {
             {"d_min_triangle", numbers_to_json(c.d_min_triangle)}, {"bound_relaxation", hexadecimal(c.bound_relaxation)}};
   }
   Json operator()(const ActivationCase& c) const {
-    return {{"distance", hexadecimal(c.distance)}, {"contact_radius", hexadecimal(c.contact_radius)}, {"stiffness", hexadecimal(c.stiffness)}};
+    return {{"distance", hexadecimal(c.distance)}, {"contact_radius", hexadecimal(c.contact_radius)}, {"stiffness", hexadecimal(c.stiffness)},
+            {"activation", activation_names()[static_cast<std::size_t>(c.activation)]}};
   }
   Json operator()(const TruncateCase& c) const {
     return {{"previous", to_json(c.previous)}, {"position", to_json(c.position)}, {"bound", hexadecimal(c.bound)}};
@@ -63,6 +66,14 @@ BoundCase to_bound_case(const Json& data) {
   return c;
 }
 
+ActivationCase to_activation_case(const Json& data) {
+  const auto name = data.at("activation").get<std::string>();
+  const auto found = std::find(activation_names().begin(), activation_names().end(), name);
+  if (found == activation_names().end()) throw InputError(unknown_name("activation", name, activation_names()));
+  return {number(data.at("distance")), number(data.at("contact_radius")), number(data.at("stiffness")),
+          static_cast<ContactActivation>(found - activation_names().begin())};
+}
+
 StepCase to_step_case(const Json& data) {
   Scene scene = to_scene(data.at("scene"));
   if (const auto problems = validate(scene); !problems.empty()) throw InputError(describe(problems));
@@ -80,7 +91,7 @@ CaseData to_data(Stage stage, const Json& data) {
     case Stage::bound: return to_bound_case(data);
     case Stage::sweep: return to_sweep_case(data);
     case Stage::step: return to_step_case(data);
-    case Stage::activation: return ActivationCase{number(data.at("distance")), number(data.at("contact_radius")), number(data.at("stiffness"))};
+    case Stage::activation: return to_activation_case(data);
     case Stage::truncate: return TruncateCase{to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
     case Stage::detect_vertex_facet:
     case Stage::detect_edge_edge: return to_mesh_case(data);

@@ -11,7 +11,7 @@
 
 namespace ogc::compare {
 
-inline constexpr int case_format_version = 1;
+inline constexpr int case_format_version = 2;
 
 /// The case with its problem string and message, numbers of single precision as hexadecimal text.
 nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message);

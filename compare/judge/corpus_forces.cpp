@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <concepts>
 
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/text.hpp"
+
 namespace ogc::compare {
 
 namespace {
@@ -19,6 +22,8 @@ void visit_members(Case& c, Visit visit) {
   visit("lame_lambda", c.lame_lambda);
   visit("lame_mu", c.lame_mu);
   visit("damping", c.damping);
+  visit("model", c.model);
+  visit("damping_form", c.damping_form);
 }
 
 template <class Case, class Visit>
@@ -30,9 +35,33 @@ void visit_members(Case& c, Visit visit) {
   visit("rest_angle", c.rest_angle);
   visit("damping", c.damping);
   visit("own", c.own);
+  visit("model", c.model);
+  visit("weight", c.weight);
+  visit("damping_form", c.damping_form);
 }
 
-constexpr std::array<const char*, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
+template <class Case, class Visit>
+  requires std::same_as<std::remove_const_t<Case>, SpringCase>
+void visit_members(Case& c, Visit visit) {
+  visit("vertex", c.vertex);
+  visit("start", c.start);
+  visit("stiffness", c.stiffness);
+  visit("rest_length", c.rest_length);
+  visit("damping", c.damping);
+  visit("damping_form", c.damping_form);
+}
+
+constexpr std::array<std::string_view, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
+
+/// The names of an enumeration's values, in their order.
+std::span<const std::string_view> names_of(ContactSides) { return side_names; }
+std::span<const std::string_view> names_of(MembraneModel) { return membrane_model_names(); }
+std::span<const std::string_view> names_of(BendingModel) { return bending_model_names(); }
+std::span<const std::string_view> names_of(ContactActivation) { return activation_names(); }
+std::span<const std::string_view> names_of(DampingForm) { return damping_form_names(); }
+
+template <class T>
+concept Named = std::is_enum_v<T>;
 
 template <class Case, class Visit>
   requires std::same_as<std::remove_const_t<Case>, ContactForceCase>
@@ -44,6 +73,7 @@ void visit_members(Case& c, Visit visit) {
   visit("rest_squared", c.rest_squared);
   visit("contact_radius", c.contact_radius);
   visit("stiffness", c.stiffness);
+  visit("activation", c.activation);
 }
 
 template <class Case, class Visit>
@@ -59,7 +89,7 @@ struct Writer {
   Json json;
   void operator()(const char* name, float x) { json[name] = hexadecimal(x); }
   void operator()(const char* name, std::int32_t x) { json[name] = x; }
-  void operator()(const char* name, ContactSides x) { json[name] = side_names[static_cast<std::size_t>(x)]; }
+  void operator()(const char* name, Named auto x) { json[name] = names_of(x)[static_cast<std::size_t>(x)]; }
   template <std::size_t n>
   void operator()(const char* name, const std::array<Vec3f, n>& points) {
     json[name] = points_to_json(points);
@@ -77,11 +107,13 @@ struct Reader {
     x = json.at(name).get<std::int32_t>();
     if (x < 0 || x > 3) throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
   }
-  void operator()(const char* name, ContactSides& x) const {
+  template <Named Enum>
+  void operator()(const char* name, Enum& x) const {
     const std::string text = json.at(name).get<std::string>();
-    const auto at = std::find(side_names.begin(), side_names.end(), text);
-    if (at == side_names.end()) throw InputError(std::string(name) + ": '" + text + "' is unknown; use point_point, point_edge, edge_edge or point_triangle");
-    x = static_cast<ContactSides>(at - side_names.begin());
+    const auto names = names_of(x);
+    const auto at = std::find(names.begin(), names.end(), text);
+    if (at == names.end()) throw InputError(unknown_name(name, text, names));
+    x = static_cast<Enum>(at - names.begin());
   }
   template <std::size_t n>
   void operator()(const char* name, std::array<Vec3f, n>& points) const {
@@ -124,6 +156,7 @@ FrictionForceCase checked(FrictionForceCase c) {
 
 Json force_case_to_json(const MembraneCase& c) { return written(c); }
 Json force_case_to_json(const BendingCase& c) { return written(c); }
+Json force_case_to_json(const SpringCase& c) { return written(c); }
 Json force_case_to_json(const ContactForceCase& c) { return written(c); }
 Json force_case_to_json(const FrictionForceCase& c) { return written(c); }
 
@@ -132,6 +165,7 @@ CaseData to_force_case(Stage stage, const Json& data) {
     case Stage::contact_force: return checked(read<ContactForceCase>(data));
     case Stage::friction_force: return checked(read<FrictionForceCase>(data));
     case Stage::membrane: return read<MembraneCase>(data);
+    case Stage::spring: return read<SpringCase>(data);
     default: return read<BendingCase>(data);
   }
 }

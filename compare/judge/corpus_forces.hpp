@@ -8,6 +8,7 @@ namespace ogc::compare {
 
 Json force_case_to_json(const MembraneCase& c);
 Json force_case_to_json(const BendingCase& c);
+Json force_case_to_json(const SpringCase& c);
 Json force_case_to_json(const ContactForceCase& c);
 Json force_case_to_json(const FrictionForceCase& c);
 

@@ -66,6 +66,12 @@ PrescribedMotion to_motion(const Json& json) {
           json.at("angular_velocity").get<double>(), to_vector(json.at("velocity")), json.at("start").get<double>(), json.at("end").get<double>()};
 }
 
+Json spring_to_json(const Spring& s) { return {s.first, s.second, s.stiffness, s.rest_length, s.damping}; }
+
+Spring to_spring(const Json& json) {
+  return {json.at(0).get<Index>(), json.at(1).get<Index>(), json.at(2).get<double>(), json.at(3).get<double>(), json.at(4).get<double>()};
+}
+
 std::vector<Vec3f> to_vertices(const Json& json, std::size_t count) {
   std::vector<Vec3f> points;
   for (const Json& p : json) points.push_back(to_point(p));
@@ -78,9 +84,10 @@ std::vector<Vec3f> to_vertices(const Json& json, std::size_t count) {
 Json scene_to_json(const Scene& scene) {
   Json json{{"name", scene.name}, {"triangles", scene.mesh.triangles}, {"loose_edges", scene.mesh.loose_edges},
             {"positions", vectors_to_json(scene.mesh.positions)}, {"rest_positions", vectors_to_json(scene.rest_positions)},
-            {"velocities", vectors_to_json(scene.velocities)}, {"bodies", Json::array()}, {"motions", Json::array()}, {"gravity", to_json(scene.gravity)}};
+            {"velocities", vectors_to_json(scene.velocities)}, {"bodies", Json::array()}, {"motions", Json::array()}, {"springs", Json::array()}, {"gravity", to_json(scene.gravity)}};
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_to_json(body));
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_to_json(motion));
+  for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
   for (const SettingInfo& info : setting_table()) json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
   return json;
 }
@@ -93,6 +100,7 @@ Scene to_scene(const Json& json) {
   scene.velocities = to_vectors(json.at("velocities"));
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));
   for (const Json& motion : json.at("motions")) scene.motions.push_back(to_motion(motion));
+  for (const Json& spring : json.at("springs")) scene.springs.push_back(to_spring(spring));
   scene.gravity = to_vector(json.at("gravity"));
   for (const auto& [name, value] : json.at("settings").items()) set_setting(scene.settings, name, value.get<std::string>());
   round_to_single(scene);

@@ -123,6 +123,7 @@ std::vector<std::string> pair_bits(Stage stage, Cases cases, const Contestant& c
     case Stage::contact_force: return of_force(contestant.contact_force(case_question(cases, &ContactForceIn::cases)));
     case Stage::friction_force: return of_force(contestant.friction_force(case_question(cases, &FrictionForceIn::cases)));
     case Stage::membrane: return of_force(contestant.membrane(case_question(cases, &MembraneIn::cases)));
+    case Stage::spring: return of_force(contestant.spring(case_question(cases, &SpringIn::cases)));
     case Stage::bending: return of_force(contestant.bending(case_question(cases, &BendingIn::cases)));
     default: {
       const TruncateOut out = contestant.truncate(truncate_question(cases));

@@ -219,6 +219,24 @@ CaseData contact_radius(Random& random) { return contact_case(random, near_radiu
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
 
+/// Any activation, where features and stages change and in between.
+Shape any_shape(Random& random) {
+  switch (random.below(5)) {
+    case 0: return near_feature(random);
+    case 1: return near_radius(random);
+    case 2: return near_switch(random);
+    case 3: return near_touching(random);
+    default: return inside(random, any_sides(random), any_share(random));
+  }
+}
+ContactActivation any_activation(Random& random) { return static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size()))); }
+
+CaseData contact_variants(Random& random) {
+  auto question = std::get<ContactForceCase>(contact_case(random, any_shape(random)));
+  question.activation = any_activation(random);
+  return question;
+}
+
 /// c → ε and c → 0 at the last detection.
 CaseData contact_mollifier(Random& random) {
   Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
@@ -282,7 +300,13 @@ CaseData friction_lift(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)), random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));
 }
 
-constexpr std::array<Generator, 9> contact_table{{{"uniform", 30, true, contact_uniform},
+CaseData friction_variants(Random& random) {
+  auto question = std::get<FrictionForceCase>(friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
+  question.contact.activation = any_activation(random);
+  return question;
+}
+
+constexpr std::array<Generator, 10> contact_table{{{"uniform", 30, true, contact_uniform},
                                                   {"lattice", 15, false, contact_lattice},
                                                   {"ladder.feature", 14, false, contact_feature},
                                                   {"ladder.thin", 8, false, contact_thin},
@@ -290,15 +314,17 @@ constexpr std::array<Generator, 9> contact_table{{{"uniform", 30, true, contact_
                                                   {"ladder.radius", 6, false, contact_radius},
                                                   {"ladder.switch", 5, false, contact_switch},
                                                   {"ladder.touching", 7, false, contact_touching},
-                                                  {"ladder.mollifier", 5, false, contact_mollifier}}};
-constexpr std::array<Generator, 8> friction_table{{{"uniform", 30, true, friction_uniform},
+                                                  {"ladder.mollifier", 5, false, contact_mollifier},
+                                                  {"ladder.variants", 25, false, contact_variants}}};
+constexpr std::array<Generator, 9> friction_table{{{"uniform", 30, true, friction_uniform},
                                                    {"lattice", 12, false, friction_lattice},
                                                    {"ladder.feature", 14, false, friction_feature},
                                                    {"ladder.parallel", 8, false, friction_parallel},
                                                    {"ladder.distance", 10, false, friction_distance},
                                                    {"ladder.still", 10, false, friction_still},
                                                    {"ladder.limit", 8, false, friction_limit},
-                                                   {"ladder.lift", 8, false, friction_lift}}};
+                                                   {"ladder.lift", 8, false, friction_lift},
+                                                   {"ladder.variants", 20, false, friction_variants}}};
 
 }  // namespace
 

@@ -107,12 +107,34 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 6> membrane_table{{{"uniform", 40, true, membrane_uniform},
+template <CaseData (*make)(Random&)>
+CaseData neo_hookean(Random& random) {
+  MembraneCase question = std::get<MembraneCase>(make(random));
+  question.model = MembraneModel::stable_neo_hookean;
+  return question;
+}
+
+/// Damping by vertex, of either model.
+template <CaseData (*make)(Random&)>
+CaseData membrane_by_vertex(Random& random) {
+  MembraneCase question = std::get<MembraneCase>(make(random));
+  question.damping_form = DampingForm::per_vertex;
+  if (random.one_in(2)) question.model = MembraneModel::stable_neo_hookean;
+  return question;
+}
+
+constexpr std::array<Generator, 12> membrane_table{{{"uniform", 40, true, membrane_uniform},
                                                    {"corner", 20, true, membrane_corner},
                                                    {"lattice", 15, false, membrane_lattice},
                                                    {"ladder.rest", 20, false, membrane_rest},
                                                    {"ladder.collapse", 10, false, membrane_collapse},
-                                                   {"ladder.sign", 15, false, membrane_sign}}};
+                                                   {"ladder.sign", 15, false, membrane_sign},
+                                                   {"neo_hookean", 30, true, neo_hookean<membrane_corner>},
+                                                   {"lattice.neo_hookean", 10, false, neo_hookean<membrane_lattice>},
+                                                   {"ladder.neo_hookean_rest", 20, false, neo_hookean<membrane_rest>},
+                                                   {"ladder.neo_hookean_collapse", 20, false, neo_hookean<membrane_collapse>},
+                                                   {"per_vertex", 15, true, membrane_by_vertex<membrane_corner>},
+                                                   {"ladder.per_vertex", 15, false, membrane_by_vertex<membrane_collapse>}}};
 
 /// x0, x1, o0, o1 with the edge along x: o0 in the upper half of the xy plane, o1 in the lower one turned by `angle` about the edge.
 struct HingeShape {
@@ -205,11 +227,58 @@ CaseData bending_needle(Random& random) {
   return bending_case(random, with_angle(shape, angle), with_angle(shape, angle), random.one_in(2));
 }
 
-constexpr std::array<Generator, 5> bending_table{{{"uniform", 40, true, bending_uniform},
+/// The isometric model of a rest shape that is `now` unfolded, or another one.
+CaseData isometric_case(Random& random, const HingeShape& now, const HingeShape& start) {
+  BendingCase question = std::get<BendingCase>(bending_case(random, now, start, random.one_in(2)));
+  HingeShape rest = random.one_in(2) && now.height_a > 0.1 && now.height_b > 0.1 ? now : hinge_shape(random);
+  rest.size = now.size;
+  question.model = BendingModel::isometric_quadratic;
+  question.weight = {single((rest.foot_a / rest.height_a + rest.foot_b / rest.height_b) / rest.size), single(-1 / (rest.height_a * rest.size)),
+                     single(-1 / (rest.height_b * rest.size))};
+  return question;
+}
+
+CaseData bending_isometric(Random& random) {
+  const HingeShape shape = hinge_shape(random);
+  const double angle = random.between(-3, 3);
+  return isometric_case(random, with_angle(shape, angle), with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
+}
+
+/// ℓ → 0.
+CaseData isometric_flat(Random& random) {
+  const HingeShape shape = hinge_shape(random);
+  return isometric_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()));
+}
+
+/// Angles that jump and triangles without one, which damping meets.
+CaseData isometric_damping(Random& random) {
+  HingeShape shape = hinge_shape(random);
+  if (random.one_in(2)) shape.height_a = random.one_in(4) ? 0.0 : random.rung();
+  const double angle = std::numbers::pi + random.rung();
+  BendingCase question = std::get<BendingCase>(isometric_case(random, with_angle(shape, angle), with_angle(shape, random.one_in(2) ? angle : random.between(-3, 3))));
+  question.damping = single(random.magnitude(-3, 1));
+  return question;
+}
+
+/// Damping by vertex, of either model.
+template <CaseData (*make)(Random&)>
+CaseData bending_by_vertex(Random& random) {
+  BendingCase question = std::get<BendingCase>(make(random));
+  question.damping_form = DampingForm::per_vertex;
+  return question;
+}
+
+constexpr std::array<Generator, 11> bending_table{{{"uniform", 40, true, bending_uniform},
                                                   {"lattice", 15, false, bending_lattice},
                                                   {"ladder.flat", 20, false, bending_flat},
                                                   {"ladder.fold", 15, false, bending_fold},
-                                                  {"ladder.needle", 10, false, bending_needle}}};
+                                                  {"ladder.needle", 10, false, bending_needle},
+                                                   {"isometric", 25, true, bending_isometric},
+                                                   {"ladder.isometric_flat", 20, false, isometric_flat},
+                                                   {"ladder.isometric_damping", 15, false, isometric_damping},
+                                                   {"per_vertex", 10, true, bending_by_vertex<bending_uniform>},
+                                                   {"isometric.per_vertex", 5, true, bending_by_vertex<bending_isometric>},
+                                                   {"ladder.per_vertex", 10, false, bending_by_vertex<bending_needle>}}};
 
 }  // namespace
 

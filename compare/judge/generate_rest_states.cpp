@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "compare/judge/any_models.hpp"
 #include "compare/judge/generators.hpp"
 #include "compare/judge/mesh_builder.hpp"
 #include "compare/judge/rest_cases.hpp"
@@ -194,10 +195,19 @@ CaseData meetings(Random& random) {
   return finished(std::move(scene));
 }
 
+template <CaseData (*make)(Random&)>
+CaseData isometric(Random& random) {
+  RestStateCase test = std::get<RestStateCase>(make(random));
+  Scene scene = *test.scene;
+  bend_isometrically(scene);
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
 constexpr std::string_view soup = "soup", cloth = "cloth", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan",
                            book = "ladder.book", strands = "ladder.strands";
 
-constexpr std::array<Generator, 12> table{{{soup, 15, true, of<soup>},
+constexpr std::array<Generator, 15> table{{{soup, 15, true, of<soup>},
                                            {cloth, 20, true, of<cloth>},
                                            {lattice, 12, false, of<lattice>},
                                            {sheets, 6, false, of<sheets>},
@@ -208,7 +218,10 @@ constexpr std::array<Generator, 12> table{{{soup, 15, true, of<soup>},
                                            {"ladder.flat", 6, false, flat},
                                            {"ladder.crease", 6, false, crease},
                                            {"ladder.needle", 8, false, needle},
-                                           {"ladder.meetings", 3, false, meetings}}};
+                                           {"ladder.meetings", 3, false, meetings},
+                                           {"isometric", 10, true, isometric<of<cloth>>},
+                                           {"ladder.isometric_flat", 3, false, isometric<flat>},
+                                           {"ladder.isometric_needle", 6, false, isometric<needle>}}};
 
 }  // namespace
 

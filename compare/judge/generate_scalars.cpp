@@ -55,6 +55,24 @@ CaseData activation_touching(Random& random) {
   return ActivationCase{static_cast<float>(r * std::pow(10.0, -1 - random.below(12))), r, static_cast<float>(random.magnitude(-1, 6))};
 }
 
+ActivationCase with_any_activation(Random& random, const CaseData& data) {
+  ActivationCase question = std::get<ActivationCase>(data);
+  question.activation = static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
+  return question;
+}
+
+CaseData activation_variants(Random& random) { return with_any_activation(random, activation_uniform(random)); }
+
+/// Where the variants change over or cancel: r, τ, 0, and r = 2 d, where a logarithm may.
+CaseData activation_ladders(Random& random) {
+  switch (random.below(4)) {
+    case 0: return with_any_activation(random, activation_radius(random));
+    case 1: return with_any_activation(random, activation_switch(random));
+    case 2: return with_any_activation(random, activation_touching(random));
+    default: return with_any_activation(random, activation_bits(random));
+  }
+}
+
 /// A vertex at `previous` moved by `step`.
 CaseData moved(const Vec3& previous, const Vec3& step, float bound) {
   const Vec3f from = single(previous);
@@ -104,12 +122,14 @@ CaseData truncate_zero(Random& random) {
   return moved(random.one_in(2) ? Vec3{} : in_box(random, -1, 1), step, static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
 }
 
-constexpr std::array<Generator, 6> activation_table{{{"uniform", 20, true, activation_uniform},
+constexpr std::array<Generator, 8> activation_table{{{"uniform", 20, true, activation_uniform},
                                                      {"bits", 20, false, activation_bits},
                                                      {"lattice", 20, false, activation_lattice},
                                                      {"ladder.radius", 50, false, activation_radius},
                                                      {"ladder.switch", 50, false, activation_switch},
-                                                     {"ladder.touching", 10, false, activation_touching}}};
+                                                     {"ladder.touching", 10, false, activation_touching},
+                                                     {"variants", 25, true, activation_variants},
+                                                     {"ladder.variants", 25, false, activation_ladders}}};
 constexpr std::array<Generator, 6> truncate_table{{{"uniform", 20, true, truncate_uniform},
                                                    {"bits", 20, false, truncate_bits},
                                                    {"lattice", 20, false, truncate_lattice},

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/judge/any_models.hpp"
 #include "compare/judge/generators.hpp"
 #include "compare/judge/placement.hpp"
 
@@ -230,14 +231,24 @@ CaseData lattice(Random& random) {
   return builder.finish();
 }
 
-constexpr std::array<Generator, 8> table{{{"fall", 12, true, fall},
+/// Other models than the default ones.
+CaseData models(Random& random) {
+  StepCase test = std::get<StepCase>(random.one_in(2) ? onto(random) : handle(random));
+  Scene scene = *test.scene;
+  choose_models(random, scene);
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
+constexpr std::array<Generator, 9> table{{{"fall", 12, true, fall},
                                           {"onto", 13, true, onto},
                                           {"collide", 13, true, collide},
                                           {"handle", 12, true, handle},
                                           {"ladder.count", 20, false, count_at_threshold},
                                           {"ladder.cap", 10, false, radius_at_cap},
                                           {"ladder.rest", 15, false, at_rest},
-                                          {"lattice", 10, false, lattice}}};
+                                          {"lattice", 10, false, lattice},
+                                          {"models", 15, false, models}}};
 
 }  // namespace
 

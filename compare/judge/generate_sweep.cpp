@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "compare/judge/any_models.hpp"
 #include "compare/judge/colours.hpp"
 #include "compare/judge/generators.hpp"
 #include "compare/judge/placement.hpp"
@@ -297,7 +298,18 @@ CaseData at_bound(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-constexpr std::array<Generator, 13> table{{{"sheets", 16, true, sheets},
+/// Other models than the default ones, with the colours that their springs ask for.
+template <CaseData (*make)(Random&)>
+CaseData with_models(Random& random) {
+  SweepCase test = std::get<SweepCase>(make(random));
+  Scene scene = *test.scene;
+  choose_models(random, scene);
+  test.colour = random_colours(random, scene, build_topology(scene));
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
+constexpr std::array<Generator, 17> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -309,7 +321,11 @@ constexpr std::array<Generator, 13> table{{{"sheets", 16, true, sheets},
                                            {"ladder.slip", 6, false, slip},
                                            {"ladder.crossing", 6, false, crossing},
                                            {"ladder.collapse", 5, false, collapse},
-                                           {"ladder.bound", 5, false, at_bound}}};
+                                           {"ladder.bound", 5, false, at_bound},
+                                           {"models", 15, false, with_models<sheets>},
+                                           {"models.prescribed", 6, false, with_models<prescribed>},
+                                           {"ladder.models_rest", 5, false, with_models<at_rest>},
+                                           {"ladder.models_collapse", 5, false, with_models<collapse>}}};
 
 }  // namespace
 

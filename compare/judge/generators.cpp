@@ -29,6 +29,7 @@ std::span<const Generator> generators(Stage stage) {
     case Stage::friction_force: return friction_force_generators();
     case Stage::membrane: return membrane_generators();
     case Stage::bending: return bending_generators();
+    case Stage::spring: return spring_generators();
     case Stage::sweep: return sweep_generators();
     case Stage::step: return step_generators();
     default: return detect_generators();

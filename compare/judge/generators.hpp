@@ -46,6 +46,7 @@ std::span<const Generator> contact_force_generators();
 std::span<const Generator> friction_force_generators();
 std::span<const Generator> membrane_generators();
 std::span<const Generator> bending_generators();
+std::span<const Generator> spring_generators();
 std::span<const Generator> sweep_generators();
 std::span<const Generator> step_generators();
 std::span<const Generator> rest_state_generators();

@@ -130,6 +130,7 @@ bool can_judge(Stage stage, const Contestant& contestant, const Authority& autho
     case Stage::friction_force: return contestant.friction_force && authority.friction_force;
     case Stage::membrane: return contestant.membrane && authority.membrane;
     case Stage::bending: return contestant.bending && authority.bending;
+    case Stage::spring: return contestant.spring && authority.spring;
     case Stage::step:
       return contestant.step && authority.step && authority.rest_state && authority.detect_vertex_facet && authority.detect_edge_edge && authority.bound &&
              authority.initial_guess && authority.truncate && authority.sweep;

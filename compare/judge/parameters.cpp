@@ -31,6 +31,8 @@ constexpr std::array membrane_parameters{ParameterInfo{"lambda", "first Lamé co
 constexpr std::array bending_parameters{ParameterInfo{"c", "stiffness of the hinge [J]", 0x1p-60f, 0x1p40f},
                                         ParameterInfo{"theta_0", "rest angle [rad]", -3.1415925f, 3.1415925f},
                                         ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
+constexpr std::array spring_parameters{ParameterInfo{"k_s", "stiffness of the spring [N/m]", 0x1p-30f, 0x1p40f},
+                                       ParameterInfo{"l_0", "rest length [m]", 0, most}, ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
 constexpr std::array sweep_parameters{radius, larger_radius, time_step, relaxation, stiffness, friction};
 constexpr std::array step_parameters{radius, time_step, relaxation, stiffness, friction};
 
@@ -46,6 +48,7 @@ struct Place {
   float* operator()(FrictionForceCase& c) const { return name == "mu" ? &c.friction : name == "slip" ? &c.slip_limit : (*this)(c.contact); }
   float* operator()(MembraneCase& c) const { return name == "lambda" ? &c.lame_lambda : name == "G" ? &c.lame_mu : &c.damping; }
   float* operator()(BendingCase& c) const { return name == "c" ? &c.stiffness : name == "theta_0" ? &c.rest_angle : &c.damping; }
+  float* operator()(SpringCase& c) const { return name == "k_s" ? &c.stiffness : name == "l_0" ? &c.rest_length : &c.damping; }
   template <class Other>
   float* operator()(Other&) const {
     return nullptr;
@@ -94,6 +97,7 @@ std::span<const ParameterInfo> parameters(Stage stage) {
     case Stage::friction_force: return friction_parameters;
     case Stage::membrane: return membrane_parameters;
     case Stage::bending: return bending_parameters;
+    case Stage::spring: return spring_parameters;
     case Stage::sweep: return sweep_parameters;
     case Stage::step: return step_parameters;
     default: return {};

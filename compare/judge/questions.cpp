@@ -29,6 +29,7 @@ ActivationIn activation_question(Cases cases) {
     in.distance.push_back(c.distance);
     in.contact_radius.push_back(c.contact_radius);
     in.stiffness.push_back(c.stiffness);
+    in.activation.push_back(c.activation);
   }
   return in;
 }

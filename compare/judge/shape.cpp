@@ -71,6 +71,11 @@ struct Builder {
     shape.triangles = {{0, 1, 2}, {1, 0, 3}};
     shape.dots.push_back(c.own);
   }
+  void operator()(const SpringCase& c) {
+    add_all(c.vertex);
+    shape.lines = {{0, 1}};
+    shape.dots.push_back(0);
+  }
   void operator()(const ContactForceCase& c) {
     const auto count = static_cast<std::size_t>(vertex_count(c.sides));
     add_all(std::vector<Vec3f>(c.vertex.begin(), c.vertex.begin() + static_cast<std::ptrdiff_t>(count)));

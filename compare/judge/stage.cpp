@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::array<std::string_view, all_stages.size()> names{
     "rest_state", "closest_face", "closest_points", "block", "detect_vertex_facet", "detect_edge_edge", "bound", "initial_guess",
-    "activation", "contact_force", "friction_force", "membrane", "bending", "sweep", "truncate", "step"};
+    "activation", "contact_force", "friction_force", "membrane", "bending", "spring", "sweep", "truncate", "step"};
 
 }  // namespace
 
@@ -31,6 +31,15 @@ bool is_mesh_stage(Stage stage) {
   }
 }
 
-bool is_force_stage(Stage stage) { return stage == Stage::contact_force || stage == Stage::friction_force || stage == Stage::membrane || stage == Stage::bending; }
+bool is_force_stage(Stage stage) {
+  switch (stage) {
+    case Stage::contact_force:
+    case Stage::friction_force:
+    case Stage::membrane:
+    case Stage::bending:
+    case Stage::spring: return true;
+    default: return false;
+  }
+}
 
 }  // namespace ogc::compare

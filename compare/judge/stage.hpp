@@ -11,13 +11,13 @@ namespace ogc::compare {
 /// In the order of a step.
 enum class Stage : std::uint8_t {
   rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound, initial_guess, activation,
-  contact_force, friction_force, membrane, bending, sweep, truncate, step
+  contact_force, friction_force, membrane, bending, spring, sweep, truncate, step
 };
 
-inline constexpr std::array<Stage, 16> all_stages{
+inline constexpr std::array<Stage, 17> all_stages{
     Stage::rest_state, Stage::closest_face, Stage::closest_points, Stage::block, Stage::detect_vertex_facet,
     Stage::detect_edge_edge, Stage::bound, Stage::initial_guess, Stage::activation, Stage::contact_force, Stage::friction_force,
-    Stage::membrane, Stage::bending, Stage::sweep, Stage::truncate, Stage::step};
+    Stage::membrane, Stage::bending, Stage::spring, Stage::sweep, Stage::truncate, Stage::step};
 
 /// "closest_face" …
 std::string_view stage_name(Stage stage);

@@ -124,6 +124,7 @@ FrictionForceCase States::contact(const State& state, Random& random) const {
   const Material& material = scene_->bodies.front().material;
   c.contact.contact_radius = contact_radius_;
   c.contact.stiffness = static_cast<float>(material.contact_stiffness);
+  c.contact.activation = scene_->settings.activation;
   c.friction = static_cast<float>(material.friction);
   c.slip_limit = static_cast<float>(scene_->settings.friction_velocity * h);
   return c;

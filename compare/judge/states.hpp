@@ -16,9 +16,9 @@ class States {
  public:
   /// Throws InputError where the folder is no run or holds no frame.
   explicit States(const std::filesystem::path& folder);
-  /// Whether the run has cases for the stage: activation, membrane and bending have no state, closest_face needs triangles.
+  /// Whether the run has cases for the stage: activation, membrane, bending and spring have no state, closest_face needs triangles.
   bool has(Stage stage) const {
-    if (stage == Stage::activation || stage == Stage::membrane || stage == Stage::bending) return false;
+    if (stage == Stage::activation || stage == Stage::membrane || stage == Stage::bending || stage == Stage::spring) return false;
     return stage != Stage::closest_face || !topology_->triangles.empty();
   }
   /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError where `has` says no.

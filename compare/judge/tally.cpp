@@ -50,13 +50,15 @@ constexpr std::array<MetricInfo, 3> step_metrics{{{"query_radius", "u r_q", step
                                                   {"velocity", "u |x − xᵗ|/h", step_velocity_tolerance}}};
 constexpr std::array<MetricInfo, 1> sweep_metrics{{{"position", "accepted error", 1}}};
 constexpr std::array<MetricInfo, 2> bending_metrics{{{"force", "u cond", bending_force_tolerance}, {"block", "u cond", bending_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> spring_metrics{{{"force", "u cond", spring_force_tolerance}, {"block", "u cond", spring_block_tolerance}}};
 
-constexpr std::array<MetricInfo, 7> rest_state_metrics{{{"mass", "u cond", rest_state_tolerance},
+constexpr std::array<MetricInfo, 8> rest_state_metrics{{{"mass", "u cond", rest_state_tolerance},
                                                         {"area", "u cond", rest_state_tolerance},
                                                         {"gradient", "u cond", rest_state_tolerance},
                                                         {"edge_length_squared", "u cond", rest_state_tolerance},
                                                         {"rest_angle", "u cond", rest_state_angle_tolerance},
                                                         {"stiffness", "u cond", rest_state_tolerance},
+                                                        {"weight", "u cond", rest_state_tolerance},
                                                         {"meeting", "u value", rest_state_tolerance}}};
 constexpr std::array<MetricInfo, 2> initial_guess_metrics{{{"target", "u scale", initial_guess_target_tolerance},
                                                            {"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
@@ -115,6 +117,7 @@ std::span<const MetricInfo> metrics(Stage stage) {
     case Stage::friction_force: return friction_metrics;
     case Stage::membrane: return membrane_metrics;
     case Stage::bending: return bending_metrics;
+    case Stage::spring: return spring_metrics;
     case Stage::sweep: return sweep_metrics;
     case Stage::step: return step_metrics;
     default: return truncate_metrics;

@@ -12,7 +12,7 @@ namespace ogc::compare {
 namespace {
 
 /// The numbers of the metrics of rest_state, in the order of tally.cpp.
-enum Metric : std::size_t { of_mass, of_area, of_gradient, of_edge_length_squared, of_rest_angle, of_stiffness, of_meeting };
+enum Metric : std::size_t { of_mass, of_area, of_gradient, of_edge_length_squared, of_rest_angle, of_stiffness, of_weight, of_meeting };
 
 /// Whether θ₀ cannot be told from its turn by 2π.
 bool is_folded(double angle, double scale) { return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi; }
@@ -89,6 +89,10 @@ class RestVerdict {
     const bool is_turned = is_folded(exact, scale) && std::abs(angle - turned) < std::abs(angle - exact);
     one(of_rest_angle, "hinge", i, angle, is_turned ? turned : exact, scale);
     one(of_stiffness, "hinge", i, out_.hinges[i].stiffness, truth_.stiffness[i], truth_.stiffness_scale[i]);
+    const auto &weight = out_.hinges[i].weight;
+    const auto &right = truth_.weight[i];
+    error(of_weight, "weights of hinge", i, std::hypot(weight[0] - right[0], weight[1] - right[1], weight[2] - right[2]), truth_.weight_scale[i],
+          std::hypot(weight[0], weight[1], weight[2]), std::hypot(right[0], right[1], right[2]));
   }
 
   const RestStateTruth& truth_;

@@ -22,6 +22,7 @@
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/rest_state.hpp"
+#include "compare/stages/spring.hpp"
 #include "compare/stages/step.hpp"
 #include "compare/stages/sweep.hpp"
 #include "compare/stages/truncate.hpp"
@@ -124,6 +125,7 @@ struct Contestant {
   std::function<TruncateOut(const TruncateIn&)> truncate;
   std::function<ForceOut(const MembraneIn&)> membrane;
   std::function<ForceOut(const BendingIn&)> bending;
+  std::function<ForceOut(const SpringIn&)> spring;
   std::function<ForceOut(const ContactForceIn&)> contact_force;
   std::function<ForceOut(const FrictionForceIn&)> friction_force;
   std::function<BlockOut(const BlockIn&)> block;
@@ -146,6 +148,7 @@ struct Authority {
   std::function<TruncateTruth(const TruncateIn&)> truncate;
   std::function<ForceTruth(const MembraneIn&)> membrane;
   std::function<ForceTruth(const BendingIn&)> bending;
+  std::function<ForceTruth(const SpringIn&)> spring;
   std::function<ForceTruth(const ContactForceIn&)> contact_force;
   std::function<ForceTruth(const FrictionForceIn&)> friction_force;
   std::function<BlockTruth(const BlockIn&)> block;

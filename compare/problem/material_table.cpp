@@ -19,8 +19,8 @@ constexpr std::array<MaterialInfo, 8> table{{
     {"friction", "1", "μ_c; two surfaces meet with the arithmetic mean", 0, 0x1p10, &Material::friction},
 }};
 
-constexpr std::array<std::string_view, 2> membrane_names{"none", "st_venant_kirchhoff"};
-constexpr std::array<std::string_view, 2> bending_names{"none", "discrete_hinge"};
+constexpr std::array<std::string_view, 3> membrane_names{"none", "st_venant_kirchhoff", "stable_neo_hookean"};
+constexpr std::array<std::string_view, 3> bending_names{"none", "discrete_hinge", "isometric_quadratic"};
 
 }  // namespace
 

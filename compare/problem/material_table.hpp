@@ -18,9 +18,9 @@ struct MaterialInfo {
 /// All constants, in the order of the struct. Ranges keep squares and products of two of them finite and normal in single precision.
 std::span<const MaterialInfo> material_table();
 
-/// Name of a model in scene files: "none", "st_venant_kirchhoff".
+/// Name of a model in scene files: "none", "st_venant_kirchhoff", "stable_neo_hookean".
 std::string_view name_of(MembraneModel model);
-/// Name of a model in scene files: "none", "discrete_hinge".
+/// Name of a model in scene files: "none", "discrete_hinge", "isometric_quadratic".
 std::string_view name_of(BendingModel model);
 /// All names, in the order of the enumeration.
 std::span<const std::string_view> membrane_model_names();

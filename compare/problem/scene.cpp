@@ -67,6 +67,9 @@ void round_to_single(Scene& scene) {
   for (Body& body : scene.bodies) {
     for (const MaterialInfo& info : material_table()) body.material.*info.field = rounded(body.material.*info.field);
   }
+  for (Spring& spring : scene.springs) {
+    for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping}) *number = rounded(*number);
+  }
   scene.gravity = rounded(scene.gravity);
   for (const SettingInfo& info : setting_table()) {
     if (const auto* field = std::get_if<double Settings::*>(&info.field)) scene.settings.**field = rounded(scene.settings.**field);

@@ -11,8 +11,8 @@
 
 namespace ogc::compare {
 
-enum class MembraneModel { none, st_venant_kirchhoff };
-enum class BendingModel { none, discrete_hinge };
+enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };
+enum class BendingModel { none, discrete_hinge, isometric_quadratic };
 
 /// Constants of one body's surface (scenes.md, "Materials of the cloth scenes").
 struct Material {
@@ -20,7 +20,7 @@ struct Material {
   MembraneModel membrane = MembraneModel::st_venant_kirchhoff;
   double lame_mu = 10, lame_lambda = 10;  ///< plane-stress Lamé constants times thickness [N/m]
   BendingModel bending = BendingModel::discrete_hinge;
-  double bending_stiffness = 5e-7;      ///< k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)² [J]
+  double bending_stiffness = 5e-7;      ///< k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², isometric: of k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖² [J]
   double membrane_damping = 0;          ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
   double bending_damping = 0;           ///< the same for θ − θᵗ [s]
   double contact_stiffness = 100;       ///< k_c [N/m]; two surfaces meet with the harmonic mean
@@ -50,6 +50,15 @@ struct PrescribedMotion {
   friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
+/// A spring between two vertices, of any two bodies: k/2 (l − l₀)², and k_d/h · k/2 (l − lᵗ)² of damping. It is no edge of the mesh and takes no part in contact.
+struct Spring {
+  Index first = -1, second = -1;        ///< vertices, not the same
+  double stiffness = 0;                 ///< k [N/m]
+  double rest_length = 0;               ///< l₀ [m]
+  double damping = 0;                   ///< k_d [s]
+  friend bool operator==(const Spring&, const Spring&) = default;
+};
+
 struct Scene {
   std::string name;
   Mesh mesh;                          ///< start positions X⁰ [m] of all bodies
@@ -57,6 +66,7 @@ struct Scene {
   std::vector<Vec3> velocities;       ///< V⁰ [m/s]; same length
   std::vector<Body> bodies;           ///< cover all vertices and triangles, in order
   std::vector<PrescribedMotion> motions;
+  std::vector<Spring> springs;
   Vec3 gravity{0, -9.81, 0};          ///< [m/s²]
   Settings settings;
   friend bool operator==(const Scene&, const Scene&) = default;

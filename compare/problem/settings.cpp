@@ -17,11 +17,12 @@ constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
 constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
-constexpr std::array<std::string_view, 5> activation_names{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
+constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
+constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 2> adaptation_names{"distance", "gap"};
 constexpr std::array<std::string_view, 2> stopping_names{"displacement", "velocity"};
 
-constexpr std::array<SettingInfo, 28> table{{
+constexpr std::array<SettingInfo, 29> table{{
     {"time_step", "s", "h", 0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "steps of the run", 0, most_count, &Settings::steps},
     {"iterations", "1", "sweeps a step", 1, most_count, &Settings::iterations},
@@ -39,7 +40,8 @@ constexpr std::array<SettingInfo, 28> table{{
     {"newton_step_tolerance", "m/s", "Newton: converged, too, where no vertex wants to move faster than this", 0, 0x1p10, &Settings::newton_step_tolerance},
     {"friction_solves", "1", "Newton: solves a step, each with friction lagged to the one before", 1, 1 << 20, &Settings::friction_solves},
     {"projection", "1", "Newton: what becomes of negative eigenvalues of a stencil's Hessian", 0, 2, &Settings::projection, projection_names},
-    {"activation", "1", "Newton: contact energy over distance", 0, 4, &Settings::activation, activation_names},
+    {"activation", "1", "contact energy over distance", 0, 4, &Settings::activation, activations},
+    {"damping", "1", "damping acts on the change of strains, or on the motion of each vertex alone (vbd)", 0, 1, &Settings::damping, damping_forms},
     {"ipc_distance", "m", "IPC: barrier distance; 0: by ipc_relative_distance", 0, most_length, &Settings::ipc_distance},
     {"ipc_relative_distance", "1", "IPC: barrier distance in diagonals of the rest box", least_length, 1, &Settings::ipc_relative_distance},
     {"ipc_thickness", "m", "IPC: the distance that surfaces keep at least", 0, most_length, &Settings::ipc_thickness},
@@ -94,6 +96,10 @@ void set_choice(Settings& settings, const SettingInfo& info, std::string_view va
 }  // namespace
 
 std::span<const SettingInfo> setting_table() { return table; }
+
+std::span<const std::string_view> activation_names() { return activations; }
+
+std::span<const std::string_view> damping_form_names() { return damping_forms; }
 
 std::string describe_range(const SettingInfo& info) {
   if (!info.choices.empty()) return "one of " + joined(info.choices) + " (" + std::string(info.meaning) + ")";

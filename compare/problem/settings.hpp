@@ -19,6 +19,12 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 enum class IpcAdaptation : std::int64_t { distance, gap };
 /// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), or root mean square of ‖p_v‖/h of the last three iterations (2021).
 enum class IpcStopping : std::int64_t { displacement, velocity };
+/// What stiffness-proportional damping acts on (method.md §4): the change of a stencil's strain, or each vertex's own motion through its own block.
+enum class DampingForm : std::int64_t { strain, per_vertex };
+
+/// Names of the activations and damping forms, in the order of the enumerations.
+std::span<const std::string_view> activation_names();
+std::span<const std::string_view> damping_form_names();
 
 struct Settings {
   double time_step = 0.01;                    ///< h [s]
@@ -38,7 +44,8 @@ struct Settings {
   double newton_step_tolerance = 0;           ///< Newton: a step has also converged where no vertex wants to move faster than this [m/s]
   std::int64_t friction_solves = 1;           ///< Newton: solves a step, each with friction lagged to the one before
   HessianProjection projection = HessianProjection::clamp;   ///< Newton: of each stencil's Hessian
-  ContactActivation activation = ContactActivation::ogc;     ///< Newton: contact energy over distance
+  ContactActivation activation = ContactActivation::ogc;     ///< contact energy over distance
+  DampingForm damping = DampingForm::strain;                 ///< `per_vertex`, the authors' form, brakes translation, too
   double ipc_distance = 0;                    ///< IPC: barrier distance d̂ [m]; 0: by ipc_relative_distance
   double ipc_relative_distance = 1e-3;        ///< IPC: d̂ in units of the rest box's diagonal
   double ipc_thickness = 0;                   ///< IPC: ξ, the distance that surfaces keep at least [m]
@@ -56,8 +63,8 @@ struct Settings {
 struct SettingInfo {
   std::string_view name, unit, meaning;
   double minimum, maximum;  ///< inclusive
-  std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*, ContactActivation Settings::*, IpcAdaptation Settings::*,
-               IpcStopping Settings::*>
+  std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
+               IpcAdaptation Settings::*, IpcStopping Settings::*>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };

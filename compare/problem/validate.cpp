@@ -125,6 +125,23 @@ void check_motions(std::vector<Problem>& problems, const Scene& scene, bool cove
   }
 }
 
+/// Ranges as in the table of material constants.
+void check_springs(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+  ProblemSort unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
+  ProblemSort range(problems, limit, "has a number out of range",
+                    "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ s, none below 0");
+  const auto count = static_cast<Index>(scene.mesh.positions.size());
+  const auto within = [](double x, double most) { return x >= 0 && x <= most; };
+  for (std::size_t i = 0; i < scene.springs.size(); ++i) {
+    const Spring& s = scene.springs[i];
+    const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
+    if (!known) unknown.add(numbered("spring", i), std::to_string(s.first) + ", " + std::to_string(s.second));
+    const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
+    if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
+      range.add(numbered("spring", i), shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
+  }
+}
+
 bool check_lengths(std::vector<Problem>& problems, const Scene& scene) {
   const std::size_t expected = scene.mesh.positions.size();
   const auto check = [&](const char* name, std::size_t count) {
@@ -161,6 +178,7 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit) {
   const bool covered = check_cover(problems, scene);
   if (covered && indices_are_valid) check_ownership(problems, scene, limit);
   check_motions(problems, scene, covered, limit);
+  check_springs(problems, scene, limit);
   return problems;
 }
 

@@ -77,6 +77,7 @@ Json scene_json(const Manifest& manifest, const Scene& scene) {
           {"vertices", scene.mesh.positions.size()},
           {"triangles", scene.mesh.triangles.size()},
           {"loose_edges", scene.mesh.loose_edges.size()},
+          {"springs", scene.springs.size()},
           {"gravity", {{"value", {scene.gravity.x, scene.gravity.y, scene.gravity.z}}, {"unit", "m/s²"}}},
           {"bodies", bodies_json(scene)}};
 }

@@ -1,6 +1,7 @@
 // Stage contact_force: normal force and block of one vertex of one contact (Eq. 1, 16, 18 with Eq. 19 corrected; method.md §3, §4).
 #pragma once
 
+#include "compare/problem/settings.hpp"
 #include "compare/stages/force.hpp"
 
 namespace ogc::compare {
@@ -18,7 +19,7 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
   return sides == ContactSides::point_point ? 2 : sides == ContactSides::point_edge ? 3 : 4;
 }
 
-/// E = e_k g(d), d the distance of the contact points: the closest points of the closed faces, for nearly parallel edges those of closest_points. Force
+/// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the closest points of the closed faces, for nearly parallel edges those of closest_points. Force
 /// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) w² n nᵀ (method.md §4). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
 /// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and force and block are 0. e_k = q(2 − q), q = c/ε for c < ε, else 1, with
 /// c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for other sides and where the rest lengths are 0.
@@ -33,6 +34,7 @@ struct ContactForceCase {
   std::array<Vec3f, 4> detected;            ///< x at the last detection [m], for e_k
   std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 in meshes without triangles, where nothing is mollified
   float contact_radius = 0, stiffness = 0;  ///< r [m], k_c [N/m]
+  ContactActivation activation = ContactActivation::ogc;
 };
 
 struct ContactForceIn {
@@ -42,13 +44,14 @@ struct ContactForceIn {
 /// In units of u · scale. On the longest way from an input to the force lie a difference (1), the first parameter of two edges (two cross products (4), their
 /// product (3) over the square of the one (2 + 3), a quotient (1)), from it the second (two products of vectors (6), a product, a difference, a quotient
 /// (3), the other square (3)), its complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the normal (2), the slope
-/// (4), its products with weight and normal (2): 42. e_k comes another way: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q),
+/// (4; of ipc_log 9), its products with weight and normal (2): 47. e_k comes another way: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q),
 /// its product with k_c: 15.
-inline constexpr double contact_force_tolerance = 42;
-/// As far as the normal 36, the curvature (5), w² and its product (2), an outer product (2).
-inline constexpr double contact_block_tolerance = 45;
+inline constexpr double contact_force_tolerance = 47;
+/// As far as the normal 36, the curvature (5; of ipc_log 8), w² and its product (2), an outer product (2).
+inline constexpr double contact_block_tolerance = 48;
 /// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a root (1), twice for weights that are
-/// not quite those of the closest points. Contacts within it of r, of another feature or of touching are grey. Where they cannot be told from touching,
+/// not quite those of the closest points. Contacts within it of r, of another feature, of touching or, with
+/// ogc_as_printed, of the jump at τ are grey. Where they cannot be told from touching,
 /// neither distance nor normal is known: any answer within that of d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 

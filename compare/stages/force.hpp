@@ -26,6 +26,9 @@ struct ForceAnswer {
   double force_scale = 0, block_scale = 0;
 };
 
+/// A force with `per_vertex` damping is known as well as the block, and the motion (1), the product of matrix and vector (3) and a sum on top of it.
+inline constexpr double per_vertex_additions = 5;
+
 /// accepted[i][0] is the exact answer of case i; more than one where the case is grey: an answer on the other side of a jump.
 struct ForceTruth {
   std::vector<std::vector<ForceAnswer>> accepted;

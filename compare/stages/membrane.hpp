@@ -1,12 +1,25 @@
-// Stage membrane: St. Venant–Kirchhoff force and block of one corner of one triangle, damping included (method.md §4, scenes.md).
+// Stage membrane: force and block of one corner of one triangle, damping included (method.md §4, scenes.md). Two models: St. Venant–Kirchhoff, and stable
+// Neo-Hookean (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C − d) − μ (J − 1) + λ'/2 (J − 1)²) on a membrane's F, which is 3×2: d = 2, J is the ratio of areas,
+// and λ' = λ + μ makes its stiffness at rest that of St. Venant–Kirchhoff with the same λ, μ.
 #pragma once
 
+#include "compare/problem/scene.hpp"
 #include "compare/stages/force.hpp"
 
 namespace ogc::compare {
 
-/// E = A (ψ(G) + k ψ(G − Gᵗ)), ψ(G) = λ/2 tr(G)² + μ ‖G‖², G = (FᵀF − I)/2, F = Σ x_k ∇N_kᵀ. Asked about corner 0.
-/// Block: A (1 + k) times the second derivative of ψ along the derivatives of G, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S.
+/// F = Σ x_k ∇N_kᵀ = (f₁ f₂), G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². Asked about corner 0; with model `none` force and block are 0.
+///
+/// E = A (ψ + k ϕ(G − Gᵗ)). St. Venant–Kirchhoff: ψ = ϕ(G). Stable Neo-Hookean: ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖.
+///
+/// Block. Damping: A k times the second derivative of ϕ along the derivatives of G. St. Venant–Kirchhoff: likewise with A, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the
+/// elastic stress S. Stable Neo-Hookean: the exact second derivative, A (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with b = ‖∇N₀‖,
+/// t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ = t × n, n = f₁ × f₂/J, of which only the eigenvalue along the normal n can be negative: it counts as max(0, ·).
+///
+/// With `per_vertex` damping the energy is A ψ alone; with B, its block, and moved = x₀ − xᵗ₀ the force is less k B moved, and the block (1 + k) B.
+///
+/// A triangle that has collapsed (f₁ × f₂ = 0) has no normal: J is then taken to have no derivatives, and the block is A μ b² I. Where f₁ × f₂ cannot be told
+/// from 0, any normal is accepted.
 struct MembraneCase {
   std::array<Vec3f, 3> corner;                    ///< x [m]; a collapsed triangle is legal
   std::array<Vec3f, 3> start;                     ///< xᵗ [m], of Gᵗ
@@ -14,6 +27,8 @@ struct MembraneCase {
   float area = 0;                                 ///< A [m²]
   float lame_lambda = 0, lame_mu = 0;             ///< [N/m]
   float damping = 0;                              ///< k = k_d/h [1]
+  MembraneModel model = MembraneModel::st_venant_kirchhoff;
+  DampingForm damping_form = DampingForm::strain;
 };
 
 struct MembraneIn {
@@ -25,5 +40,13 @@ struct MembraneIn {
 inline constexpr double membrane_force_tolerance = 24;
 /// F (3), twice; with ∇N₀ (1 + 2), twice; an outer product (2), a weight (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
+/// Of the stable Neo-Hookean model, whose units of error are this much larger (its scales are multiplied by the ratio to the tolerances above): F (3), n (F twice,
+/// a product, a difference: 8), J (the root of a square: 8 + 2 + 1), (λ + μ)(J − 1) − μ (4), and beside it g: t (F, ∇N₀, a product, a difference: 6), n (8), 1/J
+/// (11 + 1), a cross product and its scaling (3); the product of both (1), two sums, the area (1): 48.
+inline constexpr double neo_hookean_force_tolerance = 48;
+/// (λ + μ)(J − 1) − μ (15), t² (2 · 6 + 3), 1/J (12), products and the sum (4), n twice (2 · 20), an outer product (2), area and sums (3): 91.
+inline constexpr double neo_hookean_block_tolerance = 91;
+/// f₁ × f₂ is known to this many units of u · scale: two differences, two F (2 each), a product and a difference, twice for the cancellation of ∇N₀.
+inline constexpr double neo_hookean_grey = 16;
 
 }  // namespace ogc::compare

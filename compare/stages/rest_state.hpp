@@ -21,6 +21,9 @@ struct RestHinge {
   Index body = -1;
   float rest_angle = 0;           ///< θ₀ [rad], as θ of compare/stages/bending.hpp
   float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
+  /// Of the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) = −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖,
+  /// w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ of the sums K of cotangents.
+  std::array<float, 3> weight{};
 };
 
 /// Two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
@@ -45,7 +48,7 @@ struct RestStateOut {
 };
 
 /// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one vertex. `gradient` units are of
-/// ∇N₁, ∇N₂; a mass's is the sum of those of its triangles; a meeting's is its value.
+/// ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its triangles; a meeting's is its value.
 struct RestStateTruth {
   RestStateOut exact;  ///< correctly rounded
   std::vector<double> mass, mass_scale;
@@ -53,6 +56,8 @@ struct RestStateTruth {
   std::vector<std::array<std::array<double, 2>, 2>> gradient;
   std::vector<std::array<double, 2>> gradient_scale;
   std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;  ///< where |θ₀| is within its error of π either sign is accepted
+  std::vector<std::array<double, 3>> weight;
+  std::vector<double> weight_scale;
   std::vector<double> meeting_stiffness, meeting_friction;
 };
 

@@ -13,14 +13,15 @@
 
 namespace ogc::compare {
 
-/// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, contact and friction as in the stages of these names. Prescribed
+/// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's), contact and friction as in the stages of
+/// these names. Prescribed
 /// vertices (`is_prescribed`) go to y, truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at
 /// its old one; own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded at most once.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
   const Topology* topology = nullptr;
   const RestStateOut* rest = nullptr;
-  std::span<const Index> colour;       ///< by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil share one
+  std::span<const Index> colour;       ///< by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil or of a spring share one
   std::span<const Vec3f> old, start, target, previous;  ///< x, xᵗ, y, X_prev [m]; contacts were found at X_prev
   std::span<const float> bound;                         ///< b_v [m]
   std::span<const VertexFacetContact> vertex_facet;     ///< canonical order
@@ -45,7 +46,8 @@ struct SweepTruth {
   Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
 };
 
-/// What the sweep adds to the tolerances of its stages, in their units u · scale: ∇N₀ of a triangle and k_d/h, ε_v h are rounded once by either side.
+/// What the sweep adds to the tolerances of its stages, in their units u · scale: ∇N₀ of a triangle, w(x0) of a hinge and k_d/h, ε_v h are rounded once by
+/// either side.
 inline constexpr double sweep_input_tolerance = 2;
 /// Additions of a stencil to the block, each rounded to u of a partial sum of moduli: at most four parts (membrane), the largest of which (friction's
 /// identity before the normal is taken out of it) is √(3/2) of the whole: less than 5. The force is added once.

@@ -13,9 +13,10 @@ using namespace ogc::compare;
 
 // One layout on both sides: a question's structures are the plug-in's.
 static_assert(sizeof(Vec3f) == sizeof(ogc_vec3));
-static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) && offsetof(MembraneCase, damping) == offsetof(ogc_membrane_case, damping));
-static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) && offsetof(BendingCase, own) == offsetof(ogc_bending_case, own));
-static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) && offsetof(ContactForceCase, stiffness) == offsetof(ogc_contact_force_case, stiffness));
+static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) && offsetof(MembraneCase, damping_form) == offsetof(ogc_membrane_case, damping_form));
+static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) && offsetof(BendingCase, damping_form) == offsetof(ogc_bending_case, damping_form));
+static_assert(sizeof(SpringCase) == sizeof(ogc_spring_case) && offsetof(SpringCase, damping_form) == offsetof(ogc_spring_case, damping_form));
+static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) && offsetof(ContactForceCase, activation) == offsetof(ogc_contact_force_case, activation));
 static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) && offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
 static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) && offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
 static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) && offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));
@@ -125,7 +126,7 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
 }
 
 ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
-  const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness)};
+  const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness), bytes_of(in.activation)};
   const auto answer = plugin.ask("activation", sizes_of(in.distance.size()), inputs);
   ActivationOut out;
   Outputs(answer).to(out.energy, out.slope, out.curvature);
@@ -184,6 +185,7 @@ void visit_stages(Visit visit) {
   visit("friction_force", &Contestant::friction_force);
   visit("membrane", &Contestant::membrane);
   visit("bending", &Contestant::bending);
+  visit("spring", &Contestant::spring);
   visit("truncate", &Contestant::truncate);
 }
 
@@ -217,6 +219,7 @@ Contestant plugin_contestant(Plugin plugin) {
   c.friction_force = [plugin](const FrictionForceIn& in) { return ask_force(*plugin, "friction_force", in); };
   c.membrane = [plugin](const MembraneIn& in) { return ask_force(*plugin, "membrane", in); };
   c.bending = [plugin](const BendingIn& in) { return ask_force(*plugin, "bending", in); };
+  c.spring = [plugin](const SpringIn& in) { return ask_force(*plugin, "spring", in); };
   c.truncate = [plugin](const TruncateIn& in) { return ask_truncate(*plugin, in); };
   visit_stages([&](const char* name, auto member) {
     if (!plugin->has(name)) c.*member = nullptr;

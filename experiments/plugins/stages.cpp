@@ -69,7 +69,7 @@ int call_bound(void* function, CallArrays& a) {
 constexpr std::array activation_outputs{OutputInfo{"energy", Element::number, 1, Per::item}, OutputInfo{"slope", Element::number, 1, Per::item},
                                         OutputInfo{"curvature", Element::number, 1, Per::item}};
 int call_activation(void* function, CallArrays& a) {
-  const ogc_activation_in in{a.sizes.cases, a.in(), a.in(), a.in()};
+  const ogc_activation_in in{a.sizes.cases, a.in(), a.in(), a.in(), a.in()};
   ogc_activation_out out{a.out(), a.out(), a.out()};
   return call(function, in, out);
 }
@@ -112,11 +112,12 @@ constexpr std::array table{
     PluginStage{"detect_edge_edge", topology_inputs + 2, edge_outputs, call_detect_edge_edge},
     PluginStage{"bound", topology_inputs + 3, bound_outputs, call_bound},
     PluginStage{"initial_guess", 1, guess_outputs, call_initial_guess},
-    PluginStage{"activation", 3, activation_outputs, call_activation},
+    PluginStage{"activation", 4, activation_outputs, call_activation},
     PluginStage{"contact_force", 1, force_outputs, call_force<ogc_contact_force_in>},
     PluginStage{"friction_force", 1, force_outputs, call_force<ogc_friction_force_in>},
     PluginStage{"membrane", 1, force_outputs, call_force<ogc_membrane_in>},
     PluginStage{"bending", 1, force_outputs, call_force<ogc_bending_in>},
+    PluginStage{"spring", 1, force_outputs, call_force<ogc_spring_in>},
     PluginStage{"truncate", 3, truncate_outputs, call_truncate},
 };
 

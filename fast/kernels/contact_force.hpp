@@ -148,17 +148,17 @@ OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
   return {(1.0f / distance) * separation, distance, distance < radius};
 }
 
-/// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c r²/(4 d²) is 2⁴⁴ k_c, far above
-/// every other block and far below overflow. Nearer points feel the force of this distance.
+/// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far
+/// above every other block and far below overflow. Nearer points feel the force of this distance.
 OGC_HD inline float activation_distance(float distance, float radius) {
   const float least = 0x1p-23f * radius;
   return distance > least ? distance : least;
 }
 
 /// Adds the force and block of a vertex with weight w to `sum`. Returns the normal force λ = −g' ≥ 0 [N].
-OGC_HD inline float add_contact(const ContactShape& shape, float weight, float radius, float stiffness, ForceAndBlock& sum) {
+OGC_HD inline float add_contact(ContactActivation kind, const ContactShape& shape, float weight, float radius, float stiffness, ForceAndBlock& sum) {
   const float distance = activation_distance(shape.distance, radius);
-  const ActivationSlope activation = activation_slope(distance, radius, stiffness);
+  const ActivationSlope activation = activation_slope(kind, distance, radius, stiffness);
   sum.add_force(-activation.slope * weight, shape.normal);
   sum.add_outer(activation.curvature * (weight * weight), shape.normal);
   return -activation.slope;

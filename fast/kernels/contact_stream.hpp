@@ -118,12 +118,12 @@ struct ResolveContact {
 };
 
 /// Energy of a contact with plain indices [J]; e_k within the stiffness.
-OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position, float radius) {
+OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position, ContactActivation kind, float radius) {
   Vec x[4];
   for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
   const ContactShape shape = contact_shape(weighted_sum(contact_weights(contact.kind, x), x), radius);
   if (!shape.acts) return 0;
-  return activation_energy(activation_distance(shape.distance, radius), radius, contact.stiffness);
+  return activation_energy(kind, activation_distance(shape.distance, radius), radius, contact.stiffness);
 }
 
 /// Terms over records; how many there are is known on the device only.
@@ -131,10 +131,11 @@ struct VertexFacetTerm {
   ContactView view;
   ContactTables tables;
   const Vec* position;
+  ContactActivation kind;
   float radius;
 
   OGC_HD void operator()(int i, double* sum) const {
-    sum[sum_vertex_facet] += contact_energy(contact_of(tables, view.vertex_facet[i]), position, radius);
+    sum[sum_vertex_facet] += contact_energy(contact_of(tables, view.vertex_facet[i]), position, kind, radius);
   }
 };
 
@@ -142,10 +143,11 @@ struct EdgeEdgeTerm {
   ContactView view;
   ContactTables tables;
   const Vec* position;
+  ContactActivation kind;
   float radius;
 
   OGC_HD void operator()(int i, double* sum) const {
-    sum[sum_edge_edge] += contact_energy(contact_of(tables, view.edge_edge[i]), position, radius);
+    sum[sum_edge_edge] += contact_energy(contact_of(tables, view.edge_edge[i]), position, kind, radius);
   }
 };
 

@@ -2,6 +2,7 @@
 // seen from one corner. F = Σ x_k ∇N_kᵀ is 3×2; everything is written in differences to that corner, so that only relative coordinates are rounded.
 #pragma once
 
+#include "compare/problem/scene.hpp"
 #include "fast/kernels/accumulator.hpp"
 #include "fast/kernels/qualifiers.hpp"
 #include "fast/kernels/vector.hpp"
@@ -12,6 +13,13 @@ namespace ogc::fast {
 struct SurfaceMaterial {
   float lame_lambda = 0, lame_mu = 0;              ///< [N/m]
   float membrane_damping = 0, bending_damping = 0;
+};
+
+/// Which models a body has. Only scenes that have others than the default ones read it.
+struct SurfaceModels {
+  compare::MembraneModel membrane = compare::MembraneModel::st_venant_kirchhoff;
+  compare::BendingModel bending = compare::BendingModel::discrete_hinge;
+  compare::DampingForm damping = compare::DampingForm::strain;
 };
 
 struct TriangleRest {

@@ -7,7 +7,10 @@
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
+#include "fast/kernels/isometric.hpp"
 #include "fast/kernels/membrane.hpp"
+#include "fast/kernels/neo_hookean.hpp"
+#include "fast/kernels/spring.hpp"
 #include "fast/contact_view.hpp"
 
 namespace ogc::fast {
@@ -18,7 +21,7 @@ enum SumColumn : int {
   sum_gravity = 1,        ///< −Σ m a·x [J]
   sum_lost = 2,           ///< Σ m (x − y), three columns [kg m]
   sum_moved = 5,          ///< Σ m (y − xᵗ), three columns [kg m]
-  sum_membrane = 8, sum_bending = 9, sum_vertex_facet = 10, sum_edge_edge = 11,  ///< [J]
+  sum_membrane = 8, sum_bending = 9 /* springs included */, sum_vertex_facet = 10, sum_edge_edge = 11,  ///< [J]
   sum_columns = 12
 };
 
@@ -113,26 +116,45 @@ struct VertexTerm {
 struct TriangleTerm {
   const TriangleRest* triangles;
   const SurfaceMaterial* materials;
+  const SurfaceModels* models;
   const Vec* position;
 
   OGC_HD void operator()(int t, double* sum) const {
     const TriangleRest& rest = triangles[t];
     const Vec a = position[rest.corner[0]];
-    const Symmetric2 strain =
-        green_strain(deformation_gradient(position[rest.corner[1]] - a, position[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
-    sum[sum_membrane] += rest.area * membrane_energy_density(materials[rest.body], strain);
+    const DeformationGradient f = deformation_gradient(position[rest.corner[1]] - a, position[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]);
+    const bool neo_hookean = models[rest.body].membrane == compare::MembraneModel::stable_neo_hookean;
+    const SurfaceMaterial& material = materials[rest.body];
+    sum[sum_membrane] += rest.area * (neo_hookean ? neo_hookean_energy_density(material, f) : membrane_energy_density(material, green_strain(f)));
   }
 };
 
 struct HingeTerm {
   const HingeRest* hinges;
+  const HingeWeights* weights;  ///< read where a body bends isometrically
+  const SurfaceModels* models;
   const Vec* position;
 
   OGC_HD void operator()(int i, double* sum) const {
     const HingeRest& rest = hinges[i];
     const Vec base = position[rest.vertex[0]];
-    const HingeShape shape = hinge_shape(position[rest.vertex[1]] - base, position[rest.vertex[2]] - base, position[rest.vertex[3]] - base);
+    const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base, position[rest.vertex[3]] - base};
+    if (models[rest.body].bending == compare::BendingModel::isometric_quadratic) {
+      sum[sum_bending] += isometric_energy(rest, weights[i], to);
+      return;
+    }
+    const HingeShape shape = hinge_shape(to[0], to[1], to[2]);
     if (shape.defined) sum[sum_bending] += hinge_energy(rest, shape.angle);
+  }
+};
+
+struct SpringTerm {
+  const SpringRest* springs;
+  const Vec* position;
+
+  OGC_HD void operator()(int i, double* sum) const {
+    const SpringRest& rest = springs[i];
+    sum[sum_bending] += spring_energy(rest, spring_length(position[rest.end[0]] - position[rest.end[1]]));
   }
 };
 

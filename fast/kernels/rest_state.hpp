@@ -40,9 +40,11 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
   return rest;
 }
 
-/// Angle θ₀ [rad] between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in (−π, π], and 3‖e‖²/(A₀ + A₁) [1], e = x1 − x0.
+/// Angle θ₀ [rad] between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in (−π, π], and 3‖e‖²/(A₀ + A₁) [1], e = x1 − x0; weights of x1, o0 and o1
+/// in the isometric model [1/m]: sums of the cotangents of the angles at x0 and x1 over ‖e‖.
 struct RestHinge {
   double angle = 0, factor = 0;
+  double weight[3] = {};
 };
 
 /// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in fast/kernels/bending.hpp.
@@ -51,7 +53,11 @@ inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, co
   const RestVector normal_a = rest_cross(edge, a), normal_b = rest_cross(b, edge);
   RestHinge rest;
   rest.angle = std::atan2(-rest_length(edge) * rest_dot(normal_a, b), rest_dot(normal_a, normal_b));
-  rest.factor = 6 * rest_dot(edge, edge) / (rest_length(normal_a) + rest_length(normal_b));
+  const double length = rest_length(edge), area_a = rest_length(normal_a), area_b = rest_length(normal_b);
+  rest.factor = 6 * rest_dot(edge, edge) / (area_a + area_b);
+  rest.weight[0] = (rest_dot(edge, a) / area_a + rest_dot(edge, b) / area_b) / length;
+  rest.weight[1] = -length / area_a;
+  rest.weight[2] = -length / area_b;
   return rest;
 }
 

@@ -58,6 +58,11 @@ struct ContactRow {
   int begin = 0, vertex_facet = 0, count = 0;
 };
 
+struct SpringIncidence;
+struct SpringRow;
+struct IsometricStencil;
+struct SurfaceModels;
+
 /// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
@@ -80,6 +85,12 @@ struct SweepView {
   StepControl* control = nullptr;
   float radius = 0;          ///< r [m]
   float friction_limit = 0;  ///< ε_v h [m]
+  // Read by GatherEveryModel alone (sweep_models.hpp).
+  const SurfaceModels* models = nullptr;        ///< by body
+  const IsometricStencil* isometric = nullptr;  ///< beside `hinges`; null where no body has the model
+  const SpringRow* spring_rows = nullptr;      ///< by slot; null where there is no spring
+  const SpringIncidence* springs = nullptr;
+  ContactActivation activation = ContactActivation::ogc;
 
   OGC_HD Vec read(int index) const { return (index < 0 ? fresh : old)[decoded(index)]; }
 };
@@ -158,29 +169,38 @@ OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const
   add_friction(at.shape.normal, relative, at.weight, incidence.friction, normal_force, limit, sum);
 }
 
-OGC_HD inline void add_contact_incidence(const SweepView& view, const ContactIncidence& incidence, const ContactReads& reads, ForceAndBlock& sum) {
+OGC_HD inline void add_contact_incidence(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence, const ContactReads& reads,
+                                         ForceAndBlock& sum) {
   const ContactAt at(incidence, reads, view.radius);
   if (!at.acts()) return;
-  const float normal_force = add_contact(at.shape, at.weight, view.radius, incidence.stiffness, sum);
+  const float normal_force = add_contact(kind, at.shape, at.weight, view.radius, incidence.stiffness, sum);
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, sum);
 }
 
-/// The sum over all stencils of one vertex, inertia left out, in four parts: triangles, hinges, vertex–facet contacts, edge–edge contacts.
-template <class Team>
-OGC_HD ForceAndBlock gather(const SweepView& view, const SweepVertex& vertex, const ContactRow& row, const Vec& own, const Team& team) {
-  const SurfaceMaterial material = view.materials[vertex.body];
-  const auto load_contact = [&view, begin = row.begin](int k) { return view.contacts[begin + k]; };
-  const auto load_edge_edge = [&view, begin = row.begin + row.vertex_facet](int k) { return view.contacts[begin + k]; };
-  const auto add_one = [&view](const ContactIncidence& contact, ForceAndBlock& sum) { add_contact_incidence(view, contact, read_contact(view, contact), sum); };
-  return team.template sum<ForceAndBlock>(
-      part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
-           [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
-             add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, own, sum);
-           }),
-      part(vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
-           [&](const HingeIncidence& hinge, ForceAndBlock& sum) { add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum); }),
-      part(row.vertex_facet, load_contact, add_one), part(row.count - row.vertex_facet, load_edge_edge, add_one));
-}
+/// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St. Venant–Kirchhoff, discrete hinges, activation `ogc`, damping
+/// of strains, no springs), in four parts: triangles, hinges, vertex–facet contacts, edge–edge contacts.
+struct GatherDefault {
+  static constexpr int parts = 4;
+
+  template <class Team>
+  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
+    const ContactRow row = view.contact_rows[slot];
+    const SurfaceMaterial material = view.materials[vertex.body];
+    const auto load_contact = [&view, begin = row.begin](int k) { return view.contacts[begin + k]; };
+    const auto load_edge_edge = [&view, begin = row.begin + row.vertex_facet](int k) { return view.contacts[begin + k]; };
+    const auto add_one = [&view](const ContactIncidence& contact, ForceAndBlock& sum) {
+      add_contact_incidence(view, ContactActivation::ogc, contact, read_contact(view, contact), sum);
+    };
+    return team.template sum<ForceAndBlock>(
+        part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
+             [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
+               add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, own, sum);
+             }),
+        part(vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
+             [&](const HingeIncidence& hinge, ForceAndBlock& sum) { add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum); }),
+        part(row.vertex_facet, load_contact, add_one), part(row.count - row.vertex_facet, load_edge_edge, add_one));
+  }
+};
 
 /// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written: the vertex stays and the step fails.
 OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const Vec& previous, float bound) {
@@ -195,19 +215,19 @@ OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& prop
 }
 
 /// for_each_team over the slots of one colour.
+template <class Gather>
 struct UpdateVertex {
-  static constexpr int parts = 4;  ///< of its sum
+  static constexpr int parts = Gather::parts;  ///< of its sum
   SweepView view;
   int first_slot = 0;
 
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {
     const SweepVertex vertex = view.vertices[first_slot + i];
-    const ContactRow row = view.contact_rows[first_slot + i];
     const int v = vertex.vertex;
     const Vec own = view.old[v], target = view.target[v], previous = view.previous[v];
     const float bound = view.bound[v];
-    ForceAndBlock total = gather(view, vertex, row, own, team);
+    ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
     if (!team.leader()) return;
     add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);

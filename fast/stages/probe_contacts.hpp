@@ -22,6 +22,7 @@ struct ContactBatch {
   std::vector<float> rest_squared, radius, slip_limit;
   std::vector<int> body, role;
   std::vector<std::uint8_t> is_edge_edge;
+  std::vector<ContactActivation> activation;
 };
 
 /// Adds a case and its friction.
@@ -36,6 +37,7 @@ struct ProbeContact {
   const float *radius, *slip_limit;
   const int* role;
   const std::uint8_t* is_edge_edge;
+  const ContactActivation* activation;
   bool friction;  ///< of friction alone, or of the normal force alone
   ForceArrays out;
 
@@ -50,7 +52,7 @@ struct ProbeContact {
     const ContactAt at(incidence, reads, here.radius);
     if (at.acts()) {
       ForceAndBlock normal;
-      const float normal_force = add_contact(at.shape, at.weight, here.radius, incidence.stiffness, normal);
+      const float normal_force = add_contact(activation[i], at.shape, at.weight, here.radius, incidence.stiffness, normal);
       if (friction) add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
       else sum = normal;
     }
@@ -72,7 +74,7 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   backend.for_each(static_cast<int>(n),
                    ProbeContact{view, tables, memory.template in<VertexFacetRecord>(batch.vertex_facet), memory.template in<EdgeEdgeRecord>(batch.edge_edge),
                                 memory.template in<float>(batch.radius), memory.template in<float>(batch.slip_limit), memory.template in<int>(batch.role),
-                                memory.template in<std::uint8_t>(batch.is_edge_edge), friction, force_arrays(memory, out, n)});
+                                memory.template in<std::uint8_t>(batch.is_edge_edge), memory.template in<ContactActivation>(batch.activation), friction, force_arrays(memory, out, n)});
   memory.fetch();
   return out;
 }

@@ -5,6 +5,7 @@
 
 #include "compare/stages/bending.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/spring.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/stages/probe_memory.hpp"
@@ -37,6 +38,7 @@ ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, s
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
 }
 
+/// Case i has a body of its own. Its default models take the way of GatherDefault, all others that of GatherEveryModel.
 struct ProbeMembrane {
   SweepView view;
   ForceArrays out;
@@ -44,7 +46,12 @@ struct ProbeMembrane {
   OGC_HD void operator()(int i) const {
     ForceAndBlock sum;
     const SurfaceMaterial material = view.materials[i];
-    add_membrane_incidence(view.membrane[i], read_membrane(view, view.membrane[i], material), material, view.old[3 * i], sum);
+    const SurfaceModels models = view.models[i];
+    const MembraneIncidence& incidence = view.membrane[i];
+    const Vec own = view.old[3 * i];
+    const bool is_default = models.membrane == compare::MembraneModel::st_venant_kirchhoff && models.damping == compare::DampingForm::strain;
+    if (is_default) add_membrane_incidence(incidence, read_membrane(view, incidence, material), material, own, sum);
+    else if (models.membrane != compare::MembraneModel::none) add_any_membrane(view, incidence, material, models, {own, own - view.start[3 * i]}, sum);
     out.store(i, sum);
   }
 };
@@ -62,6 +69,7 @@ compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in
     const auto &b = c.gradient[0], &d = c.gradient[1];
     rest.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0, {{-b[0] - d[0], -b[1] - d[1]}, {b[0], b[1]}, {d[0], d[1]}}, c.area});
     rest.materials.push_back({c.lame_lambda, c.lame_mu, c.damping, 0});
+    rest.models.push_back({c.model, compare::BendingModel::none, c.damping_form});
     incidences.push_back(detail::membrane_incidence(rest, i, 0, colours));
   }
   const std::vector<Symmetric2> no_strain(in.cases.size());
@@ -72,8 +80,9 @@ compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in
   view.materials = memory.template in<SurfaceMaterial>(rest.materials);
   view.strain_start = strain_start.data();
   view.old = memory.template in<Vec>(points_of(in.cases, &compare::MembraneCase::corner));
-  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::MembraneCase::start));
-  backend.for_each(n, BeginTriangle{memory.template in<TriangleRest>(rest.triangles), start, strain_start.data()});
+  view.models = memory.template in<SurfaceModels>(rest.models);
+  view.start = memory.template in<Vec>(points_of(in.cases, &compare::MembraneCase::start));
+  backend.for_each(n, BeginTriangle{memory.template in<TriangleRest>(rest.triangles), view.start, strain_start.data()});
   backend.for_each(n, ProbeMembrane{view, force_arrays(memory, out, in.cases.size())});
   memory.fetch();
   return out;
@@ -87,7 +96,13 @@ struct ProbeBending {
   OGC_HD void operator()(int i) const {
     ForceAndBlock sum;
     const SurfaceMaterial material = view.materials[i];
-    add_hinge_incidence(view.hinges[i], read_hinge(view, view.hinges[i], material), material, view.old[own[i]], sum);
+    const SurfaceModels models = view.models[i];
+    const HingeIncidence& incidence = view.hinges[i];
+    const Vec at = view.old[own[i]];
+    const bool is_default = models.bending == compare::BendingModel::discrete_hinge && models.damping == compare::DampingForm::strain;
+    if (is_default) add_hinge_incidence(incidence, read_hinge(view, incidence, material), material, at, sum);
+    else if (models.bending != compare::BendingModel::none)
+      add_any_hinge(view, incidence, view.isometric[i], material, models, {at, at - view.start[own[i]]}, sum);
     out.store(i, sum);
   }
 };
@@ -100,11 +115,14 @@ compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) 
   RestState rest;
   const std::vector<int> colours(4 * in.cases.size(), 0);
   std::vector<HingeIncidence> incidences;
+  std::vector<IsometricStencil> isometric;
   std::vector<int> own;
   for (int i = 0; i < n; ++i) {
     const compare::BendingCase& c = in.cases[static_cast<std::size_t>(i)];
     rest.hinges.push_back({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, 0, c.rest_angle, c.stiffness});
     rest.materials.push_back({0, 0, 0, c.damping});
+    rest.models.push_back({compare::MembraneModel::none, c.model, c.damping_form});
+    isometric.push_back(detail::isometric_stencil({{c.weight[0], c.weight[1], c.weight[2]}}, c.own));
     incidences.push_back(detail::hinge_incidence(rest, i, c.own, colours));
     own.push_back(4 * i + c.own);
   }
@@ -116,9 +134,46 @@ compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) 
   view.materials = memory.template in<SurfaceMaterial>(rest.materials);
   view.angle_start = angle_start.data();
   view.old = memory.template in<Vec>(points_of(in.cases, &compare::BendingCase::vertex));
-  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::BendingCase::start));
-  backend.for_each(n, BeginHinge{memory.template in<HingeRest>(rest.hinges), start, angle_start.data()});
+  view.models = memory.template in<SurfaceModels>(rest.models);
+  view.isometric = memory.template in<IsometricStencil>(isometric);
+  view.start = memory.template in<Vec>(points_of(in.cases, &compare::BendingCase::start));
+  backend.for_each(n, BeginHinge{memory.template in<HingeRest>(rest.hinges), view.start, angle_start.data()});
   backend.for_each(n, ProbeBending{view, memory.template in<int>(own), force_arrays(memory, out, in.cases.size())});
+  memory.fetch();
+  return out;
+}
+
+struct ProbeSpring {
+  SweepView view;
+  ForceArrays out;
+
+  OGC_HD void operator()(int i) const {
+    ForceAndBlock sum;
+    const Vec own = view.old[2 * i];
+    add_any_spring(view, 2 * i, view.springs[i], view.models[i], {own, own - view.start[2 * i]}, sum);
+    out.store(i, sum);
+  }
+};
+
+template <class Backend>
+compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
+  ProbeMemory<Backend> memory(backend);
+  compare::ForceOut out;
+  const int n = static_cast<int>(in.cases.size());
+  const std::vector<int> colours(2 * in.cases.size(), 0);
+  std::vector<SpringIncidence> incidences;
+  std::vector<SurfaceModels> models;
+  for (int i = 0; i < n; ++i) {
+    const compare::SpringCase& c = in.cases[static_cast<std::size_t>(i)];
+    incidences.push_back(detail::spring_incidence({{2 * i, 2 * i + 1}, c.stiffness, c.rest_length, c.damping}, 0, colours));
+    models.push_back({compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
+  }
+  SweepView view;
+  view.springs = memory.template in<SpringIncidence>(incidences);
+  view.models = memory.template in<SurfaceModels>(models);
+  view.old = memory.template in<Vec>(points_of(in.cases, &compare::SpringCase::vertex));
+  view.start = memory.template in<Vec>(points_of(in.cases, &compare::SpringCase::start));
+  backend.for_each(n, ProbeSpring{view, force_arrays(memory, out, in.cases.size())});
   memory.fetch();
   return out;
 }

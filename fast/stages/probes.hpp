@@ -114,11 +114,12 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
 
 struct ProbeActivation {
   const float *distance, *contact_radius, *stiffness;
+  const ContactActivation* activation;
   float *energy, *slope, *curvature;
 
   OGC_HD void operator()(int i) const {
-    const ActivationSlope at = activation_slope(distance[i], contact_radius[i], stiffness[i]);
-    energy[i] = activation_energy(distance[i], contact_radius[i], stiffness[i]);
+    const ActivationSlope at = activation_slope(activation[i], distance[i], contact_radius[i], stiffness[i]);
+    energy[i] = activation_energy(activation[i], distance[i], contact_radius[i], stiffness[i]);
     slope[i] = at.slope;
     curvature[i] = at.curvature;
   }
@@ -131,7 +132,8 @@ compare::ActivationOut probe_activation(Backend& backend, const compare::Activat
   const std::size_t n = in.distance.size();
   backend.for_each(static_cast<int>(n),
                    ProbeActivation{memory.template in<float>(in.distance), memory.template in<float>(in.contact_radius),
-                                   memory.template in<float>(in.stiffness), memory.template out<float>(out.energy, n),
+                                   memory.template in<float>(in.stiffness), memory.template in<ContactActivation>(in.activation),
+                                   memory.template out<float>(out.energy, n),
                                    memory.template out<float>(out.slope, n), memory.template out<float>(out.curvature, n)});
   memory.fetch();
   return out;
@@ -182,6 +184,7 @@ compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> 
   contestant.truncate = [backend](const compare::TruncateIn& in) { return probe_truncate(*backend, in); };
   contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
+  contestant.spring = [backend](const compare::SpringIn& in) { return probe_spring(*backend, in); };
   contestant.contact_force = [backend](const compare::ContactForceIn& in) { return probe_contact_force(*backend, in); };
   contestant.friction_force = [backend](const compare::FrictionForceIn& in) { return probe_friction_force(*backend, in); };
   contestant.block = [backend](const compare::BlockIn& in) { return probe_block(*backend, in); };

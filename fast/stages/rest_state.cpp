@@ -2,6 +2,7 @@
 // gradients tell the third, and an answer that carries two says all.
 #include "fast/stages/rest_state.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "compare/problem/error.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// What moves how, and materials by body: nothing that is computed from the rest shape.
+/// What moves how, materials and models by body, springs: nothing that is computed from the rest shape.
 RestState without_shape(const compare::Scene& scene) {
   RestState rest;
   rest.body = compare::body_of_vertex(scene);
@@ -24,6 +25,12 @@ RestState without_shape(const compare::Scene& scene) {
     }
     rest.materials.push_back({static_cast<float>(body.material.lame_lambda), static_cast<float>(body.material.lame_mu),
                               static_cast<float>(body.material.membrane_damping / h), static_cast<float>(body.material.bending_damping / h)});
+    rest.models.push_back({body.material.membrane, body.material.bending, scene.settings.damping});
+  }
+  rest.activation = scene.settings.activation;
+  for (const compare::Spring& spring : scene.springs) {
+    rest.springs.push_back({{spring.first, spring.second}, static_cast<float>(spring.stiffness), static_cast<float>(spring.rest_length),
+                            static_cast<float>(spring.damping / h)});
   }
   for (const compare::PrescribedMotion& motion : scene.motions) {
     for (const int v : motion.vertices) rest.mobility[at(v)] = Mobility::prescribed;
@@ -69,8 +76,11 @@ void add_masses(const compare::Scene& scene, RestState& rest) {
   }
 }
 
+bool bends_isometrically(const compare::Body& body) { return !body.fixed && body.material.bending == compare::BendingModel::isometric_quadratic; }
+
 void add_hinges(const compare::Scene& scene, const compare::Topology& topology, RestState& rest) {
   const auto& p = scene.rest_positions;
+  const bool weighted = std::any_of(scene.bodies.begin(), scene.bodies.end(), bends_isometrically);
   for (const compare::Hinge& hinge : topology.hinges) {
     const compare::Edge& edge = topology.edges[at(hinge.edge)];
     const int number = rest.body[at(edge[0])];
@@ -79,6 +89,10 @@ void add_hinges(const compare::Scene& scene, const compare::Topology& topology, 
     const RestHinge shape = rest_hinge(p[at(edge[0])], p[at(edge[1])], p[at(hinge.opposite[0])], p[at(hinge.opposite[1])]);
     rest.hinges.push_back({{edge[0], edge[1], hinge.opposite[0], hinge.opposite[1]}, number, static_cast<float>(shape.angle),
                            static_cast<float>(body.material.bending_stiffness * shape.factor)});
+    if (!weighted) continue;
+    rest.weights.emplace_back();
+    if (!bends_isometrically(body)) continue;
+    for (int k = 0; k < 3; ++k) rest.weights.back().weight[k] = static_cast<float>(shape.weight[k]);
   }
 }
 
@@ -117,8 +131,11 @@ compare::RestStateOut rest_state_out(const compare::RestStateIn& in) {
     out.triangles.push_back({{t.corner[0], t.corner[1], t.corner[2]}, t.body, t.area,
                              {{{t.gradient[1][0], t.gradient[1][1]}, {t.gradient[2][0], t.gradient[2][1]}}}});
   }
-  for (const HingeRest& h : rest.hinges) {
-    out.hinges.push_back({{h.vertex[0], h.vertex[1], h.vertex[2], h.vertex[3]}, h.body, h.angle, h.stiffness});
+  for (std::size_t i = 0; i < rest.hinges.size(); ++i) {
+    const HingeRest& h = rest.hinges[i];
+    out.hinges.push_back({{h.vertex[0], h.vertex[1], h.vertex[2], h.vertex[3]}, h.body, h.angle, h.stiffness, {}});
+    if (rest.weights.empty()) continue;
+    for (std::size_t k = 0; k < 3; ++k) out.hinges.back().weight[k] = rest.weights[i].weight[k];
   }
   for (const ContactMaterial& m : rest.contact) out.meetings.push_back({m.stiffness, m.friction});
   return out;
@@ -134,8 +151,10 @@ RestState rest_state_of(const compare::RestStateIn& in, const compare::RestState
     complete_gradient(triangle);
     rest.triangles.push_back(triangle);
   }
+  const bool weighted = std::any_of(in.scene->bodies.begin(), in.scene->bodies.end(), bends_isometrically);
   for (const compare::RestHinge& h : out.hinges) {
     rest.hinges.push_back({{h.vertex[0], h.vertex[1], h.vertex[2], h.vertex[3]}, h.body, h.rest_angle, h.stiffness});
+    if (weighted) rest.weights.push_back({{h.weight[0], h.weight[1], h.weight[2]}});
   }
   for (const compare::MeetingMaterial& m : out.meetings) rest.contact.push_back({m.stiffness, m.friction});
   return rest;

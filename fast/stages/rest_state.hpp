@@ -9,7 +9,9 @@
 #include "compare/stages/rest_state.hpp"
 #include "fast/kernels/bending.hpp"
 #include "fast/kernels/contact_force.hpp"
+#include "fast/kernels/isometric.hpp"
 #include "fast/kernels/membrane.hpp"
+#include "fast/kernels/spring.hpp"
 
 namespace ogc::fast {
 
@@ -22,8 +24,12 @@ struct RestState {
   std::vector<int> body;               ///< of each vertex
   std::vector<TriangleRest> triangles;
   std::vector<HingeRest> hinges;
+  std::vector<HingeWeights> weights;       ///< by hinge; empty where no body bends isometrically
+  std::vector<SpringRest> springs;
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<SurfaceMaterial> materials;  ///< by body
+  std::vector<SurfaceModels> models;       ///< by body
+  ContactActivation activation = ContactActivation::ogc;
   std::vector<ContactMaterial> contact;    ///< of bodies a and b, at a · bodies + b
 };
 

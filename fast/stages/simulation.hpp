@@ -126,6 +126,7 @@ class ResidentSimulation : public compare::Simulation {
     s.vertex_count = static_cast<int>(n);
     s.triangle_count = static_cast<int>(rest_.triangles.size());
     s.hinge_count = static_cast<int>(rest_.hinges.size());
+    s.spring_count = static_cast<int>(rest_.springs.size());
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.first, &s.second}) buffer->resize(n);
@@ -138,6 +139,8 @@ class ResidentSimulation : public compare::Simulation {
     upload(s.mass, rest_.mass);
     upload(s.triangles, rest_.triangles);
     upload(s.hinges, rest_.hinges);
+    upload(s.weights, rest_.weights);
+    upload(s.springs, rest_.springs);
     std::vector<int> number(n);
     for (std::size_t v = 0; v < n; ++v) number[v] = rest_.mobility[v] == Mobility::fixed ? -2 : -1;
     for (const compare::PrescribedMotion& motion : scene_.motions) {

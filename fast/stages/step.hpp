@@ -62,7 +62,7 @@ struct StepState {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  int vertex_count = 0, triangle_count = 0, hinge_count = 0, prescribed_count = 0;
+  int vertex_count = 0, triangle_count = 0, hinge_count = 0, spring_count = 0, prescribed_count = 0;
   bool damped = false;
   Buffer<Vec> start, velocity, target, previous, first, second;
   Buffer<float> mass;
@@ -70,6 +70,8 @@ struct StepState {
   Buffer<Vec> prescribed_targets;  ///< [step of the frame][place]
   Buffer<TriangleRest> triangles;
   Buffer<HingeRest> hinges;
+  Buffer<HingeWeights> weights;
+  Buffer<SpringRest> springs;
   Buffer<Symmetric2> strain_start;
   Buffer<float> angle_start;
   Buffer<StepControl> control;
@@ -230,10 +232,11 @@ class Step {
     StepState<Backend>& s = state_;
     const ContactView view = detection_.view();
     const ContactTables tables = sweep_.tables(s.previous.data());
-    reduction_.add(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), position});
-    reduction_.add(s.hinge_count, HingeTerm{s.hinges.data(), position});
-    reduction_.add_counted(view.vertex_facet_count, VertexFacetTerm{view, tables, position, settings_.contact_radius});
-    reduction_.add_counted(view.edge_edge_count, EdgeEdgeTerm{view, tables, position, settings_.contact_radius});
+    reduction_.add(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position});
+    reduction_.add(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position});
+    if (s.spring_count > 0) reduction_.add(s.spring_count, SpringTerm{s.springs.data(), position});
+    reduction_.add_counted(view.vertex_facet_count, VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
+    reduction_.add_counted(view.edge_edge_count, EdgeEdgeTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
   }
 
   Backend& backend_;

@@ -7,7 +7,7 @@
 
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/sweep.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep_models.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -22,6 +22,9 @@ struct SweepStreams {
   std::vector<SweepVertex> vertices;
   std::vector<MembraneIncidence> membrane;
   std::vector<HingeIncidence> hinges;
+  std::vector<IsometricStencil> isometric;  ///< beside `hinges`; empty where no body bends isometrically
+  std::vector<SpringIncidence> springs;
+  std::vector<SpringRow> spring_rows;       ///< by slot; empty where there is no spring
 };
 
 namespace detail {
@@ -42,16 +45,32 @@ inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle,
   return incidence;
 }
 
-/// Role 0, 1: an end of the edge; 2, 3: an opposite vertex. Exchanging both pairs at once keeps the angle (fast/kernels/bending.hpp).
+/// The other vertices of a hinge as a vertex of this role lists them. Role 0, 1: an end of the edge; 2, 3: an opposite vertex. Exchanging both pairs at once keeps
+/// the angle (fast/kernels/bending.hpp).
+inline constexpr int hinge_others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
+
 inline HingeIncidence hinge_incidence(const RestState& rest, int hinge, int role, const std::vector<int>& colour) {
-  constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
   const HingeRest& shape = rest.hinges[static_cast<std::size_t>(hinge)];
   const int own = colour[static_cast<std::size_t>(shape.vertex[role])];
   HingeIncidence incidence;
-  for (int k = 0; k < 3; ++k) incidence.index[k] = encoded(shape.vertex[others[role][k]], colour, own);
+  for (int k = 0; k < 3; ++k) incidence.index[k] = encoded(shape.vertex[hinge_others[role][k]], colour, own);
   incidence.hinge = role < 2 ? hinge : ~hinge;
   incidence.stencil = {shape.stiffness, shape.angle};
   return incidence;
+}
+
+/// Weights in the order of the hinge's incidence; that of x0 is made of the stored ones and rounded once.
+inline IsometricStencil isometric_stencil(const HingeWeights& rest, int role) {
+  const float* w = rest.weight;
+  const float all[4] = {static_cast<float>(-static_cast<double>(w[0]) - static_cast<double>(w[1]) - static_cast<double>(w[2])), w[0], w[1], w[2]};
+  IsometricStencil stencil;
+  stencil.own = all[role];
+  for (int k = 0; k < 3; ++k) stencil.other[k] = all[hinge_others[role][k]];
+  return stencil;
+}
+
+inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const std::vector<int>& colour) {
+  return {encoded(spring.end[1 - end], colour, colour[static_cast<std::size_t>(spring.end[end])]), spring};
 }
 
 /// (element, role) of each vertex, by element.
@@ -70,6 +89,7 @@ std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_coun
 inline SweepStreams build_streams(const RestState& rest, const Colouring& colouring, double step) {
   const auto triangles = detail::incidences(rest.mass.size(), rest.triangles, [](const TriangleRest& t) { return t.corner; }, 3);
   const auto hinges = detail::incidences(rest.mass.size(), rest.hinges, [](const HingeRest& hinge) { return hinge.vertex; }, 4);
+  const auto springs = detail::incidences(rest.mass.size(), rest.springs, [](const SpringRest& spring) { return spring.end; }, 2);
   SweepStreams streams;
   for (const int v : colouring.order) {
     const auto i = static_cast<std::size_t>(v);
@@ -82,10 +102,25 @@ inline SweepStreams build_streams(const RestState& rest, const Colouring& colour
     vertex.hinge_begin = static_cast<int>(streams.hinges.size());
     vertex.hinge_count = static_cast<int>(hinges[i].size());
     for (const auto& [triangle, corner] : triangles[i]) streams.membrane.push_back(detail::membrane_incidence(rest, triangle, corner, colouring.colour));
-    for (const auto& [hinge, role] : hinges[i]) streams.hinges.push_back(detail::hinge_incidence(rest, hinge, role, colouring.colour));
+    for (const auto& [hinge, role] : hinges[i]) {
+      streams.hinges.push_back(detail::hinge_incidence(rest, hinge, role, colouring.colour));
+      if (!rest.weights.empty()) streams.isometric.push_back(detail::isometric_stencil(rest.weights[static_cast<std::size_t>(hinge)], role));
+    }
+    if (!rest.springs.empty()) streams.spring_rows.push_back({static_cast<int>(streams.springs.size()), static_cast<int>(springs[i].size())});
+    for (const auto& [spring, end] : springs[i])
+      streams.springs.push_back(detail::spring_incidence(rest.springs[static_cast<std::size_t>(spring)], end, colouring.colour));
     streams.vertices.push_back(vertex);
   }
   return streams;
+}
+
+/// Whether a scene needs GatherEveryModel: something that GatherDefault leaves out.
+inline bool needs_every_model(const RestState& rest) {
+  if (rest.activation != ContactActivation::ogc || !rest.springs.empty() || !rest.weights.empty()) return true;
+  for (const SurfaceModels& models : rest.models) {
+    if (models.membrane == compare::MembraneModel::stable_neo_hookean || models.damping != compare::DampingForm::strain) return true;
+  }
+  return false;
 }
 
 /// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each iteration (positions, bounds, control).
@@ -96,7 +131,7 @@ class Sweep {
   using Buffer = typename Backend::template Buffer<T>;
 
   Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology, const compare::Scene& scene)
-      : backend_(backend), colour_begin_(colouring.begin), colours_(colouring.count) {
+      : backend_(backend), colour_begin_(colouring.begin), colours_(colouring.count), every_model_(needs_every_model(rest)), activation_(rest.activation) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
     upload(vertices_, streams.vertices);
     upload(membrane_, streams.membrane);
@@ -104,6 +139,10 @@ class Sweep {
     upload(colour_, colouring.colour);
     upload(body_, rest.body);
     upload(materials_, rest.materials);
+    upload(models_, rest.models);
+    upload(isometric_, streams.isometric);
+    upload(springs_, streams.springs);
+    upload(spring_rows_, streams.spring_rows);
     upload(contact_materials_, rest.contact);
     upload(rest_squared_, rest.edge_length_squared);
     contact_rows_.resize(streams.vertices.size());
@@ -120,6 +159,8 @@ class Sweep {
   int colours() const { return colours_; }
   int lanes() const { return lanes_; }
   const SurfaceMaterial* materials() const { return materials_.data(); }
+  const SurfaceModels* models() const { return models_.data(); }
+  ContactActivation activation() const { return activation_; }
 
   /// What a record does not say itself; `detected`: the positions of the last detection.
   ContactTables tables(const Vec* detected) const {
@@ -146,6 +187,11 @@ class Sweep {
     view.contact_rows = contact_rows_.data();
     view.contacts = contacts_.data();
     view.materials = materials_.data();
+    view.models = models_.data();
+    view.isometric = isometric_.size() > 0 ? isometric_.data() : nullptr;
+    view.springs = springs_.data();
+    view.spring_rows = spring_rows_.size() > 0 ? spring_rows_.data() : nullptr;
+    view.activation = activation_;
   }
 
   /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each cut counted.
@@ -153,7 +199,10 @@ class Sweep {
     backend_.for_each(static_cast<int>(prescribed_host_.size()), UpdatePrescribed{view, prescribed_.data()});
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
-      update(colour_begin_[k + 1] - colour_begin_[k], UpdateVertex{view, colour_begin_[k]}, c == 0 ? Start::after_previous : Start::overlapping);
+      const int count = colour_begin_[k + 1] - colour_begin_[k];
+      const Start start = c == 0 ? Start::after_previous : Start::overlapping;
+      if (every_model_) update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k]}, start);
+      else update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k]}, start);
     }
   }
 
@@ -163,7 +212,8 @@ class Sweep {
     buffer.upload(items.data(), items.size());
   }
 
-  void update(int count, const UpdateVertex& kernel, Start start) {
+  template <class Gather>
+  void update(int count, const UpdateVertex<Gather>& kernel, Start start) {
     switch (lanes_) {
       case 1: return backend_.template for_each_team<1>(count, kernel, start);
       case 2: return backend_.template for_each_team<2>(count, kernel, start);
@@ -177,6 +227,8 @@ class Sweep {
   Backend& backend_;
   std::vector<int> colour_begin_, prescribed_host_;
   int colours_ = 0, vertex_count_ = 0, lanes_ = 1;
+  bool every_model_;
+  ContactActivation activation_;
   Buffer<SweepVertex> vertices_;
   Buffer<MembraneIncidence> membrane_;
   Buffer<HingeIncidence> hinges_;
@@ -184,6 +236,10 @@ class Sweep {
   Buffer<ContactRow> contact_rows_;
   Buffer<int> colour_, body_, prescribed_;
   Buffer<SurfaceMaterial> materials_;
+  Buffer<SurfaceModels> models_;
+  Buffer<IsometricStencil> isometric_;
+  Buffer<SpringIncidence> springs_;
+  Buffer<SpringRow> spring_rows_;
   Buffer<ContactMaterial> contact_materials_;
   Buffer<float> rest_squared_;
   ContactTables tables_;

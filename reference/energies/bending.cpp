@@ -30,40 +30,114 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-struct Material {
-  Input stiffness, rest_angle, damping;
+/// What of a hinge's angle an energy holds: elastic/2 (θ − θ₀)² + damping/2 (θ − θᵗ)².
+struct AngleTerms {
+  Input elastic, rest_angle, damping;
 };
 
-compare::ForceAnswer answer_at(const Inputs& inputs, const Material& m, const ByVertex& angle, const Input& start) {
-  const ByVertex bent = angle - ByVertex(m.rest_angle), moved = angle - ByVertex(start);
-  const ByVertex energy = ByVertex(Input(0.5) * m.stiffness) * (bent * bent + ByVertex(m.damping) * moved * moved);
+struct Part {
+  ByVertex energy;
   Block block;
-  const Input weight = m.stiffness * (Input(1.0) + m.damping);
-  add_outer(block, weight, angle, angle);
-  compare::ForceAnswer result = answer(inputs, energy, block);
-  // Where the gradient vanishes by cancellation, the block, its square, has no first derivative: an error of n u · cond in the gradient is all there is.
+};
+
+Part at_angle(const AngleTerms& terms, const ByVertex& angle, const Input& start) {
+  const ByVertex bent = angle - ByVertex(terms.rest_angle), moved = angle - ByVertex(start);
+  Part part{ByVertex(Input(0.5) * terms.elastic) * bent * bent + ByVertex(Input(0.5) * terms.damping) * moved * moved, {}};
+  add_outer(part.block, terms.elastic + terms.damping, angle, angle);
+  return part;
+}
+
+/// Where the gradient vanishes by cancellation, the block, its square, has no first derivative: an error of n u · cond in the gradient is all there is.
+double second_order(const Inputs& inputs, const AngleTerms& terms, const ByVertex& angle) {
   const double gradient = inputs.condition(angle.slope);
-  result.block_scale += compare::bending_gradient * compare::unit_roundoff * weight.value * gradient * gradient;
-  return result;
+  return compare::bending_gradient * compare::unit_roundoff * (terms.elastic.value + terms.damping.value) * gradient * gradient;
+}
+
+/// What is asked, as numbers that know their inputs.
+struct Question {
+  const compare::BendingCase& asked;
+  Inputs inputs;
+  Hinge<ByVertex> x;
+  Fold<Input> before;
+  Input stiffness, rest_angle, damping;
+  Triple<Input> moved;  ///< of the vertex, with damping by vertex
+
+  explicit Question(const compare::BendingCase& q)
+      : asked(q), x(now_of(q, inputs)), before(inputs.stencil(q.start, 0)), stiffness(inputs.number(q.stiffness)), rest_angle(inputs.number(q.rest_angle)),
+        damping(inputs.number(q.damping)) {
+    const auto own = static_cast<std::size_t>(q.own);
+    if (by_vertex()) moved = inputs.vector(q.vertex[own], q.start[own]);
+  }
+  bool by_vertex() const { return asked.damping_form == compare::DampingForm::per_vertex; }
+};
+
+/// The answers over the angles that are accepted now and at the start, and none where the hinge may count as collapsed.
+template <class AnswerAt>
+std::vector<compare::ForceAnswer> over_angles(const Question& q, bool damped, AnswerAt answer_at) {
+  const Fold<ByVertex> now(q.x);
+  if (now.collapsed()) return {compare::ForceAnswer{}};
+  const std::vector<ByVertex> angles = with_turn(q.inputs, now.angle());
+  std::vector<Input> starts = damped && !q.before.collapsed() ? with_turn(q.inputs, q.before.angle()) : std::vector{Input(0.0)};
+  if (damped && !q.before.collapsed() && q.before.may_count_as_collapsed()) starts.push_back(Input(0.0));
+  std::vector<compare::ForceAnswer> answers;
+  for (const ByVertex& angle : angles)
+    for (const Input& start : starts) answers.push_back(answer_at(angle, start));
+  if (now.may_count_as_collapsed()) answers.push_back({});
+  return answers;
+}
+
+std::vector<compare::ForceAnswer> hinge_answers(const Question& q) {
+  const AngleTerms terms{q.stiffness, q.rest_angle, q.by_vertex() ? Input(0.0) : q.stiffness * q.damping};
+  constexpr double vertex_units = (compare::bending_block_tolerance + compare::per_vertex_additions) / compare::bending_force_tolerance;
+  return over_angles(q, terms.damping.value > 0, [&](const ByVertex& angle, const Input& start) {
+    const Part part = at_angle(terms, angle, start);
+    const double square = second_order(q.inputs, terms, angle);
+    compare::ForceAnswer result = q.by_vertex() ? damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved)
+                                                : answer(q.inputs, part.energy, part.block);
+    result.block_scale += q.by_vertex() ? (1 + q.damping.value) * square : square;
+    if (!q.by_vertex()) return result;
+    result.force_scale += q.damping.value * square * std::hypot(q.moved[0].value, q.moved[1].value, q.moved[2].value);
+    return with_units(result, vertex_units, 1);
+  });
+}
+
+/// c/2 ‖ℓ‖².
+Part isometric(Question& q) {
+  std::array<Input, 4> weight;
+  for (std::size_t k = 0; k < 3; ++k) weight[k + 1] = q.inputs.number(q.asked.weight[k]);
+  weight[0] = -weight[1] - weight[2] - weight[3];
+  Triple<ByVertex> curvature;
+  for (std::size_t k = 0; k < 4; ++k) curvature = curvature + ByVertex(weight[k]) * q.x[k];
+  Part part{ByVertex(Input(0.5) * q.stiffness) * dot(curvature, curvature), {}};
+  for (const ByVertex& component : curvature) add_outer(part.block, q.stiffness, component, component);
+  return part;
+}
+
+std::vector<compare::ForceAnswer> isometric_answers(Question& q) {
+  constexpr double force_units = compare::isometric_force_tolerance / compare::bending_force_tolerance;
+  constexpr double block_units = compare::isometric_block_tolerance / compare::bending_block_tolerance;
+  constexpr double vertex_units = (compare::isometric_block_tolerance + compare::per_vertex_additions) / compare::bending_force_tolerance;
+  const Part part = isometric(q);
+  if (q.by_vertex()) return {with_units(damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved), vertex_units, block_units)};
+  const compare::ForceAnswer elastic = with_units(answer(q.inputs, part.energy, part.block), force_units, block_units);
+  if (q.damping.value == 0) return {elastic};
+  const AngleTerms terms{Input(0.0), Input(0.0), q.stiffness * q.damping};
+  std::vector<compare::ForceAnswer> answers = over_angles(q, true, [&](const ByVertex& angle, const Input& start) {
+    const Part damping = at_angle(terms, angle, start);
+    compare::ForceAnswer result = answer(q.inputs, damping.energy, damping.block);
+    result.block_scale += second_order(q.inputs, terms, angle);
+    return result;
+  });
+  for (compare::ForceAnswer& one : answers) one = sum(one, elastic);
+  return answers;
 }
 
 }  // namespace
 
 std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question) {
-  Inputs inputs;
-  const Fold<ByVertex> now(now_of(question, inputs));
-  const Fold<Input> before(inputs.stencil(question.start, 0));
-  const Material material{inputs.number(question.stiffness), inputs.number(question.rest_angle), inputs.number(question.damping)};
-  if (now.collapsed()) return {compare::ForceAnswer{}};
-  const bool damped = question.damping > 0;
-  const std::vector<ByVertex> angles = with_turn(inputs, now.angle());
-  std::vector<Input> starts = damped && !before.collapsed() ? with_turn(inputs, before.angle()) : std::vector{Input(0.0)};
-  if (damped && !before.collapsed() && before.may_count_as_collapsed()) starts.push_back(Input(0.0));
-  std::vector<compare::ForceAnswer> answers;
-  for (const ByVertex& angle : angles)
-    for (const Input& start : starts) answers.push_back(answer_at(inputs, material, angle, start));
-  if (now.may_count_as_collapsed()) answers.push_back({});
-  return answers;
+  if (question.model == compare::BendingModel::none) return {compare::ForceAnswer{}};
+  Question q(question);
+  return question.model == compare::BendingModel::isometric_quadratic ? isometric_answers(q) : hinge_answers(q);
 }
 
 compare::ForceTruth bending(const compare::BendingIn& in) {

@@ -22,30 +22,28 @@ struct Slopes {
 };
 
 Slopes slopes(const Meeting& meeting) {
-  const Input d = meeting.acting_distance(meeting.distance);
-  const ByDistanceTwice variable(ByDistance(d, 0), 0);
-  const auto constant = [](const Input& x) { return ByDistanceTwice(ByDistance(x)); };
-  const ByDistanceTwice energy = activation_energy(compare::ContactActivation::ogc, variable, constant(meeting.radius), constant(meeting.stiffness));
+  const ByDistanceTwice variable(ByDistance(meeting.acting_distance(meeting.distance), 0), 0);
+  const ByDistanceTwice energy = meeting.energy(variable);
   return {energy.value.slope[0], energy.slope[0].slope[0]};
 }
 
 compare::ForceAnswer acting(const Meeting& meeting, std::size_t own) {
   const ByVertex distance = distance_of(meeting, own);
-  const ByVertex energy = activation_energy(compare::ContactActivation::ogc, meeting.acting_distance(distance), ByVertex(meeting.radius),
-                                            ByVertex(meeting.stiffness));
+  const ByVertex energy = meeting.energy(meeting.acting_distance(distance));
   const Slopes at = slopes(meeting);
   Block block;
   add_outer(block, at.second, distance, distance);
   compare::ForceAnswer result = answer(meeting.inputs, energy, block);
+  result.force_scale += meeting.slope_doubt() / (compare::unit_roundoff * compare::contact_force_tolerance);
   add_weight_error(meeting, meeting.weight[own], reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}), result);
   return result;
 }
 
-/// −g' and g'' at 2⁻²³ r are k_c r 2²¹ and k_c 2⁴⁴.
 compare::ForceAnswer largest(const compare::ContactForceCase& q) {
+  const LargestSlopes slopes = largest_slopes(q);
   compare::ForceAnswer bounds;
-  bounds.force_scale = 0x1p21 * q.stiffness * q.contact_radius / compare::unit_roundoff;
-  bounds.block_scale = 0x1p44 * q.stiffness / compare::unit_roundoff;
+  bounds.force_scale = slopes.first / compare::unit_roundoff;
+  bounds.block_scale = slopes.second / compare::unit_roundoff;
   return bounds;
 }
 

@@ -13,7 +13,7 @@ using ByDistance = Derivative<Input, 1>;
 /// λ = −e_k g'(d).
 Input normal_force(const Meeting& meeting) {
   const ByDistance d(meeting.acting_distance(meeting.distance), 0);
-  return -activation_energy(compare::ContactActivation::ogc, d, ByDistance(meeting.radius), ByDistance(meeting.stiffness)).slope[0];
+  return -meeting.energy(d).slope[0];
 }
 
 /// ‖u‖. Where u cannot be told from 0 it has no direction, and ‖u‖ grows by the length of any change of u.
@@ -56,13 +56,16 @@ compare::ForceAnswer acting(Meeting meeting, const compare::FrictionForceCase& q
   add_weight_error(meeting, meeting.weight[own], stiff * reach(inputs, u), 2 * stiff, result);
   // Where both vanish, at the radius and without slip, the first order says nothing of their product.
   result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) * inputs.condition(u);
+  const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;
+  result.force_scale += pull * over_slip * reach(inputs, u) / (compare::unit_roundoff * compare::friction_force_tolerance);
+  result.block_scale += 2 * pull * over_slip / (compare::unit_roundoff * compare::friction_block_tolerance);
   return result;
 }
 
-/// λ is at most k_c r 2²¹ (contact_force), f₁ at most 1, f₁/y at most 2/ε; ‖I − n nᵀ‖ = √2.
+/// f₁ is at most 1, f₁/y at most 2/ε; ‖I − n nᵀ‖ = √2.
 compare::ForceAnswer largest(const compare::FrictionForceCase& q) {
   compare::ForceAnswer bounds;
-  bounds.force_scale = 0x1p21 * q.friction * q.contact.stiffness * q.contact.contact_radius / compare::unit_roundoff;
+  bounds.force_scale = q.friction * largest_slopes(q.contact).first / compare::unit_roundoff;
   bounds.block_scale = 4 * bounds.force_scale / q.slip_limit;
   return bounds;
 }

@@ -90,13 +90,41 @@ void add_identity(Block& block, const Input& weight) {
   for (const std::size_t k : {0u, 3u, 5u}) block[k] = block[k] + weight;
 }
 
-compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block) {
+compare::ForceAnswer answer(const Inputs& inputs, const Triple<Input>& force, const Block& block) {
   compare::ForceAnswer result;
-  result.force = {-energy.slope[0].value, -energy.slope[1].value, -energy.slope[2].value};
+  result.force = {force[0].value, force[1].value, force[2].value};
   for (std::size_t k = 0; k < 6; ++k) result.block[k] = block[k].value;
-  result.force_scale = inputs.condition(energy.slope);
+  result.force_scale = inputs.condition(force);
   result.block_scale = inputs.condition(block);
   return result;
+}
+
+compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block) {
+  return answer(inputs, Triple<Input>{-energy.slope[0], -energy.slope[1], -energy.slope[2]}, block);
+}
+
+compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block, const Input& damping, const Triple<Input>& moved) {
+  const Triple<Input> resisted{dot(Triple<Input>{block[0], block[1], block[2]}, moved), dot(Triple<Input>{block[1], block[3], block[4]}, moved),
+                               dot(Triple<Input>{block[2], block[4], block[5]}, moved)};
+  Triple<Input> force;
+  Block grown;
+  for (std::size_t i = 0; i < 3; ++i) force[i] = -energy.slope[i] - damping * resisted[i];
+  for (std::size_t i = 0; i < 6; ++i) grown[i] = (Input(1.0) + damping) * block[i];
+  return answer(inputs, force, grown);
+}
+
+compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block) {
+  answer.force_scale *= force;
+  answer.block_scale *= block;
+  return answer;
+}
+
+compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b) {
+  a.force = {a.force.x + b.force.x, a.force.y + b.force.y, a.force.z + b.force.z};
+  for (std::size_t k = 0; k < 6; ++k) a.block[k] += b.block[k];
+  a.force_scale += b.force_scale;
+  a.block_scale += b.block_scale;
+  return a;
 }
 
 Input positive_part(const Input& x) {

@@ -62,8 +62,17 @@ using Block = std::array<Input, 6>;
 void add_outer(Block& block, const Input& weight, const ByVertex& a, const ByVertex& b);
 void add_identity(Block& block, const Input& weight);
 
-/// The answer of an energy and its block.
+/// The answer of a force, or of an energy, and its block.
+compare::ForceAnswer answer(const Inputs& inputs, const Triple<Input>& force, const Block& block);
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
+
+/// B moved, of a vertex that moved since the start of the step, as a force of damping `k`: −k B moved, on top of the elastic force, and (1 + k) B for B.
+compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block, const Input& damping, const Triple<Input>& moved);
+
+/// Multiplies the units of error: what a stage's tolerance is to one of its models.
+compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
+/// Both at once, rounded apart.
+compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);
 
 /// max(0, x) that keeps x's derivatives: the unit of the errors must hold on both sides of the corner.
 Input positive_part(const Input& x);

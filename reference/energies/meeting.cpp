@@ -172,6 +172,7 @@ Meeting begun(const ContactForceCase& q) {
   }
   meeting.radius = meeting.inputs.number(q.contact_radius);
   meeting.stiffness = meeting.inputs.number(q.stiffness);
+  meeting.activation = q.activation;
   if (q.sides == ContactSides::edge_edge) meeting.stiffness = meeting.stiffness * mollified(q, meeting.inputs);
   return meeting;
 }
@@ -192,6 +193,13 @@ Triple<Input> Meeting::separation() const {
   return sum;
 }
 
+double Meeting::slope_doubt() const {
+  const bool flat = activation == compare::ContactActivation::ipc_log || activation == compare::ContactActivation::cubic;
+  if (!flat || std::abs(distance.value - radius.value) > 2 * distance_doubt) return 0;
+  const Derivative<double, 1> d(std::max(0x1p-23 * radius.value, radius.value - 3 * distance_doubt), 0);
+  return -activation_energy(activation, d, radius.value, stiffness.value).slope[0];
+}
+
 std::vector<Meeting> meetings(const ContactForceCase& question) {
   Meeting common = begun(question);
   const std::vector<Parameters> all = all_parameters(common.inputs, question, common.vertex);
@@ -203,7 +211,20 @@ std::vector<Meeting> meetings(const ContactForceCase& question) {
     meeting.weight = weights(question.sides, at[0] + first_error, at[1] + second_error);
     measure(meeting);
   }
+  for (std::size_t i = 0, count = result.size(); i < count; ++i) {
+    if (!result[i].may_jump()) continue;
+    result.push_back(result[i]);
+    result.back().across = true;
+  }
   return result;
+}
+
+LargestSlopes largest_slopes(const ContactForceCase& question) {
+  using Once = Derivative<double, 1>;
+  using Twice = Derivative<Once, 1>;
+  const double r = question.contact_radius;
+  const Twice g = activation_energy(question.activation, Twice(Once(0x1p-23 * r, 0), 0), r, double{question.stiffness});
+  return {-g.value.slope[0], g.slope[0].slope[0]};
 }
 
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct Meeting {
   std::array<Triple<Input>, 4> vertex;
   std::array<Input, 4> weight;  ///< those of the first side add up to 1, those of the second to −1
   Input radius, stiffness;      ///< r; k_c e_k
+  compare::ContactActivation activation = compare::ContactActivation::ogc;
+  bool across = false;          ///< asked for the other side of the jump of g' at τ, which d cannot be told from
   Input distance;               ///< d, without derivatives where it is 0
   double doubt = 0;             ///< how far the vector between the contact points can be off [m]
   double distance_doubt = 0;    ///< how far d can be off, to first order [m]
@@ -31,10 +34,22 @@ struct Meeting {
   /// The distance that slope and curvature belong to: d, but not below 2⁻²³ r. It keeps d's derivatives on both sides of that corner.
   template <class T>
   T acting_distance(T d) const {
-    const double least = 0x1p-23 * radius.value;
+    const double least = 0x1p-23 * radius.value, tau = 0.5 * radius.value;
     if (plain(d) < least) set_plain(d, least);
+    if (across) set_plain(d, plain(d) < tau ? tau : std::nextafter(tau, 0.0));
     return d;
   }
+  /// g at the acting distance, over any number type.
+  template <class T>
+  T energy(const T& acting) const {
+    return activation_energy(activation, acting, T(radius), T(stiffness));
+  }
+  /// Whether g' jumps where d is.
+  bool may_jump() const {
+    return activation == compare::ContactActivation::ogc_as_printed && std::abs(distance.value - 0.5 * radius.value) <= distance_doubt;
+  }
+  /// What first order does not say of −g': of activations whose g' has no slope at r, how large it is within the doubt about r [N].
+  double slope_doubt() const;
   bool acts() const { return distance.value > 0 && distance.value < radius.value; }
   /// Whether d cannot be told from r.
   bool may_end() const { return std::abs(distance.value - radius.value) <= distance_doubt; }
@@ -53,6 +68,12 @@ std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 /// the scales, that no answer can exceed wherever the points touch.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
+
+/// −g' and g'' at 2⁻²³ r [N], [N/m]: no contact's are larger.
+struct LargestSlopes {
+  double first = 0, second = 0;
+};
+LargestSlopes largest_slopes(const compare::ContactForceCase& question);
 
 /// The largest modulus that an answer of several numbers can be taken for.
 double reach(const Inputs& inputs, std::span<const Input> answer);

@@ -76,6 +76,13 @@ struct Fold {
     const auto ee = number(dot(edge, edge)), twice_first = sqrt(number(dot(first, first))), twice_second = sqrt(number(dot(second, second)));
     return decltype(ee)(6.0) * ee / (twice_first + twice_second);
   }
+  /// Sums of cotangents over the edge's length: of x1, o0, o1, given the vectors to the opposite vertices from x0.
+  auto weights(const Point<T>& to_first, const Point<T>& to_second) const {
+    using std::sqrt;
+    const auto length = sqrt(number(dot(edge, edge))), twice_first = sqrt(number(dot(first, first))), twice_second = sqrt(number(dot(second, second)));
+    const auto cotangents = number(dot(edge, to_first)) / twice_first + number(dot(edge, to_second)) / twice_second;
+    return std::array{decltype(length)(cotangents / length), decltype(length)(-length / twice_first), decltype(length)(-length / twice_second)};
+  }
 };
 
 double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condition({&answer, 1}); }
@@ -152,15 +159,36 @@ class Builder {
     const compare::Vec3& from = at(vertex[0]);
     const Fold<Exact> fold(exact(from), exact(at(vertex[1])), exact(at(vertex[2])), exact(at(vertex[3])));
     Inputs inputs;
-    const Fold<Input> reacting(Point<Input>{}, input(inputs, at(vertex[1]), from), input(inputs, at(vertex[2]), from), input(inputs, at(vertex[3]), from));
+    const Point<Input> along = input(inputs, at(vertex[1]), from);
+    const std::array<Point<Input>, 2> opposite{input(inputs, at(vertex[2]), from), input(inputs, at(vertex[3]), from)};
+    const Fold<Input> reacting(Point<Input>{}, along, opposite[0], opposite[1]);
     const double angle_scale = unit_of(inputs, reacting.angle());
     const Input bending = inputs.number(material.bending_stiffness);
     const long double angle = fold.angle(), stiffness = material.bending_stiffness * fold.factor();
-    truth_.exact.hinges.push_back({vertex, number_of_body, static_cast<float>(angle), static_cast<float>(stiffness)});
+    truth_.exact.hinges.push_back({vertex, number_of_body, static_cast<float>(angle), static_cast<float>(stiffness), {}});
+    add_weights(material.bending, fold, reacting, {exact(at(vertex[2])) - exact(from), exact(at(vertex[3])) - exact(from)}, opposite,
+                inputs);
     truth_.rest_angle.push_back(static_cast<double>(angle));
     truth_.rest_angle_scale.push_back(angle_scale);
     truth_.stiffness.push_back(static_cast<double>(stiffness));
     truth_.stiffness_scale.push_back(unit_of(inputs, bending * reacting.factor()));
+  }
+
+  /// Of the last hinge; 0 but in the isometric model.
+  void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting, const std::array<Point<Exact>, 2>& opposite,
+                   const std::array<Point<Input>, 2>& reacting_opposite, const Inputs& inputs) {
+    std::array<double, 3> weight{};
+    double scale = 0;
+    if (model == compare::BendingModel::isometric_quadratic) {
+      const auto value = fold.weights(opposite[0], opposite[1]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        weight[k] = static_cast<double>(value[k]);
+        truth_.exact.hinges.back().weight[k] = static_cast<float>(value[k]);
+      }
+      scale = inputs.condition(reacting.weights(reacting_opposite[0], reacting_opposite[1]));
+    }
+    truth_.weight.push_back(weight);
+    truth_.weight_scale.push_back(scale);
   }
 
   void add_edge(const compare::Edge& edge) {

@@ -2,65 +2,114 @@
 // stages of the sweep ask for one vertex at a time and share strain and angle with them.
 #pragma once
 
+#include "compare/problem/scene.hpp"
 #include "compare/problem/vector.hpp"
 #include "reference/energies/closest_form.hpp"
 #include "reference/energies/contact_activation.hpp"
 #include "reference/energies/fold.hpp"
+#include "reference/energies/spring.hpp"
 #include "reference/energies/strain.hpp"
 
 namespace ogc::reference {
 
-/// A triangle: A (ψ(G) + k ψ(G − Gᵗ)).
+/// A triangle: A (ψ + k ϕ(G − Gᵗ)) (compare/stages/membrane.hpp).
 struct MembraneTerm {
   std::array<compare::Index, 3> vertex{};
   std::array<std::array<double, 2>, 3> gradient{};  ///< ∇N [1/m]
   double area = 0, lambda = 0, mu = 0, damping = 0;  ///< A [m²], Lamé [N/m], k = k_d/h [1]
   Strain<double> start{};                            ///< Gᵗ
+  compare::MembraneModel model = compare::MembraneModel::st_venant_kirchhoff;
 
+  /// Parts of the energy by what they depend on: elastic_of a strain or, in the stable Neo-Hookean model, of F; damping of a strain.
   template <class T>
   T elastic_of(const Strain<T>& g) const {
     return area * density(g, lambda, mu);
   }
   template <class T>
-  T energy_of(const Strain<T>& g) const {
-    if (damping == 0) return elastic_of(g);
-    const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
-    return area * (density(g, lambda, mu) + damping * density(change, lambda, mu));
+  T elastic_of(const Deformation<T>& f) const {
+    return area * neo_hookean_density(f, lambda, mu);
   }
   template <class T>
+  T damping_of(const Strain<T>& g) const {
+    const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
+    return area * damping * density(change, lambda, mu);
+  }
+  bool neo_hookean() const { return model == compare::MembraneModel::stable_neo_hookean; }
+  template <class T>
   T elastic(const std::array<Triple<T>, 3>& x) const {
-    return elastic_of(strain<T>(x, gradient));
+    const Deformation<T> f = deformation<T>(x, gradient);
+    return neo_hookean() ? elastic_of(f) : elastic_of(strain(f));
   }
   template <class T>
   T energy(const std::array<Triple<T>, 3>& x) const {
-    return energy_of(strain<T>(x, gradient));
+    const Deformation<T> f = deformation<T>(x, gradient);
+    const Strain<T> g = strain(f);
+    const T psi = neo_hookean() ? elastic_of(f) : elastic_of(g);
+    return damping == 0 ? psi : psi + damping_of(g);
   }
 };
 
-/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²); 0 where a triangle has collapsed.
+/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); what holds θ is 0 where a triangle has collapsed.
 struct HingeTerm {
   std::array<compare::Index, 4> vertex{};
   double stiffness = 0, rest_angle = 0, damping = 0;  ///< c [J], θ₀ [rad], k [1]
   double start = 0;                                   ///< θᵗ [rad]
+  bool isometric = false;
+  std::array<double, 4> weight{};                     ///< w [1/m]
 
+  /// What depends on the angle: all of it, or the isometric model's damping.
+  template <class T>
+  T energy_of(const T& angle) const {
+    const T bent = angle - T(rest_angle), moved = angle - T(start);
+    const T elastic = isometric ? T(0.0) : 0.5 * stiffness * bent * bent;
+    return damping == 0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
+  }
+  /// The isometric model's c/2 ‖Σ w x‖².
+  template <class T>
+  T isometric_energy(const Hinge<T>& x) const {
+    const Triple<T> curvature = separation(weight, x);
+    return 0.5 * stiffness * dot(curvature, curvature);
+  }
   template <class T>
   T elastic(const Hinge<T>& x) const {
+    if (isometric) return isometric_energy(x);
     const Fold<T> fold(x);
     if (fold.collapsed()) return T(0.0);
     const T bent = fold.angle() - T(rest_angle);
     return 0.5 * stiffness * bent * bent;
   }
   template <class T>
-  T energy_of(const T& angle) const {
-    const T bent = angle - T(rest_angle);
-    if (damping == 0) return 0.5 * stiffness * bent * bent;
-    const T moved = angle - T(start);
-    return 0.5 * stiffness * (bent * bent + damping * moved * moved);
+  T energy(const Hinge<T>& x) const {
+    const T elastic = isometric ? isometric_energy(x) : T(0.0);
+    if (isometric && damping == 0) return elastic;
+    const Fold<T> fold(x);
+    return fold.collapsed() ? elastic : elastic + energy_of(fold.angle());
+  }
+};
+
+/// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²).
+struct SpringTerm {
+  std::array<compare::Index, 2> vertex{};
+  double stiffness = 0, rest_length = 0, damping = 0;  ///< k_s [N/m], l₀ [m], k [1]
+  double start = 0;                                    ///< lᵗ [m]
+
+  template <class T>
+  T elastic(const std::array<Triple<T>, 2>& x) const {
+    return about(x, rest_length);
   }
   template <class T>
-  T energy(const Hinge<T>& x) const {
-    const Fold<T> fold(x);
-    return fold.collapsed() ? T(0.0) : energy_of(fold.angle());
+  T energy(const std::array<Triple<T>, 2>& x) const {
+    return damping == 0 ? elastic(x) : elastic(x) + damping * about(x, start);
+  }
+
+ private:
+  /// At length 0 from a length the direction is open: there the root has no derivatives.
+  template <class T>
+  T about(const std::array<Triple<T>, 2>& x, double from) const {
+    using std::sqrt;
+    const Triple<T> apart = x[0] - x[1];
+    const T squared = dot(apart, apart);
+    return from == 0 ? 0.5 * stiffness * squared : spring_energy(T(sqrt(squared)), stiffness, T(from));
   }
 };
 

@@ -6,7 +6,7 @@ namespace ogc::reference {
 
 using compare::Index;
 
-std::vector<Index> colours_of(const compare::RestStateOut& rest, const std::vector<Index>& groups) {
+std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest, const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> near(groups.size());
   const auto meet = [&](const auto& vertices) {
     for (const Index a : vertices)
@@ -15,6 +15,7 @@ std::vector<Index> colours_of(const compare::RestStateOut& rest, const std::vect
   };
   for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
   for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
+  for (const compare::Spring& s : scene.springs) meet(std::array{s.first, s.second});
   std::vector<Index> colour(groups.size(), -1);
   for (std::size_t v = 0; v < groups.size(); ++v) {
     if (groups[v] != -1) continue;

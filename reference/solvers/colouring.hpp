@@ -8,6 +8,6 @@
 namespace ogc::reference {
 
 /// Free vertices in the order of their numbers, each in the lowest colour that none of its stencils has; −1 for all others. `groups`: rigid_groups.
-std::vector<compare::Index> colours_of(const compare::RestStateOut& rest, const std::vector<compare::Index>& groups);
+std::vector<compare::Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest, const std::vector<compare::Index>& groups);
 
 }  // namespace ogc::reference

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "compare/problem/error.hpp"
 #include "reference/energies/mollifier.hpp"
 #include "reference/energies/rest_state.hpp"
 
@@ -70,12 +71,28 @@ MembraneTerm membrane_term(const compare::Scene& scene, const compare::RestTrian
   term.lambda = material.lame_lambda;
   term.mu = material.lame_mu;
   term.damping = material.membrane_damping / scene.settings.time_step;
+  term.model = material.membrane;
   return term;
 }
 
 HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest) {
   const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
-  return {rest.vertex, double{rest.stiffness}, double{rest.rest_angle}, material.bending_damping / scene.settings.time_step, 0};
+  HingeTerm term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle}, material.bending_damping / scene.settings.time_step};
+  term.isometric = material.bending == compare::BendingModel::isometric_quadratic;
+  for (std::size_t k = 0; k < 3; ++k) {
+    term.weight[k + 1] = double{rest.weight[k]};
+    term.weight[0] -= term.weight[k + 1];
+  }
+  return term;
+}
+
+SpringTerm spring_term(const compare::Scene& scene, const compare::Spring& spring) {
+  return {{spring.first, spring.second}, spring.stiffness, spring.rest_length, spring.damping / scene.settings.time_step};
+}
+
+double angle_at(const Hinge<double>& x) {
+  const Fold<double> fold(x);
+  return fold.collapsed() ? 0 : fold.angle();
 }
 
 double largest_coordinate(const State& x) {
@@ -109,9 +126,12 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
       mobility_(mobility_of(scene)),
       mass_(rest_.mass.begin(), rest_.mass.end()),
       step_(scene.settings.time_step) {
+  if (scene.settings.damping == compare::DampingForm::per_vertex)
+    throw compare::InputError("damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or damping=strain");
   free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
   for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
   for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
+  for (const compare::Spring& spring : scene.springs) springs_.push_back(spring_term(scene, spring));
 }
 
 void Potential::begin_step(const State& start, const State& target) {
@@ -119,10 +139,11 @@ void Potential::begin_step(const State& start, const State& target) {
   target_ = target;
   contacts_.clear();
   frictions_.clear();
-  for (MembraneTerm& term : membranes_) term.start = strain<double>(gathered<3>(term.vertex, start), term.gradient);
-  for (HingeTerm& term : hinges_) {
-    const Fold<double> fold(gathered<4>(term.vertex, start));
-    term.start = fold.collapsed() ? 0 : fold.angle();
+  for (MembraneTerm& term : membranes_) term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
+  for (HingeTerm& term : hinges_) term.start = angle_at(gathered<4>(term.vertex, start));
+  for (SpringTerm& term : springs_) {
+    const auto ends = gathered<2>(term.vertex, start);
+    term.start = norm(ends[0] - ends[1]);
   }
 }
 
@@ -169,6 +190,8 @@ std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
   stencil -= membranes_.size();
   if (stencil < hinges_.size()) return hinges_[stencil].vertex;
   stencil -= hinges_.size();
+  if (stencil < springs_.size()) return {springs_[stencil].vertex[0], springs_[stencil].vertex[1], -1, -1};
+  stencil -= springs_.size();
   return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
 }
 
@@ -190,6 +213,8 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   stencil -= membranes_.size();
   if (stencil < hinges_.size()) return hinges_[stencil].energy(gathered<4>(hinges_[stencil].vertex, x));
   stencil -= hinges_.size();
+  if (stencil < springs_.size()) return springs_[stencil].energy(gathered<2>(springs_[stencil].vertex, x));
+  stencil -= springs_.size();
   if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
   const FrictionTerm& term = frictions_[stencil - contacts_.size()];
   return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
@@ -206,6 +231,11 @@ StencilDerivatives Potential::differentiate(std::size_t stencil, const State& x,
     return stencil_derivatives<4>(gathered<4>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
   }
   stencil -= hinges_.size();
+  if (stencil < springs_.size()) {
+    const SpringTerm& term = springs_[stencil];
+    return stencil_derivatives<2>(gathered<2>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
+  }
+  stencil -= springs_.size();
   if (stencil < contacts_.size()) return contact_derivatives(contacts_[stencil], x, projection);
   return friction_derivatives(frictions_[stencil - contacts_.size()], x, projection);
 }
@@ -278,6 +308,7 @@ double Potential::elastic_energy(const State& x) const {
   double sum = 0;
   for (const MembraneTerm& term : membranes_) sum += term.elastic(gathered<3>(term.vertex, x));
   for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
+  for (const SpringTerm& term : springs_) sum += term.elastic(gathered<2>(term.vertex, x));
   return sum;
 }
 

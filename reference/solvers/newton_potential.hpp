@@ -37,7 +37,7 @@ struct PotentialDerivatives {
 
 class Potential {
  public:
-  /// The scene must be rounded; both must outlive it.
+  /// The scene must be rounded; both must outlive it. Throws InputError for damping by vertex, which is no potential.
   Potential(const compare::Scene& scene, const compare::Topology& topology);
 
   /// xᵗ and y of the step; strains and angles at xᵗ. Contacts and friction of the step before are gone.
@@ -53,7 +53,7 @@ class Potential {
   static double total(const PotentialTerms& terms);
   PotentialDerivatives derivatives(const State& x, compare::HessianProjection projection) const;
 
-  std::size_t stencil_count() const { return membranes_.size() + hinges_.size() + contacts_.size() + frictions_.size(); }
+  std::size_t stencil_count() const { return membranes_.size() + hinges_.size() + springs_.size() + contacts_.size() + frictions_.size(); }
   /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
@@ -66,6 +66,7 @@ class Potential {
   /// The stencils of the present contacts and of all else but friction.
   const std::vector<MembraneTerm>& membranes() const { return membranes_; }
   const std::vector<HingeTerm>& hinges() const { return hinges_; }
+  const std::vector<SpringTerm>& springs() const { return springs_; }
   const std::vector<ContactTerm>& contacts() const { return contacts_; }
   /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none); empty where there is none.
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
@@ -90,6 +91,7 @@ class Potential {
   std::size_t free_count_ = 0;
   std::vector<MembraneTerm> membranes_;
   std::vector<HingeTerm> hinges_;
+  std::vector<SpringTerm> springs_;
   std::vector<ContactTerm> contacts_;
   std::vector<FrictionTerm> frictions_;
   State start_, target_;

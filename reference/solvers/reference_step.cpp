@@ -31,7 +31,7 @@ class ReferenceStep {
 
   compare::StepOut run() {
     out_.rest = rest_state({in_.scene, in_.topology}).exact;
-    out_.colour = colours_of(out_.rest, groups_);
+    out_.colour = colours_of(*in_.scene, out_.rest, groups_);
     set_targets();
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
     StepOrder order(settings_, static_cast<Index>(std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; })));

@@ -13,7 +13,7 @@ namespace ogc::reference {
 
 class VbdSolver : public StepSolver, private ContactStep {
  public:
-  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two vertices of a membrane or hinge may share
+  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two vertices of a membrane, hinge or spring may share
   /// one. Empty: colours of its own (colouring.hpp). Throws std::invalid_argument where they do not fit the scene.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<compare::Index> colour = {});
 

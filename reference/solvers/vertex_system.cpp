@@ -63,28 +63,79 @@ void add_identity(double weight, VertexSystem& sum) {
   for (const std::size_t k : {0u, 3u, 5u}) sum.block[k] += weight;
 }
 
-/// The material part, and the elastic stress's where it is stiff: G is a quadratic function whose second derivative is a multiple of the identity.
-void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners, VertexSystem& sum) {
-  const Strain<OwnTwice> g = strain<OwnTwice>(with_own<OwnTwice>(corners, place), term.gradient);
-  Strain<OwnTwice> by_strain;
-  for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
-  const OwnTwice energy = term.energy_of(by_strain), elastic = term.elastic_of(by_strain);
-  double geometric = 0;
+/// The material part of an energy of the strain.
+void add_strain(const Strain<OwnTwice>& g, const OwnTwice& energy, VertexSystem& sum) {
   for (std::size_t i = 0, k = 0; i < 3; ++i) {
     add_force(energy.slope[i], g[i].slope, sum);
-    geometric += elastic.slope[i] * g[i].bend[0];
     for (std::size_t j = 0; j <= i; ++j, ++k) add_outer((i == j ? 1 : 2) * energy.bend[k], g[i].slope, g[j].slope, sum);
   }
+}
+
+/// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the identity.
+void add_geometric(const Strain<OwnTwice>& g, const OwnTwice& elastic, VertexSystem& sum) {
+  double geometric = 0;
+  for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend[0];
   add_identity(std::max(0.0, geometric), sum);
 }
 
+/// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
+void add_neo_hookean(const OwnTwice& energy, const Triple<double>& normal, VertexSystem& sum) {
+  add_force(1, energy.slope, sum);
+  Triple<double> along{};
+  for (std::size_t i = 0, k = 0; i < 3; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++k) {
+      std::array<double, 3> a{}, b{};
+      a[i] = b[j] = 1;
+      add_outer((i == j ? 1 : 2) * energy.bend[k], a, b, sum);
+      along[i] += energy.bend[k] * normal[j];
+      if (i != j) along[j] += energy.bend[k] * normal[i];
+    }
+  const double squared = dot(normal, normal);
+  if (squared > 0) add_outer(std::max(0.0, -dot(normal, along) / squared) / squared, normal, normal, sum);
+}
+
+void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners, VertexSystem& sum) {
+  const Deformation<OwnTwice> f = deformation<OwnTwice>(with_own<OwnTwice>(corners, place), term.gradient);
+  const Strain<OwnTwice> g = strain(f);
+  Strain<OwnTwice> by_strain;
+  for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
+  if (term.damping > 0) add_strain(g, term.damping_of(by_strain), sum);
+  if (term.neo_hookean()) {
+    const Deformation<double> plain_f = deformation<double>(corners, term.gradient);
+    return add_neo_hookean(term.elastic_of(f), cross(plain_f[0], plain_f[1]), sum);
+  }
+  const OwnTwice elastic = term.elastic_of(by_strain);
+  add_strain(g, elastic, sum);
+  add_geometric(g, elastic, sum);
+}
+
+void add_isometric(const HingeTerm& term, const Hinge<Own>& x, VertexSystem& sum) {
+  add_force(1, term.isometric_energy(x).slope, sum);
+  for (const Own& component : separation(term.weight, x)) add_outer(term.stiffness, component.slope, component.slope, sum);
+}
+
 void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
-  const Fold<Own> fold(with_own<Own>(corners, place));
+  const Hinge<Own> x = with_own<Own>(corners, place);
+  if (term.isometric) add_isometric(term, x, sum);
+  if (term.isometric && term.damping == 0) return;
+  const Fold<Own> fold(x);
   if (fold.collapsed()) return;
   const Own angle = fold.angle();
-  const Second<1> energy = along(angle.value, [&](const Second<1>& x) { return term.energy_of(x); });
+  const Second<1> energy = along(angle.value, [&](const Second<1>& a) { return term.energy_of(a); });
   add_force(energy.slope[0], angle.slope, sum);
   add_outer(energy.bend[0], angle.slope, angle.slope, sum);
+}
+
+/// k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and k k_s n nᵀ of the damping (compare/stages/spring.hpp).
+void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 2>& ends, VertexSystem& sum) {
+  const std::array<Triple<Own>, 2> x = with_own<Own>(ends, place);
+  const Triple<Own> apart = x[0] - x[1];
+  const Own length = sqrt(dot(apart, apart));
+  if (length.value == 0) return add_identity(term.rest_length == 0 ? term.stiffness : 0, sum);
+  const double across = std::max(0.0, 1 - term.rest_length / length.value);
+  add_force(1, term.energy(x).slope, sum);
+  add_identity(term.stiffness * across, sum);
+  add_outer(term.stiffness * (1 - across + term.damping), length.slope, length.slope, sum);
 }
 
 void add_friction(const FrictionTerm& term, const std::array<Triple<Own>, 4>& x, VertexSystem& sum) {
@@ -124,6 +175,7 @@ void VertexSystems::list(const Terms& terms, Parts& parts) const {
 VertexSystems::VertexSystems(const Potential& potential) : potential_(potential) {
   list(potential.membranes(), membranes_);
   list(potential.hinges(), hinges_);
+  list(potential.springs(), springs_);
 }
 
 void VertexSystems::read_contacts() { list(potential_.contacts(), contacts_); }
@@ -141,6 +193,10 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   for (const Part& part : hinges_[v]) {
     const HingeTerm& term = potential_.hinges()[part.stencil];
     add_hinge(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  for (const Part& part : springs_[v]) {
+    const SpringTerm& term = potential_.springs()[part.stencil];
+    add_spring(term, part.place, plain_corners(term.vertex, vertex, x), sum);
   }
   for (const Part& part : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[part.stencil];

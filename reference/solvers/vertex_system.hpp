@@ -52,7 +52,7 @@ class VertexSystems {
   void list(const Terms& terms, Parts& parts) const;
 
   const Potential& potential_;
-  Parts membranes_, hinges_, contacts_;
+  Parts membranes_, hinges_, springs_, contacts_;
 };
 
 }  // namespace ogc::reference

@@ -5,6 +5,7 @@
 
 #include "reference/energies/bending.hpp"
 #include "reference/energies/membrane.hpp"
+#include "reference/energies/spring.hpp"
 #include "reference/solvers/contacts.hpp"
 #include "reference/solvers/symmetric3.hpp"
 
@@ -41,6 +42,8 @@ compare::MembraneCase membrane_question(const compare::SweepIn& in, const compar
   question.lame_lambda = rounded(material.lame_lambda);
   question.lame_mu = rounded(material.lame_mu);
   question.damping = rounded(material.membrane_damping / in.scene->settings.time_step);
+  question.model = material.membrane;
+  question.damping_form = in.scene->settings.damping;
   return question;
 }
 
@@ -52,8 +55,27 @@ compare::BendingCase bending_question(const compare::SweepIn& in, const compare:
   }
   question.stiffness = hinge.stiffness;
   question.rest_angle = hinge.rest_angle;
-  question.damping = rounded(in.scene->bodies[static_cast<std::size_t>(hinge.body)].material.bending_damping / in.scene->settings.time_step);
+  const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(hinge.body)].material;
+  question.damping = rounded(material.bending_damping / in.scene->settings.time_step);
+  question.model = material.bending;
+  question.weight = hinge.weight;
+  question.damping_form = in.scene->settings.damping;
   question.own = static_cast<std::int32_t>(role);
+  return question;
+}
+
+/// Seen from the end `place`.
+compare::SpringCase spring_question(const compare::SweepIn& in, const compare::Spring& spring, std::size_t place, const SweepPositions& x) {
+  const std::array<Index, 2> ends = place == 0 ? std::array{spring.first, spring.second} : std::array{spring.second, spring.first};
+  compare::SpringCase question;
+  for (std::size_t k = 0; k < 2; ++k) {
+    question.vertex[k] = x[ends[k]];
+    question.start[k] = in.start[static_cast<std::size_t>(ends[k])];
+  }
+  question.stiffness = rounded(spring.stiffness);
+  question.rest_length = rounded(spring.rest_length);
+  question.damping = rounded(spring.damping / in.scene->settings.time_step);
+  question.damping_form = in.scene->settings.damping;
   return question;
 }
 
@@ -61,9 +83,10 @@ compare::BendingCase bending_question(const compare::SweepIn& in, const compare:
 
 SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
   const std::size_t count = in.old.size();
-  for (ElementsOfVertex* rows : {&triangles, &hinges, &vertex_facet, &edge_edge}) rows->resize(count);
+  for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &vertex_facet, &edge_edge}) rows->resize(count);
   for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
+  for (std::size_t i = 0; i < in.scene->springs.size(); ++i) add_element(springs, i, std::array{in.scene->springs[i].first, in.scene->springs[i].second});
   for (std::size_t i = 0; i < in.vertex_facet.size(); ++i) add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i) add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
 }
@@ -94,11 +117,15 @@ VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& ste
   VertexTerms sum;
   for (const auto& [triangle, corner] : stencils.triangles[v]) {
     const auto question = membrane_question(in, in.rest->triangles[triangle], corner, positions);
-    sum.terms.push_back(term_of({membrane(question)}, compare::membrane_force_tolerance + inputs, compare::membrane_block_tolerance + inputs));
+    sum.terms.push_back(term_of(membrane(question), compare::membrane_force_tolerance + inputs, compare::membrane_block_tolerance + inputs));
   }
   for (const auto& [hinge, role] : stencils.hinges[v]) {
     const auto question = bending_question(in, in.rest->hinges[hinge], role, positions);
     sum.terms.push_back(term_of(bending(question), compare::bending_force_tolerance + inputs, compare::bending_block_tolerance + inputs));
+  }
+  for (const auto& [spring, place] : stencils.springs[v]) {
+    const auto question = spring_question(in, in.scene->springs[spring], place, positions);
+    sum.terms.push_back(term_of({reference::spring(question)}, compare::spring_force_tolerance + inputs, compare::spring_block_tolerance + inputs));
   }
   add_contact_terms(in, stencils, positions, vertex, sum);
   return sum;

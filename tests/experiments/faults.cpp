@@ -88,6 +88,7 @@ Contestant exact_contestant(const Authority& authority) {
   exact.initial_guess = [authority, truncate = exact.truncate](const InitialGuessIn& in) { return exact_guess(in, authority.initial_guess(in), truncate); };
   exact.membrane = [authority](const MembraneIn& in) { return rounded(authority.membrane(in)); };
   exact.bending = [authority](const BendingIn& in) { return rounded(authority.bending(in)); };
+  exact.spring = [authority](const SpringIn& in) { return rounded(authority.spring(in)); };
   exact.sweep = [](const SweepIn& in) { return reference::reference_sweep(in, reference::SweepStencils(in)); };
   exact.step = reference::reference_step;
   return exact;

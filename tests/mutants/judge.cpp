@@ -54,6 +54,7 @@ Authority remembering(const Authority& a, const std::size_t& round) {
   r.truncate = remembered(a.truncate, round);
   r.membrane = remembered(a.membrane, round);
   r.bending = remembered(a.bending, round);
+  r.spring = remembered(a.spring, round);
   r.contact_force = remembered(a.contact_force, round);
   r.friction_force = remembered(a.friction_force, round);
   r.block = remembered(a.block, round);

@@ -10,24 +10,39 @@ OGC_PLUGIN("activation example, CUDA", OGC_DEVICE_MEMORY)
 
 namespace {
 
+// g, g' and g'' of one case; d < r.
+struct Activation {
+  float energy, slope, curvature;
+};
+
+// `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
+__device__ Activation two_stages(float d, float r, float k, float tau, float inner) {
+  if (d >= tau) return {0.5f * k * (r - d) * (r - d), -k * (r - d), k};
+  return {0.5f * k * (r - tau) * (r - tau) + inner * logf(tau / d), -inner / d, inner / d / d};
+}
+
+__device__ Activation activation_at(int64_t kind, float d, float r, float k) {
+  const float tau = 0.5f * r, depth = r - d, share = depth / d, slope = 2 * k / r;
+  switch (kind) {
+    case OGC_ACTIVATION_OGC_AS_PRINTED: return two_stages(d, r, k, tau, tau * k * (tau - r) * (tau - r));
+    case OGC_ACTIVATION_QUADRATIC: return {0.5f * k * depth * depth, -k * depth, k};
+    case OGC_ACTIVATION_IPC_LOG: {  // log1p, because r/d tends to 1
+      const float log = log1pf(share);
+      return {k * depth * (depth * log), -k * depth * (2 * log + share), k * (2 * log + share * (4 + share))};
+    }
+    case OGC_ACTIVATION_CUBIC: return {slope / 3 * depth * depth * depth, -slope * depth * depth, 2 * slope * depth};
+    default: return two_stages(d, r, k, tau, tau * k * (r - tau));
+  }
+}
+
 __global__ void activation(ogc_activation_in in, ogc_activation_out out) {
   const int64_t i = blockIdx.x * int64_t{blockDim.x} + threadIdx.x;
   if (i >= in.n) return;
-  const float d = in.distance[i], r = in.contact_radius[i], k = in.stiffness[i], tau = 0.5f * r;
-  float energy = 0, slope = 0, curvature = 0;
-  if (d < r && d >= tau) {  // the quadratic part holds at d = tau, too
-    energy = 0.5f * k * (r - d) * (r - d);
-    slope = -k * (r - d);
-    curvature = k;
-  } else if (d < tau) {
-    const float inner = tau * k * (r - tau);
-    energy = 0.5f * k * (r - tau) * (r - tau) + inner * logf(tau / d);
-    slope = -inner / d;
-    curvature = inner / d / d;  // d squared could underflow
-  }
-  out.energy[i] = energy;
-  out.slope[i] = slope;
-  out.curvature[i] = curvature;
+  const float d = in.distance[i], r = in.contact_radius[i];
+  const Activation g = d < r ? activation_at(in.activation[i], d, r, in.stiffness[i]) : Activation{};
+  out.energy[i] = g.energy;
+  out.slope[i] = g.slope;
+  out.curvature[i] = g.curvature;
 }
 
 }  // namespace

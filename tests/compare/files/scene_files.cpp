@@ -29,6 +29,8 @@ Scene full_scene() {
   for (std::size_t v = 4; v < 7; ++v) scene.velocities[v] = {0, -0.0, 1};
   scene.bodies[0].material.membrane = MembraneModel::none;
   scene.bodies[0].material.bending = BendingModel::none;
+  scene.bodies[1].material.membrane = MembraneModel::stable_neo_hookean;
+  scene.bodies[1].material.bending = BendingModel::isometric_quadratic;
   scene.bodies[0].material.lame_lambda = 1.0 / 3;
   scene.motions[0].axis = {0.1, 1.0 / 3, -2};
   scene.motions[0].start = 0.1;
@@ -39,6 +41,8 @@ Scene full_scene() {
   scene.settings.lanes = 16;
   scene.settings.projection = HessianProjection::absolute;
   scene.settings.activation = ContactActivation::cubic;
+  scene.settings.damping = DampingForm::per_vertex;
+  scene.springs = {{1, 5, 12, 0.25, 1e-4}, {6, 0, 3, 0, 0}};
   scene.settings.seed = (std::int64_t{1} << 53) - 1;
   scene.settings.contact_radius = 1.0 / 300;
   round_to_single(scene);

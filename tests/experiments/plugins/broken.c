@@ -36,15 +36,27 @@ static void break_activation(const ogc_activation_in* in, ogc_activation_out* ou
     for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
 }
 
+/* g, g' and g''; d < r. */
+static void activate(int64_t kind, double d, double r, double k, double g[3]) {
+  const double tau = r / 2, depth = r - d, share = depth / d, log = log1p(share);
+  const double inner = kind == OGC_ACTIVATION_OGC_AS_PRINTED ? tau * k * tau * tau : tau * k * tau;
+  const int two_stages = kind == OGC_ACTIVATION_OGC || kind == OGC_ACTIVATION_OGC_AS_PRINTED;
+  if (two_stages && d < tau) g[0] = k / 2 * tau * tau + inner * (log - log1p(1)), g[1] = -inner / d, g[2] = inner / d / d;
+  else if (two_stages || kind == OGC_ACTIVATION_QUADRATIC) g[0] = k / 2 * depth * depth, g[1] = -k * depth, g[2] = k;
+  else if (kind == OGC_ACTIVATION_CUBIC) g[0] = 2 * k / (3 * r) * depth * depth * depth, g[1] = -2 * k / r * depth * depth, g[2] = 4 * k / r * depth;
+  else g[0] = k * depth * depth * log, g[1] = -k * depth * (2 * log + share), g[2] = k * (2 * log + share * (4 + share));
+}
+
 int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out) {
   printf("a plug-in may print\n");
   for (int64_t i = 0; i < in->n; ++i) {
-    const double d = in->distance[i], r = in->contact_radius[i], k = in->stiffness[i], tau = r / 2, inner = tau * k * (r - tau);
-    const int is_far = d >= r, is_quadratic = d >= tau;
+    const double d = in->distance[i], r = in->contact_radius[i];
+    double g[3] = {0, 0, 0};
+    if (d < r) activate(in->activation[i], d, r, in->stiffness[i], g);
     if (breaks("unwritten") && d == r) continue;
-    out->energy[i] = (float)(is_far ? 0 : is_quadratic ? k / 2 * (r - d) * (r - d) : k / 2 * (r - tau) * (r - tau) + inner * log(tau / d));
-    out->slope[i] = (float)(is_far ? 0 : is_quadratic ? -k * (r - d) : -inner / d);
-    out->curvature[i] = (float)(is_far ? 0 : is_quadratic ? k : inner / d / d);
+    out->energy[i] = (float)g[0];
+    out->slope[i] = (float)g[1];
+    out->curvature[i] = (float)g[2];
     if (d == r) break_activation(in, out, i);
   }
   for (int64_t i = 0; breaks("status") && i < in->n; ++i)

@@ -1,5 +1,5 @@
 // activation: smoothness where the stages meet, and what Eq. 19 as printed would do.
-#include "reference/geometry/activation.hpp"
+#include "reference/energies/activation.hpp"
 
 #include <cmath>
 

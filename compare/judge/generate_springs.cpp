@@ -1,0 +1,76 @@
+// Cases of spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the spring, which damping does not see.
+#include <array>
+#include <cmath>
+
+#include "compare/judge/generators.hpp"
+#include "compare/judge/placement.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+/// Along x, of that length, after it was `before` long.
+CaseData spring_case(Random& random, double length, double before, double rest_length, bool turned = true) {
+  std::array<Vec3, 4> points{Vec3{}, Vec3{length, 0, 0}, Vec3{}, Vec3{before, 0, 0}};
+  if (random.one_in(2)) points[3] = sum(points[3], scaled(in_box(random, -1, 1), 0.1 * before));
+  const Vec3 common = random.one_in(2) ? Vec3{} : scaled(in_box(random, -1, 1), random.magnitude(-4, 0));
+  for (std::size_t k = 2; k < 4; ++k) points[k] = sum(points[k], common);
+  permute(random, points);
+  if (turned) rotate(random, points);
+  SpringCase question;
+  for (std::size_t k = 0; k < 2; ++k) {
+    question.vertex[k] = single(points[k]);
+    question.start[k] = single(points[2 + k]);
+  }
+  question.stiffness = static_cast<float>(random.magnitude(-2, 5));
+  question.rest_length = static_cast<float>(rest_length);
+  question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
+  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
+  return question;
+}
+
+double some_length(Random& random) { return random.magnitude(-3, 0); }
+
+/// Stretched or pressed.
+CaseData uniform(Random& random) {
+  const double length = some_length(random);
+  return spring_case(random, length, length * random.between(0.5, 2), length * random.magnitude(-0.7, 0.7));
+}
+
+/// Lengths without a rounding.
+CaseData lattice(Random& random) {
+  const double size = std::ldexp(1.0, random.below(9) - 8);
+  return spring_case(random, size * random.below(5), size * random.below(5), size * random.below(5), false);
+}
+
+/// l → l₀, where the force vanishes and the block's part across the spring sets in; lᵗ → l.
+CaseData at_rest(Random& random) {
+  const double length = some_length(random);
+  return spring_case(random, length, length * (1 + random.rung()), length * (1 + random.rung()));
+}
+
+/// l → 0.
+CaseData at_zero(Random& random) {
+  const double size = some_length(random);
+  return spring_case(random, size * random.rung(), random.one_in(2) ? size : size * random.rung(), size, random.one_in(2));
+}
+
+/// Stitches: l₀ = 0.
+CaseData stitch(Random& random) {
+  const double size = some_length(random);
+  return spring_case(random, size * random.rung(), size * random.rung(), 0);
+}
+
+constexpr std::array<Generator, 5> table{{{"uniform", 40, true, uniform},
+                                          {"lattice", 15, false, lattice},
+                                          {"ladder.rest", 20, false, at_rest},
+                                          {"ladder.zero", 15, false, at_zero},
+                                          {"ladder.stitch", 10, false, stitch}}};
+
+}  // namespace
+
+std::span<const Generator> spring_generators() { return table; }
+
+}  // namespace ogc::compare

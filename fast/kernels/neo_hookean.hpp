@@ -1,0 +1,76 @@
+// Stable Neo-Hookean membrane on F (3×2): ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ (compare/stages/membrane.hpp), seen from one corner.
+// With b = ∇N_a, n the normal and t = b₁ f₂ − b₂ f₁, in the plane:
+//
+//   ∂J/∂x = g = t × n,   ∂²J/∂x² = t²/J n nᵀ,   so that the block μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) t²/J n nᵀ has n for an eigenvector
+//
+// and only along n can it be negative. Damping is that of the other model (membrane.hpp): its strain is G, its quadratic form ψ's at rest.
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/membrane.hpp"
+
+namespace ogc::fast {
+
+/// J and n; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
+struct AreaRatio {
+  Vec normal;
+  float ratio = 0;
+};
+
+OGC_HD inline AreaRatio area_ratio(const DeformationGradient& f) {
+  Vec normal = cross(f.first, f.second);
+  float scale = 1.0f;
+  // Of a triangle of a millionth of its size the square of the area underflows.
+  if (!(dot(normal, normal) >= 0x1p-90f)) {
+    normal = cross(0x1p40f * f.first, 0x1p40f * f.second);
+    scale = 0x1p-80f;
+  }
+  const float squared = dot(normal, normal);
+  if (!(squared >= 0x1p-126f)) return {};
+  const float length = sqrtf(squared);
+  return {(1.0f / length) * normal, scale * length};
+}
+
+/// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J.
+OGC_HD inline void add_neo_hookean(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b, const Vec& to_c, ForceAndBlock& sum) {
+  const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+  const float mu = material.lame_mu, area = stencil.area, around = mu * (own_x * own_x + own_y * own_y);
+  const Vec along = own_x * f.first + own_y * f.second;
+  const AreaRatio at = area_ratio(f);
+  sum.add_identity(area * around);
+  if (!(at.ratio > 0)) {
+    sum.add_force(-area, mu * along);
+    return;
+  }
+  const Vec across = own_x * f.second - own_y * f.first, growth = cross(across, at.normal);
+  const float volume = material.lame_lambda + mu, pull = volume * (at.ratio - 1.0f) - mu;
+  sum.add_force(-area, mu * along + pull * growth);
+  sum.add_outer(area * volume, growth);
+  const float lift = pull * (dot(across, across) / at.ratio);
+  sum.add_outer(area * (lift > -around ? lift : -around), at.normal);
+}
+
+/// Adds −∂/∂x_a of A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²) and its material part, as add_membrane has it.
+OGC_HD inline void add_strain_damping(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b, const Vec& to_c,
+                                      const Symmetric2& strain_start, ForceAndBlock& sum) {
+  const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+  const Symmetric2 strain = green_strain(f);
+  const Symmetric2 viscous = membrane_stress(material, {strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
+  const float weight = stencil.area * material.membrane_damping, around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
+  sum.add_force(-weight, (viscous.xx * own_x + viscous.xy * own_y) * f.first + (viscous.xy * own_x + viscous.yy * own_y) * f.second);
+  sum.add_outer(weight * (material.lame_lambda + material.lame_mu), own_x * f.first + own_y * f.second);
+  sum.add_outer(around, f.first);
+  sum.add_outer(around, f.second);
+}
+
+/// ψ/A [J/m²], in double: energies are only reported.
+OGC_HD inline double neo_hookean_energy_density(const SurfaceMaterial& material, const DeformationGradient& f) {
+  const double grown = static_cast<double>(area_ratio(f).ratio) - 1.0, mu = material.lame_mu;
+  return 0.5 * mu * (static_cast<double>(dot(f.first, f.first)) + static_cast<double>(dot(f.second, f.second)) - 2.0) - mu * grown +
+         0.5 * (material.lame_lambda + mu) * grown * grown;
+}
+
+}  // namespace ogc::fast
