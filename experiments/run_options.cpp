@@ -1,9 +1,12 @@
 #include "experiments/run_options.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/text.hpp"
 #include "experiments/measured_simulation.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/contestant.hpp"
@@ -17,9 +20,9 @@ std::string value_text(const compare::Settings& settings, const compare::Setting
   return info.choices.empty() ? number(compare::get_setting(settings, info)) : compare::setting_text(settings, info);
 }
 
-std::string choices(const compare::SettingInfo& info) {
+std::string listed(std::span<const std::string_view> names) {
   std::string text;
-  for (const std::string_view name : info.choices) text.append(text.empty() ? "" : ", ").append(name);
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
   return text;
 }
 
@@ -34,14 +37,33 @@ compare::Scene load_scene(const RunOptions& options, std::string& scale) {
   return make_scene(options.scene, parse_scale(scale));
 }
 
-void apply_settings(compare::Settings& settings, const RunOptions& options) {
+/// The model of that name for every body that has one; false where `key` names no model.
+template <class Model>
+bool set_model(compare::Scene& scene, const std::string& key, std::string_view wanted_key, const std::string& value,
+               std::span<const std::string_view> names, Model compare::Material::*model) {
+  if (key != wanted_key) return false;
+  const auto found = std::find(names.begin(), names.end(), value);
+  if (found == names.end()) throw compare::InputError(key + ": " + compare::unknown_name("model", value, names));
+  for (compare::Body& body : scene.bodies)
+    if (body.material.*model != Model::none) body.material.*model = static_cast<Model>(found - names.begin());
+  return true;
+}
+
+void set(compare::Scene& scene, const std::string& key, const std::string& value) {
+  using compare::Material;
+  if (!set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
+      !set_model(scene, key, "bending", value, compare::bending_model_names(), &Material::bending))
+    compare::set_setting(scene.settings, key, value);
+}
+
+void apply_settings(compare::Scene& scene, const RunOptions& options) {
   for (const std::string& assignment : options.assignments) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
       throw compare::InputError("--set " + assignment + ": give key=value, for example --set iterations=20");
-    compare::set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+    set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
-  if (options.steps > 0) compare::set_setting(settings, "steps", std::to_string(options.steps));
+  if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
 
 /// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one iteration.
@@ -91,7 +113,9 @@ std::string settings_help() {
   const compare::Settings defaults;
   for (const compare::SettingInfo& info : compare::setting_table())
     rows.push_back({"  " + std::string(info.name), std::string(info.unit), value_text(defaults, info),
-                    info.choices.empty() ? number(info.minimum) + " … " + number(info.maximum) : choices(info), std::string(info.meaning)});
+                    info.choices.empty() ? number(info.minimum) + " … " + number(info.maximum) : listed(info.choices), std::string(info.meaning)});
+  rows.push_back({"  membrane", "1", "the scene's", listed(compare::membrane_model_names()), "model of every body that has a membrane energy"});
+  rows.push_back({"  bending", "1", "the scene's", listed(compare::bending_model_names()), "model of every body that has a bending energy"});
   return "Settings for --set (a scene brings its own values; defaults are those of a scene file that says nothing):\n" + table(rows, 5);
 }
 
@@ -106,7 +130,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
     throw compare::InputError("--solver ipc has a measure of its own in that column; leave --residual out");
   RunRequest request;
   request.scene = load_scene(options, request.scale);
-  apply_settings(request.scene.settings, options);
+  apply_settings(request.scene, options);
   if (options.solver == "vbd" && options.iterations && !request.scene.motions.empty())
     throw compare::InputError("--iterations with --solver vbd needs a scene without prescribed motions; take --residual, or --solver reference_vbd");
   request.solver = options.solver;

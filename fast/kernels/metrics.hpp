@@ -121,11 +121,15 @@ struct TriangleTerm {
 
   OGC_HD void operator()(int t, double* sum) const {
     const TriangleRest& rest = triangles[t];
-    const Vec a = position[rest.corner[0]];
-    const DeformationGradient f = deformation_gradient(position[rest.corner[1]] - a, position[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]);
-    const bool neo_hookean = models[rest.body].membrane == compare::MembraneModel::stable_neo_hookean;
+    const Vec a = position[rest.corner[0]], to_b = position[rest.corner[1]] - a, to_c = position[rest.corner[2]] - a;
+    const DeformationGradient f = deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]);
     const SurfaceMaterial& material = materials[rest.body];
-    sum[sum_membrane] += rest.area * (neo_hookean ? neo_hookean_energy_density(material, f) : membrane_energy_density(material, green_strain(f)));
+    if (models[rest.body].membrane == compare::MembraneModel::stable_neo_hookean) {
+      const float ratio = area_ratio(to_b, to_c, rest.gradient[1], rest.gradient[2]).ratio;
+      sum[sum_membrane] += rest.area * neo_hookean_energy_density(material, f, ratio);
+    } else {
+      sum[sum_membrane] += rest.area * membrane_energy_density(material, green_strain(f));
+    }
   }
 };
 

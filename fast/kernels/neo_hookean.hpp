@@ -1,9 +1,10 @@
 // Stable Neo-Hookean membrane on F (3×2): ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ (compare/stages/membrane.hpp), seen from one corner.
-// With b = ∇N_a, n the normal and t = b₁ f₂ − b₂ f₁, in the plane:
+// With the edges b, c to the other corners, q = |∇N_b × ∇N_c| and the normal n of b × c:
 //
-//   ∂J/∂x = g = t × n,   ∂²J/∂x² = t²/J n nᵀ,   so that the block μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) t²/J n nᵀ has n for an eigenvector
+//   J = q ‖b × c‖,   ∂J/∂x = g = q (b − c) × n,   ∂²J/∂x² = ‖g‖²/J n nᵀ
 //
-// and only along n can it be negative. Damping is that of the other model (membrane.hpp): its strain is G, its quadratic form ψ's at rest.
+// F itself would cancel where a triangle is thin. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) ‖g‖²/J n nᵀ has n for an eigenvector, and only along n
+// can it be negative. Damping is that of the other model (membrane.hpp): its strain is G, its quadratic form ψ's at rest.
 #pragma once
 
 #include <cmath>
@@ -12,43 +13,44 @@
 
 namespace ogc::fast {
 
-/// J and n; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
+/// J, n and q; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
 struct AreaRatio {
   Vec normal;
-  float ratio = 0;
+  float ratio = 0, density = 0;
 };
 
-OGC_HD inline AreaRatio area_ratio(const DeformationGradient& f) {
-  Vec normal = cross(f.first, f.second);
-  float scale = 1.0f;
-  // Of a triangle of a millionth of its size the square of the area underflows.
+OGC_HD inline AreaRatio area_ratio(const Vec& to_b, const Vec& to_c, const float* gradient_b, const float* gradient_c) {
+  Vec normal = cross(to_b, to_c);
+  float scale = fabsf(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
+  const float density = scale;
+  // Of a triangle a millionth as large the square of the area underflows.
   if (!(dot(normal, normal) >= 0x1p-90f)) {
-    normal = cross(0x1p40f * f.first, 0x1p40f * f.second);
-    scale = 0x1p-80f;
+    normal = cross(0x1p40f * to_b, 0x1p40f * to_c);
+    scale *= 0x1p-80f;
   }
   const float squared = dot(normal, normal);
-  if (!(squared >= 0x1p-126f)) return {};
+  if (!(squared >= 0x1p-126f)) return {{}, 0, density};
   const float length = sqrtf(squared);
-  return {(1.0f / length) * normal, scale * length};
+  return {(1.0f / length) * normal, scale * length, density};
 }
 
 /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J.
 OGC_HD inline void add_neo_hookean(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b, const Vec& to_c, ForceAndBlock& sum) {
-  const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
   const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
   const float mu = material.lame_mu, area = stencil.area, around = mu * (own_x * own_x + own_y * own_y);
+  const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
   const Vec along = own_x * f.first + own_y * f.second;
-  const AreaRatio at = area_ratio(f);
+  const AreaRatio at = area_ratio(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
   sum.add_identity(area * around);
   if (!(at.ratio > 0)) {
     sum.add_force(-area, mu * along);
     return;
   }
-  const Vec across = own_x * f.second - own_y * f.first, growth = cross(across, at.normal);
+  const Vec growth = at.density * cross(to_b - to_c, at.normal);
   const float volume = material.lame_lambda + mu, pull = volume * (at.ratio - 1.0f) - mu;
   sum.add_force(-area, mu * along + pull * growth);
   sum.add_outer(area * volume, growth);
-  const float lift = pull * (dot(across, across) / at.ratio);
+  const float lift = pull * (dot(growth, growth) / at.ratio);
   sum.add_outer(area * (lift > -around ? lift : -around), at.normal);
 }
 
@@ -67,8 +69,8 @@ OGC_HD inline void add_strain_damping(const MembraneStencil& stencil, const Surf
 }
 
 /// ψ/A [J/m²], in double: energies are only reported.
-OGC_HD inline double neo_hookean_energy_density(const SurfaceMaterial& material, const DeformationGradient& f) {
-  const double grown = static_cast<double>(area_ratio(f).ratio) - 1.0, mu = material.lame_mu;
+OGC_HD inline double neo_hookean_energy_density(const SurfaceMaterial& material, const DeformationGradient& f, float ratio) {
+  const double grown = static_cast<double>(ratio) - 1.0, mu = material.lame_mu;
   return 0.5 * mu * (static_cast<double>(dot(f.first, f.first)) + static_cast<double>(dot(f.second, f.second)) - 2.0) - mu * grown +
          0.5 * (material.lame_lambda + mu) * grown * grown;
 }

@@ -1,4 +1,4 @@
-// Faults of membrane and bending.
+// Faults of membrane, bending and spring.
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {
@@ -53,6 +53,29 @@ std::vector<Fault> force_faults() {
                          }),
       spoiled<BendingIn>("bending: force 0.1 % too small", Stage::bending, &Contestant::bending,
                          [](const BendingCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
+      asked_wrongly<MembraneIn>("membrane: St. Venant–Kirchhoff for every model", Stage::membrane, &Contestant::membrane,
+                                [](MembraneCase& c) { c.model = MembraneModel::st_venant_kirchhoff; }),
+      spoiled<MembraneIn>("membrane: stable Neo-Hookean with λ for λ + μ", Stage::membrane, &Contestant::membrane,
+                          [](const MembraneCase& c, Vec3f& force, std::array<float, 6>& block) {
+                            if (c.model != MembraneModel::stable_neo_hookean) return;
+                            const float share = c.lame_lambda / (c.lame_lambda + c.lame_mu);
+                            force = {share * force.x, share * force.y, share * force.z};
+                            for (float& b : block) b *= share;
+                          }),
+      asked_wrongly<MembraneIn>("membrane: damping of strains for that by vertex", Stage::membrane, &Contestant::membrane,
+                                [](MembraneCase& c) { c.damping_form = DampingForm::strain; }),
+      asked_wrongly<BendingIn>("bending: isometric weights of the wrong sides", Stage::bending, &Contestant::bending,
+                               [](BendingCase& c) { std::swap(c.weight[1], c.weight[2]); }),
+      asked_wrongly<BendingIn>("bending: a hinge for the isometric model", Stage::bending, &Contestant::bending,
+                               [](BendingCase& c) { c.model = BendingModel::discrete_hinge; }),
+      asked_wrongly<SpringIn>("spring: rest length forgotten", Stage::spring, &Contestant::spring, [](SpringCase& c) { c.rest_length = 0; }),
+      asked_wrongly<SpringIn>("spring: damping forgotten", Stage::spring, &Contestant::spring, [](SpringCase& c) { c.damping = 0; }),
+      spoiled<SpringIn>("spring: no stiffness across a stretched spring", Stage::spring, &Contestant::spring,
+                        [](const SpringCase& c, Vec3f&, std::array<float, 6>& block) {
+                          if (c.vertex[0].y == c.vertex[1].y && c.vertex[0].z == c.vertex[1].z) block[3] = block[5] = 0;
+                        }),
+      spoiled<SpringIn>("spring: force 0.1 % too small", Stage::spring, &Contestant::spring,
+                        [](const SpringCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
   };
 }
 

@@ -77,6 +77,14 @@ std::vector<Fault> scalar_faults() {
                        [](float d, float r, float, std::size_t i, ActivationOut& out) {
                          if (d < r / 2) out.curvature[i] *= 0.5f;
                        }),
+      {"activation: ogc for every activation", Stage::activation,
+       [](Contestant& contestant, const Authority&) {
+         contestant.activation = [right = contestant.activation](const ActivationIn& in) {
+           ActivationIn other = in;
+           for (ContactActivation& kind : other.activation) kind = ContactActivation::ogc;
+           return right(other);
+         };
+       }},
       activation_fault("activation: no curvature jump at the radius",
                        [](float d, float r, float k, std::size_t i, ActivationOut& out) {
                          if (d == r) out.curvature[i] = k;

@@ -39,6 +39,9 @@ struct IsLegal {
     return all_finite(c.corner) && all_finite(c.start) && c.area > 0 && c.lame_lambda >= 0 && c.lame_mu > 0 && c.damping >= 0;
   }
   bool operator()(const BendingCase& c) const { return all_finite(c.vertex) && all_finite(c.start) && c.stiffness > 0 && c.damping >= 0 && c.own >= 0 && c.own < 4; }
+  bool operator()(const SpringCase& c) const {
+    return all_finite(c.vertex) && all_finite(c.start) && c.stiffness > 0 && c.rest_length >= 0 && c.damping >= 0;
+  }
   bool operator()(const SweepCase& c) const {
     const Topology topology = build_topology(*c.scene);
     const std::vector<Index> groups = rigid_groups(*c.scene);
@@ -47,6 +50,7 @@ struct IsLegal {
     for (std::size_t v = 0; v < groups.size(); ++v) legal = legal && (c.colour[v] >= 0) == (groups[v] < 0) && c.largest_bound[v] >= 0;
     for (const Edge& e : topology.edges) legal = legal && coloured(e[0], e[1]);
     for (const Hinge& hinge : topology.hinges) legal = legal && coloured(hinge.opposite[0], hinge.opposite[1]);
+    for (const Spring& spring : c.scene->springs) legal = legal && coloured(spring.first, spring.second);
     return legal && all_finite(c.old) && all_finite(c.start) && all_finite(c.target) && all_finite(c.previous);
   }
   bool operator()(const StepCase& c) const {

@@ -222,3 +222,29 @@ TEST_CASE("validate names each sort of problem of a motion", "[unit]") {
     check_only(validate(scene), "motion ''", "name can't be used");
   }
 }
+
+TEST_CASE("validate names a spring that joins no two vertices, or has a number out of range", "[unit]") {
+  Scene scene = small_scene();
+  scene.springs = {{1, 5, 10, 0.2, 0}};
+  CHECK(validate(scene).empty());
+  SECTION("unknown vertex") {
+    scene.springs[0].second = 7;
+    check_only(validate(scene), "spring 0", "does not join two vertices: 1, 7");
+  }
+  SECTION("one vertex twice") {
+    scene.springs[0].second = 1;
+    check_only(validate(scene), "spring 0", "does not join two vertices");
+  }
+  SECTION("negative stiffness") {
+    scene.springs[0].stiffness = -1;
+    check_only(validate(scene), "spring 0", "out of range: -1 N/m");
+  }
+  SECTION("a rest length that is no length") {
+    scene.springs[0].rest_length = 0x1p-30;
+    check_only(validate(scene), "spring 0", "out of range");
+  }
+  SECTION("not a number") {
+    scene.springs[0].damping = std::numeric_limits<double>::quiet_NaN();
+    check_only(validate(scene), "spring 0", "out of range");
+  }
+}

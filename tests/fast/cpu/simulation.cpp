@@ -301,3 +301,42 @@ TEST_CASE("re-detection after a set number of iterations is counted", "[unit]") 
   CHECK(row.discrete_detections >= 1 + 4);
   CHECK(row.discrete_detections > few);
 }
+
+TEST_CASE("each activation, model and form of damping changes the result of a run, and each run is clean", "[property]") {
+  std::vector<compare::Scene> scenes(1, drop_scene());
+  for (int kind = 1; kind < 5; ++kind) {
+    scenes.push_back(drop_scene());
+    scenes.back().settings.activation = static_cast<compare::ContactActivation>(kind);
+  }
+  const auto add = [&](auto change) {
+    scenes.push_back(drop_scene());
+    change(scenes.back());
+  };
+  add([](compare::Scene& scene) { scene.settings.damping = compare::DampingForm::per_vertex; });
+  add([](compare::Scene& scene) { scene.bodies[0].material.membrane = compare::MembraneModel::stable_neo_hookean; });
+  add([](compare::Scene& scene) { scene.bodies[0].material.bending = compare::BendingModel::isometric_quadratic; });
+  add([](compare::Scene& scene) { scene.springs = {{3, 140, 0.5, 0, 1e-3}}; });
+  std::vector<std::vector<compare::Vec3f>> ends;
+  for (const compare::Scene& scene : scenes) {
+    const Outcome outcome = run(scene, 12);
+    REQUIRE(outcome.rows.size() == 12);
+    CHECK(outcome.rows.back().status == compare::step_clean);
+    CHECK(outcome.rows.back().elastic_energy > 0);
+    for (const auto& other : ends) CHECK_FALSE(same_bits(outcome.end.positions, other));
+    ends.push_back(outcome.end.positions);
+  }
+}
+
+TEST_CASE("a cloth that hangs on stitches rests where weight and stitches balance", "[property]") {
+  compare::Scene scene = empty_scene();
+  compare::Material material;
+  material.membrane_damping = material.bending_damping = 1e-2;
+  add_sheet(scene, 4, 0.03, 0, false, material);
+  add_sheet(scene, 4, 0.03, 0.1, true, material);
+  // Sixteen stitches as stiff as 2 N/m each, damped: m g/(16 k) below the fixed sheet.
+  for (compare::Index v = 0; v < 16; ++v) scene.springs.push_back({v, v + 16, 2, 0.1f, 0.05});
+  scene.settings.iterations = 40;
+  const Outcome outcome = run(scene, 150);
+  const double mass = 0.2 * 0.03 * 0.03, sag = mass * 9.81 / (16 * 2);
+  CHECK(mean(outcome.end.positions, 0, 16, &compare::Vec3f::y) == Approx(-sag).epsilon(0.02));
+}

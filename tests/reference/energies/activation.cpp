@@ -1,12 +1,24 @@
 // activation: smoothness where the stages meet, and what Eq. 19 as printed would do.
 #include "reference/energies/activation.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "tests/catch.hpp"
 
 using namespace ogc;
-using reference::activation_at;
+using compare::ContactActivation;
+
+namespace {
+
+reference::ActivationValue activation_at(double d, double r, double k, ContactActivation kind = ContactActivation::ogc) {
+  return reference::activation_at(kind, d, r, k);
+}
+
+constexpr std::array all_kinds{ContactActivation::ogc, ContactActivation::ogc_as_printed, ContactActivation::quadratic, ContactActivation::ipc_log,
+                               ContactActivation::cubic};
+
+}  // namespace
 
 TEST_CASE("activation: value, slope and curvature are continuous at τ", "[property]") {
   for (const double r : {1e-3, 0.005, 0.3, 1.0, 40.0}) {
@@ -32,21 +44,52 @@ TEST_CASE("activation: value and slope vanish at r, where the curvature jumps fr
   CHECK(below.curvature == k);
 }
 
-TEST_CASE("activation: slope and curvature are the derivatives of the energy in both stages", "[property]") {
+TEST_CASE("activation: slope and curvature are the derivatives of the energy, of every activation and in both stages", "[property]") {
   const double r = 0.01, k = 50;
-  for (double d = 0.0005; d < r; d += 0.00037) {
-    const double h = d * 1e-4;
-    const auto low = activation_at(d - h, r, k), at = activation_at(d, r, k), high = activation_at(d + h, r, k);
-    if (d - h < r / 2 && d + h >= r / 2) continue;
-    CHECK((high.energy - low.energy) / (2 * h) == Approx(at.slope).epsilon(1e-6));
-    CHECK((high.slope - low.slope) / (2 * h) == Approx(at.curvature).epsilon(1e-6));
+  for (const ContactActivation kind : all_kinds)
+    for (double d = 0.0005; d < r; d += 0.00037) {
+      const double h = d * 1e-4;
+      const auto low = activation_at(d - h, r, k, kind), at = activation_at(d, r, k, kind), high = activation_at(d + h, r, k, kind);
+      if ((d - h < r / 2 && d + h >= r / 2) || d + h >= r) continue;
+      // Next to r the cubic's slope tends to 0 and the difference's error, h²/6 · 4k/r, does not.
+      CHECK((high.energy - low.energy) / (2 * h) == Approx(at.slope).epsilon(1e-6).margin(1e-8 * k * r));
+      CHECK((high.slope - low.slope) / (2 * h) == Approx(at.curvature).epsilon(1e-6).margin(1e-8 * k));
+    }
+}
+
+TEST_CASE("activation: every variant repels below r, is convex, and ends at r with its slope", "[property]") {
+  const double r = 0.01, k = 50;
+  for (const ContactActivation kind : all_kinds) {
+    for (double d = 1e-5; d < r; d += 0.00037) {
+      const auto at = activation_at(d, r, k, kind);
+      CHECK(at.energy > 0);
+      CHECK(at.slope < 0);
+      CHECK(at.curvature > 0);
+    }
+    CHECK(activation_at(r, r, k, kind).energy == 0);
+    CHECK(std::abs(activation_at(r * (1 - 1e-12), r, k, kind).slope) < 1e-11 * k * r);
   }
+}
+
+TEST_CASE("activation: the variants by hand at half the radius", "[unit]") {
+  // r = 2, k = 3, d = 1, depth 1: quadratic 3/2, −3, 3; cubic 2 · 3/6 = 1, −3, 6; IPC 3 ln 2, −3 (2 ln 2 + 1), 3 (2 ln 2 + 4 + 1).
+  const auto quadratic = activation_at(1, 2, 3, ContactActivation::quadratic), cubic = activation_at(1, 2, 3, ContactActivation::cubic);
+  const auto barrier = activation_at(1, 2, 3, ContactActivation::ipc_log);
+  CHECK(quadratic.energy == 1.5);
+  CHECK(quadratic.slope == -3);
+  CHECK(cubic.energy == Approx(1).epsilon(1e-15));
+  CHECK(cubic.slope == Approx(-3).epsilon(1e-15));
+  CHECK(cubic.curvature == Approx(6).epsilon(1e-15));
+  CHECK(barrier.energy == Approx(3 * std::log(2.0)).epsilon(1e-15));
+  CHECK(barrier.slope == Approx(-3 * (2 * std::log(2.0) + 1)).epsilon(1e-15));
+  CHECK(barrier.curvature == Approx(3 * (2 * std::log(2.0) + 5)).epsilon(1e-15));
 }
 
 TEST_CASE("activation: Eq. 19 as printed gives another slope at τ unless r − τ is one unit of length", "[unit]") {
   const double r = 0.01, tau = r / 2, k = 50;
   const double printed = tau * k * (tau - r) * (tau - r), corrected = tau * k * (r - tau);
-  const double quadratic_slope = activation_at(tau, r, k).slope;
+  const double quadratic_slope = activation_at(tau, r, k).slope, below = std::nextafter(tau, 0.0);
+  CHECK(activation_at(below, r, k, ContactActivation::ogc_as_printed).slope == Approx(-printed / tau).epsilon(1e-12));
   CHECK(-corrected / tau == Approx(quadratic_slope).epsilon(1e-14));
   CHECK(-printed / tau == Approx(quadratic_slope * (r - tau)).epsilon(1e-14));
 }
@@ -57,6 +100,7 @@ TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
   in.distance = {1.5f, 0.25f, 2.0f};
   in.contact_radius = {2, 2, 2};
   in.stiffness = {3, 3, 3};
+  in.activation.assign(3, ContactActivation::ogc);
   const auto truth = reference::activation(in);
   CHECK(truth.energy[0] == 0.375);
   CHECK(truth.slope[0] == -1.5);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "reference/energies/mollifier.hpp"
 #include "reference/energies/stencil_terms.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/energies/stencils.hpp"
@@ -113,6 +114,58 @@ TEST_CASE("membrane: gradient and Hessian over all corners are those of the ener
     elastic.damping = 0;
     check_structure<3>(x, true, [&](const auto& at) { return elastic.energy(at); });
   }
+}
+
+TEST_CASE("stable Neo-Hookean membrane: gradient and Hessian over all corners are those of the energy, stretched and compressed", "[property]") {
+  Draw draw(6);
+  for (int i = 0; i < 20; ++i) {
+    MembraneTerm term = membrane_term(draw);
+    term.model = compare::MembraneModel::stable_neo_hookean;
+    const double stretch = draw.between(0.3, 2);
+    Corners<3> x{{{0, 0, 0}, {0.01 * stretch, 0, 0}, {0, 0.01 * stretch, 0}}};
+    for (auto& p : x)
+      for (double& c : p) c += draw.between(-1e-3, 1e-3);
+    check_all<3>(x, 1e-3, false, [&](const auto& at) { return term.energy(at); });
+    term.damping = 0;
+    check_structure<3>(x, true, [&](const auto& at) { return term.energy(at); });
+  }
+}
+
+TEST_CASE("isometric bending and springs: gradient and Hessian over all vertices are those of the energy", "[property]") {
+  Draw draw(7);
+  for (int i = 0; i < 20; ++i) {
+    const double side = 0.01;
+    HingeTerm hinge{{}, 5e-7, 0, draw.between(0, 0.5), draw.between(-1, 1), true, {30, 70, -60, -40}};
+    Corners<4> x{{{0, 0, 0}, {side, 0, 0}, {0.3 * side, side, 0}, {0.6 * side, -side, 0.3 * side}}};
+    for (auto& p : x)
+      for (double& c : p) c += draw.between(-1e-3, 1e-3);
+    check_all<4>(x, side, true, [&](const auto& at) { return hinge.energy(at); });
+    const SpringTerm spring{{}, 10, i % 3 == 0 ? 0 : draw.between(0, 0.02), draw.between(0, 0.5), draw.between(0.005, 0.02)};
+    check_all<2>({x[0], x[2]}, side, true, [&](const auto& at) { return spring.energy(at); });
+  }
+}
+
+TEST_CASE("IPC's mollifier of parallel edges: gradient and Hessian are those of the energy, at nearly parallel and at parallel edges", "[property]") {
+  Draw draw(8);
+  const double r = 5e-3, side = 0.01;
+  int acted = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double sine = i % 4 == 0 ? 0 : draw.between(0.003, 0.03);
+    const Corners<4> x{{{0, 0, 0.4 * r}, {side, 0, 0.4 * r}, {0.2 * side, -0.5 * sine * side, 0}, {1.2 * side, 0.5 * sine * side, 0}}};
+    const ContactTerm term{ContactSides::edge_edge, {}, r, 10, 1, 0, compare::ContactActivation::ipc_log};
+    // At parallel edges the weights of the middle of the overlap.
+    const ClosestForm form = closest_form(term.sides, x);
+    const auto energy = [&](const auto& at) {
+      using T = std::decay_t<decltype(at[0][0])>;
+      const Mollifier<T> mollifier(at[1] - at[0], at[3] - at[2], T(side * side), T(side * side));
+      return mollifier.acts() ? mollifier.value() * term.energy(form, at) : term.energy(form, at);
+    };
+    const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], side * side, side * side);
+    acted += mollifier.acts();
+    // Over a change of the sine by its own size, or by the limit's, 0.03, the mollifier changes by its own.
+    check_all<4>(x, 1e-3 * side, form.kind != FormKind::fixed_weights, energy);
+  }
+  CHECK(acted > 20);
 }
 
 TEST_CASE("hinge: gradient and Hessian over all vertices are those of the energy, bent up to a right angle and more", "[property]") {

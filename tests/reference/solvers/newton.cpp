@@ -328,3 +328,17 @@ TEST_CASE("every activation and projection keeps the guarantee and ends its step
     CHECK(result.rows.back().smallest_distance > 0);
   }
 }
+
+TEST_CASE("Newton takes every model, and refuses damping by vertex with what to do instead", "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.bodies[0].material.membrane = compare::MembraneModel::stable_neo_hookean;
+  scene.bodies[0].material.bending = compare::BendingModel::isometric_quadratic;
+  scene.springs = {{3, 60, 0.005, 0, 1e-3}, {0, 70, 0.005, 0.01, 0}};
+  const Run result = run(scene, 5), plain = run(drop_scene(), 5);
+  CHECK(clean(result));
+  CHECK(result.rows.size() == 5);
+  for (const compare::StepMetrics& row : result.rows) CHECK(row.residual < 1e-2);
+  CHECK(result.end.positions != plain.end.positions);
+  scene.settings.damping = compare::DampingForm::per_vertex;
+  CHECK_THROWS_WITH(reference::start_newton(scene, {}), Catch::Matchers::Contains("per_vertex") && Catch::Matchers::Contains("--solver vbd"));
+}
