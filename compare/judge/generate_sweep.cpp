@@ -322,10 +322,10 @@ constexpr std::array<Generator, 17> table{{{"sheets", 16, true, sheets},
                                            {"ladder.crossing", 6, false, crossing},
                                            {"ladder.collapse", 5, false, collapse},
                                            {"ladder.bound", 5, false, at_bound},
-                                           {"models", 15, false, with_models<sheets>},
-                                           {"models.prescribed", 6, false, with_models<prescribed>},
-                                           {"ladder.models_rest", 5, false, with_models<at_rest>},
-                                           {"ladder.models_collapse", 5, false, with_models<collapse>}}};
+                                           {"models", 8, false, with_models<sheets>},
+                                           {"models.prescribed", 4, false, with_models<prescribed>},
+                                           {"ladder.models_rest", 6, false, with_models<at_rest>},
+                                           {"ladder.models_collapse", 6, false, with_models<collapse>}}};
 
 }  // namespace
 

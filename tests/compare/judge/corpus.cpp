@@ -80,12 +80,14 @@ TEST_CASE("a broken case file is refused with its name and what is wrong", "[uni
   REQUIRE_THROWS_WITH(load_case(path), Contains("case.json"));
   write(path, "{");
   REQUIRE_THROWS_AS(load_case(path), InputError);
-  write(path, R"({"format": 2, "problem": "stage=bound gen=few seed=1 index=1", "data": {}})");
-  REQUIRE_THROWS_WITH(load_case(path), Contains("format 2"));
-  write(path, R"({"format": 1, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"distance": "1x", "contact_radius": "1", "stiffness": "1"}})");
+  write(path, R"({"format": 3, "problem": "stage=bound gen=few seed=1 index=1", "data": {}})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("format 3"));
+  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "cubic", "distance": "1x", "contact_radius": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("1x"));
-  write(path, R"({"format": 1, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"distance": "1", "stiffness": "1"}})");
+  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "ogc", "distance": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("contact_radius"));
+  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "log"}})");
+  REQUIRE_THROWS_WITH(load_case(path), Contains("unknown activation 'log'"));
 }
 
 TEST_CASE("a damaged HDF5 file is refused with its name", "[unit]") {
@@ -102,14 +104,14 @@ TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is
   const Folder folder;
   const auto path = folder.path / "case.json";
   const auto block = [&](const std::string& question) {
-    write(path, R"({"format": 1, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": {"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
+    write(path, R"({"format": 2, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": {"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
       "positions": [["0", "0", "0"], ["1", "0", "0"]], "questions": [)" + question + "]}}");
   };
   block(R"({"kind": "vertex_in_surface", "of": 0, "face": "edge", "index": 9})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("index 9"));
   block(R"({"kind": "vertex_in_surface", "of": 0, "face": "side", "index": 0})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("side"));
-  write(path, R"({"format": 1, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": [["0", "0", "0"], ["1", "0", "0"]],
+  write(path, R"({"format": 2, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": [["0", "0", "0"], ["1", "0", "0"]],
     "positions": [["0", "0", "0"], ["1", "0", "0"]], "triangles": [], "loose_edges": [], "bodies": [], "motions": []}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("vertex"));
 }

@@ -342,3 +342,16 @@ TEST_CASE("Newton takes every model, and refuses damping by vertex with what to 
   scene.settings.damping = compare::DampingForm::per_vertex;
   CHECK_THROWS_WITH(reference::start_newton(scene, {}), Catch::Matchers::Contains("per_vertex") && Catch::Matchers::Contains("--solver vbd"));
 }
+
+TEST_CASE("a cloth that hangs on springs comes to rest where they carry its weight", "[property]") {
+  compare::Scene scene;
+  scene.name = "hanging";
+  add_sheet(scene, 4, 0.03, 0, false);
+  add_sheet(scene, 4, 0.03, 0.1, true);
+  for (compare::Index v = 0; v < 16; ++v) scene.springs.push_back({v, v + 16, 2, 0.1f, 0.05});
+  const Run result = run(scene, 60);
+  REQUIRE(clean(result));
+  double sag = 0;
+  for (std::size_t v = 0; v < 16; ++v) sag -= result.end.positions[v].y / 16;
+  CHECK(sag == Approx(0.2 * 0.03 * 0.03 * 9.81 / (16 * 2)).epsilon(1e-3));
+}
