@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -57,10 +58,11 @@ def last_frame(run):
 
 
 def provenance(run):
-    """What a row of an accepted result must say about where it comes from."""
+    """What a row of an accepted result must say about where it comes from. Of paths in the command the last part is kept."""
     m = run.manifest
+    command = m["command"] if isinstance(m["command"], str) else " ".join(m["command"])
     return {"solver": m["solver"], "backend": m["backend"], "device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
-            "command": " ".join(m["command"].split()[1:]) if isinstance(m["command"], str) else " ".join(m["command"][1:])}
+            "command": "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])}
 
 
 def write_table(path, rows):
