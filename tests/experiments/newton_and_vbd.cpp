@@ -105,8 +105,8 @@ class Pair {
     potential_.set_contacts({end.facets.exact.contacts, end.edges.exact.contacts}, x);
     potential_.lag_friction(x);
     reference::BlockMatrix matrix(potential_.mobility());
-    matrix.set_stencils(potential_);
-    matrix.assemble(potential_, potential_.derivatives(x, compare::HessianProjection::none));
+    matrix.set_stencils(potential_.vertices());
+    matrix.assemble(potential_.inertias(), potential_.derivatives(x, compare::HessianProjection::none).stencil);
     for (std::size_t row = 0; row < matrix.rows(); ++row)
       matrix.values()[static_cast<std::size_t>(matrix.column_begin()[row])] -= potential_.inertia(matrix.free_vertices()[row / 3]) / 2;
     reference::Factor factor;

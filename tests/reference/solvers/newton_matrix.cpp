@@ -72,10 +72,10 @@ TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition
   REQUIRE(potential.stencil_count() > 40);
   BlockMatrix matrix(potential.mobility());
   CHECK(matrix.rows() == 45);
-  CHECK(matrix.set_stencils(potential));
-  CHECK(!matrix.set_stencils(potential));  // the pattern holds
+  CHECK(matrix.set_stencils(potential.vertices()));
+  CHECK(!matrix.set_stencils(potential.vertices()));  // the pattern holds
   const PotentialDerivatives derivatives = potential.derivatives(pressed.x, HessianProjection::clamp);
-  matrix.assemble(potential, derivatives);
+  matrix.assemble(potential.inertias(), derivatives.stencil);
   const Eigen::MatrixXd dense = dense_sum(potential, derivatives, matrix);
   std::vector<double> unit(matrix.rows(), 0);
   for (std::size_t c = 0; c < matrix.rows(); ++c) {
