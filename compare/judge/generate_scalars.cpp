@@ -63,13 +63,15 @@ ActivationCase with_any_activation(Random& random, const CaseData& data) {
 
 CaseData activation_variants(Random& random) { return with_any_activation(random, activation_uniform(random)); }
 
-/// Where the variants change over or cancel: r, τ, 0, and r = 2 d, where a logarithm may.
+/// Where the variants change over or cancel: r, τ (where a logarithm may, too), 0.
 CaseData activation_ladders(Random& random) {
-  switch (random.below(4)) {
-    case 0: return with_any_activation(random, activation_radius(random));
-    case 1: return with_any_activation(random, activation_switch(random));
-    case 2: return with_any_activation(random, activation_touching(random));
-    default: return with_any_activation(random, activation_bits(random));
+  switch (random.below(8)) {
+    case 0: return with_any_activation(random, activation_touching(random));
+    case 1: return with_any_activation(random, activation_bits(random));
+    case 2:
+    case 3:
+    case 4: return with_any_activation(random, activation_radius(random));
+    default: return with_any_activation(random, activation_switch(random));
   }
 }
 
@@ -128,8 +130,8 @@ constexpr std::array<Generator, 8> activation_table{{{"uniform", 20, true, activ
                                                      {"ladder.radius", 50, false, activation_radius},
                                                      {"ladder.switch", 50, false, activation_switch},
                                                      {"ladder.touching", 10, false, activation_touching},
-                                                     {"variants", 25, true, activation_variants},
-                                                     {"ladder.variants", 25, false, activation_ladders}}};
+                                                     {"variants", 8, true, activation_variants},
+                                                     {"ladder.variants", 40, false, activation_ladders}}};
 constexpr std::array<Generator, 6> truncate_table{{{"uniform", 20, true, truncate_uniform},
                                                    {"bits", 20, false, truncate_bits},
                                                    {"lattice", 20, false, truncate_lattice},
