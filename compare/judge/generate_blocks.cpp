@@ -114,7 +114,7 @@ constexpr std::array<Generator, 12> table{{{soup, 16, true, about<soup>},
                                            {above, 7, false, about<above>},
                                            {book, 6, false, about<book>},
                                            {strands, 6, false, about<strands>},
-                                           {boundary, 200, false, about<boundary>}}};
+                                           {boundary, 900, false, about<boundary>}}};
 
 }  // namespace
 

@@ -200,7 +200,7 @@ constexpr std::array<Generator, 14> table{{{"soup", 20, true, soup},
                                            {"ladder.book", 4, false, book},
                                            {"ladder.strands", 4, false, strands},
                                            {"ladder.groups", 4, false, groups},
-                                           {"ladder.boundary", 150, false, boundary}}};
+                                           {"ladder.boundary", 450, false, boundary}}};
 
 /// One smallest distance: anything, a tie, 0.
 float smallest(Random& random, int kind) {

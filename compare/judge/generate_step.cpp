@@ -248,7 +248,7 @@ constexpr std::array<Generator, 9> table{{{"fall", 12, true, fall},
                                           {"ladder.cap", 10, false, radius_at_cap},
                                           {"ladder.rest", 15, false, at_rest},
                                           {"lattice", 10, false, lattice},
-                                          {"models", 10, false, models}}};
+                                          {"models", 5, false, models}}};
 
 }  // namespace
 

@@ -68,7 +68,7 @@ TEST_CASE("the table of stages in README.md is the one that ogc compare --list -
 
 TEST_CASE("the list of stages names generators and parameters of each", "[unit]") {
   const std::string list = experiments::stage_list_text();
-  REQUIRE(tests::contains(list, {"detect_edge_edge", "ladder.strands", "parameters: r, r_q", "parameters: none", "gpu_to_gpu"}));
+  REQUIRE(tests::contains(list, {"detect_edge_edge", "ladder.strands", "parameters: r, r_q", "parameters: none", "cpu_to_gpu"}));
 }
 
 TEST_CASE("the CPU gives the same bits again, on one and two threads, shuffled and in small batches, in every stage", "[agreement]") {

@@ -25,6 +25,8 @@ struct RestFixture {
     truth.rest_angle = {0.25};
     truth.rest_angle_scale = {4};
     truth.stiffness = {2};
+    truth.weight = {{0, 0, 0}};
+    truth.weight_scale = {1};
     truth.edge_length_squared = truth.edge_length_squared_scale = truth.area_scale = truth.stiffness_scale = {1};
     truth.meeting_stiffness = {4};
     truth.meeting_friction = {0.5};
