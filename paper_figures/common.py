@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from paper_figures.runs import run_once
 from plots.run_folder import Run, RunError
 from plots.scene_figure import draw, load_claims
 
@@ -15,6 +16,33 @@ def label(run):
     names = {"ipc": "IPC", "newton": "Newton-OGC", "vbd": "VBD-OGC", "reference_vbd": "VBD-OGC in double"}
     solver, backend = run.manifest["solver"], run.manifest["backend"]
     return names.get(solver, solver) + (", CUDA" if backend == "cuda" else "")
+
+
+def baseline_arguments(description, scales=("smoke", "small", "paper")):
+    """Parser of the figures that compare IPC with OGC: a folder for the runs and the figure, the program, the scale, the membrane of all solvers."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folder", help="where the runs are, or go, and the figure")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=scales)
+    parser.add_argument("--membrane", default="stable_neo_hookean", help="of all solvers alike; st_venant_kirchhoff is that of the scenes")
+    return parser
+
+
+def options_of(arguments):
+    """Options of `ogc run` that all runs of such a figure share."""
+    model = [] if arguments.membrane == "st_venant_kirchhoff" else ["--set", f"membrane={arguments.membrane}"]
+    return ["--scale", arguments.scale, *model]
+
+
+def ipc_windows(arguments, scene, whole, starts, steps=20):
+    """IPC on windows of so many steps from states of the run `whole`, where it is too slow for the run itself."""
+    last = int(whole.column("step")[-1])
+    result = []
+    for start in (step for step in starts if step < last):
+        state = whole.folder / f"frames/frame_{start:06d}.h5"
+        command = [scene, *options_of(arguments), "--solver", "ipc", "--profile", "--from-state", state, "--steps", min(last, start + steps)]
+        result.append(run_once(arguments.ogc, command, Path(arguments.folder) / f"ipc_{start}"))
+    return result
 
 
 def main(scene, frames, camera):

@@ -1,16 +1,18 @@
 """Fig. 2: the end of half a turn with a contact radius of one edge, by IPC and by OGC, and the artefact in numbers: roughness, stretch, kinetic energy."""
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.common import label
+from paper_figures.common import baseline_arguments, ipc_windows, label, options_of
+from paper_figures.runs import run_once
 from plots import render, style
-from plots.run_folder import Run, RunError
+from plots.run_folder import RunError
 from plots.scene_figure import bodies_of
 
+SCENE = "large_radius_twist"
+WINDOWS = (300, 600, 900, 1180)
 CAMERA = ((0.75, 0.85, 1.25), (0, 0, 0), (0, 1, 0))
 
 
@@ -91,16 +93,19 @@ def draw(runs, out):
     return lines
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("runs", nargs="+", help="run folders of large_radius_twist, IPC's first")
-    parser.add_argument("--out", required=True, help="PNG to write; a PDF is put beside it")
-    arguments = parser.parse_args()
-    try:
-        print("\n".join(draw([Run(folder) for folder in arguments.runs], arguments.out)))
-    except RunError as error:
-        sys.exit(f"fig02_large_radius_twist.py: {error}")
+def runs_of(arguments):
+    """OGC's run, and IPC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
+    folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "frame"]
+    ogc = run_once(arguments.ogc, base, folder / "vbd")
+    if arguments.scale != "paper":
+        return [run_once(arguments.ogc, [*base, "--solver", "ipc", "--profile"], folder / "ipc"), ogc]
+    *earlier, last = ipc_windows(arguments, SCENE, ogc, WINDOWS)
+    return [last, ogc, *earlier]
 
 
 if __name__ == "__main__":
-    main()
+    options = baseline_arguments(__doc__.splitlines()[0]).parse_args()
+    try:
+        print("\n".join(draw(runs_of(options), Path(options.folder) / "fig02.png")))
+    except RunError as error:
+        sys.exit(f"fig02: {error}")

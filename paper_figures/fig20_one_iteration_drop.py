@@ -1,16 +1,17 @@
 """Fig. 20: one iteration a step, by OGC and by IPC: frames 0, 50 and 80 (of 10 steps each), kinetic energy and centre of mass over time."""
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.common import label
+from paper_figures.common import baseline_arguments, label, options_of
+from paper_figures.runs import run_once
 from plots import render, style
-from plots.run_folder import Run, RunError
+from plots.run_folder import RunError
 from plots.scene_figure import bodies_of
 
+SCENE = "one_iteration_drop"
 CAMERA = ((1.3, 0.5, 1.5), (-0.1, -0.25, 0.0), (0, 1, 0))
 FRAMES = (0, 50, 80)
 
@@ -58,16 +59,14 @@ def draw(runs, out):
     return lines
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("runs", nargs="+", help="run folders of one_iteration_drop, OGC's first")
-    parser.add_argument("--out", required=True, help="PNG to write; a PDF is put beside it")
-    arguments = parser.parse_args()
-    try:
-        print("\n".join(draw([Run(folder) for folder in arguments.runs], arguments.out)))
-    except RunError as error:
-        sys.exit(f"fig20_one_iteration_drop.py: {error}")
+def runs_of(arguments):
+    folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "frame"]
+    return [run_once(arguments.ogc, base, folder / "vbd"), run_once(arguments.ogc, [*base, "--solver", "ipc"], folder / "ipc")]
 
 
 if __name__ == "__main__":
-    main()
+    options = baseline_arguments(__doc__.splitlines()[0]).parse_args()
+    try:
+        print("\n".join(draw(runs_of(options), Path(options.folder) / "fig20.png")))
+    except RunError as error:
+        sys.exit(f"fig20: {error}")

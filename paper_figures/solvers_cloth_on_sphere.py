@@ -1,19 +1,22 @@
 """Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene, frames of the first run, and the ratios beside the paper's."""
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.common import label
+from paper_figures.common import baseline_arguments, label, options_of
 from paper_figures.fig18_cloth_on_sphere import CAMERA
+from paper_figures.runs import provenance, run_once, write_table
 from plots import style
-from plots.run_folder import Run, RunError
+from plots.run_folder import RunError
 from plots.scene_figure import draw_frames
 
 # How much slower IPC is on average (CPU), as the paper says in the text beside Fig. 18.
 CLAIMS = {"newton": 9.2, "vbd": 128.0}
+
+
+SCENE = "cloth_on_sphere"
 
 
 def detections(run):
@@ -43,8 +46,22 @@ def summary(runs):
         lines.append(f"{label(run)}: {np.mean(wall):.4g} ms a step (median {np.median(wall):.4g}, worst {wall.max():.4g}), "
                      f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step")
     for name, ratio, claim in ratios(runs):
-        lines.append(f"IPC is {ratio:.3g} times slower than {name}" + (f" (paper: {claim:g})" if claim else ""))
+        lines.append(f"IPC takes {ratio:.3g} times as long as {name}" + (f" (paper: {claim:g})" if claim else ""))
     return lines
+
+
+def rows(runs):
+    """A row a run: where it comes from, and its means and shares."""
+    result = []
+    for run in runs:
+        wall = run.column("wall")
+        row = {**provenance(run), "steps": len(wall), "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)), "worst [ms]": float(wall.max()),
+               "iterations a step": float(np.mean(run.column("iterations")))}
+        for kind in ("vertex_facet_contacts", "edge_edge_contacts", "broad_phases", "discrete_detections", "continuous_detections"):
+            row[f"{kind.replace('_', ' ')} a step"] = float(np.mean(run.column(kind)))
+        row["stages [% of the time]"] = "; ".join(f"{name} {100 * np.sum(times) / np.sum(wall):.3g}" for name, times in run.stage_columns().items())
+        result.append(row)
+    return result
 
 
 def draw(runs, out):
@@ -72,18 +89,23 @@ def draw(runs, out):
     plt.close(figure)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("runs", nargs="+", help="run folders of one scene by different solvers; the first one's frames are drawn")
-    parser.add_argument("--out", required=True, help="PNG to write; a PDF is put beside it")
-    arguments = parser.parse_args()
-    try:
-        runs = [Run(folder) for folder in arguments.runs]
-        draw(runs, arguments.out)
-        print("\n".join(summary(runs)))
-    except RunError as error:
-        sys.exit(f"solvers_cloth_on_sphere.py: {error}")
+def runs_of(arguments):
+    """IPC's run first; each is done once."""
+    folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "end"]
+    solvers = [("ipc", ["--solver", "ipc", "--profile"]), ("newton", ["--solver", "newton", "--profile"]), ("vbd", [])]
+    if arguments.cuda:
+        solvers.append(("vbd_cuda", ["--backend", "cuda"]))
+    return [run_once(arguments.ogc, [*base, *more], folder / name) for name, more in solvers]
 
 
 if __name__ == "__main__":
-    main()
+    parser = baseline_arguments(__doc__.splitlines()[0])
+    parser.add_argument("--cuda", action="store_true", help="VBD-OGC on CUDA, too")
+    options = parser.parse_args()
+    try:
+        found = runs_of(options)
+        write_table(Path(options.folder) / "fig18.csv", rows(found))
+        draw(found, Path(options.folder) / "fig18.png")
+        print("\n".join(summary(found)))
+    except RunError as error:
+        sys.exit(f"{Path(sys.argv[0]).name}: {error}")
