@@ -59,7 +59,7 @@ struct StepMetrics {
   double wall_ms = 0;                         ///< CPU: steady clock; CUDA: device events over the frame, divided by its steps
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
   std::int64_t broad_phases = 0;              ///< trees brought up to date (built or refitted) and asked for all pairs once
-  std::int64_t discrete_detections = 0;       ///< contacts, distances or intersections of all pairs found at one state
+  std::int64_t discrete_detections = 0;       ///< contacts or distances of all pairs found at one state; a check that only guards one is none
   std::int64_t continuous_detections = 0;     ///< the first contact of all pairs, or of the active ones, found along one motion
   std::int64_t guess_rounds = 0, iterations = 0;
   std::int64_t vertices_at_bound = 0;         ///< cut in the last iteration

@@ -21,8 +21,9 @@ constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 2> adaptation_names{"distance", "gap"};
 constexpr std::array<std::string_view, 2> stopping_names{"displacement", "velocity"};
+constexpr std::array<std::string_view, 2> ccd_names{"partial", "full"};
 
-constexpr std::array<SettingInfo, 29> table{{
+constexpr std::array<SettingInfo, 30> table{{
     {"time_step", "s", "h", 0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "steps of the run", 0, most_count, &Settings::steps},
     {"iterations", "1", "sweeps a step", 1, most_count, &Settings::iterations},
@@ -48,6 +49,7 @@ constexpr std::array<SettingInfo, 29> table{{
     {"ipc_stiffness", "J/m⁴", "IPC: fixed stiffness of the barrier; 0: adaptive", 0, 0x1p120, &Settings::ipc_stiffness},
     {"ipc_adaptation", "1", "IPC: by what the stiffness adapts", 0, 1, &Settings::ipc_adaptation, adaptation_names},
     {"ipc_stopping", "1", "IPC: which rule ends a step", 0, 1, &Settings::ipc_stopping, stopping_names},
+    {"ipc_ccd", "1", "IPC: which pairs bound a step", 0, 1, &Settings::ipc_ccd, ccd_names},
     {"ipc_tolerance", "1/s", "IPC, displacement: in diagonals of the rest box a second; 0: all iterations are done", 0, 0x1p10, &Settings::ipc_tolerance},
     {"ipc_velocity_tolerance", "m/s", "IPC, velocity: of the last three iterations; 0: all iterations are done", 0, 0x1p10, &Settings::ipc_velocity_tolerance},
     {"ipc_iterations", "1", "IPC: iterations a step at most", 1, most_count, &Settings::ipc_iterations},

@@ -19,6 +19,8 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 enum class IpcAdaptation : std::int64_t { distance, gap };
 /// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), or root mean square of ‖p_v‖/h of the last three iterations (2021).
 enum class IpcStopping : std::int64_t { displacement, velocity };
+/// Which pairs bound an IPC step: the active ones and d̂/2 of motion for the others while that takes at most half of it (Li et al. 2020), or all (2021).
+enum class IpcCcd : std::int64_t { partial, full };
 /// What stiffness-proportional damping acts on (method.md §4): the change of a stencil's strain, or each vertex's own motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
 
@@ -52,6 +54,7 @@ struct Settings {
   double ipc_stiffness = 0;                   ///< IPC: κ, fixed [J/m⁴]; 0: adaptive
   IpcAdaptation ipc_adaptation = IpcAdaptation::distance;    ///< IPC: how κ adapts
   IpcStopping ipc_stopping = IpcStopping::displacement;      ///< IPC: which of the two rules ends a step
+  IpcCcd ipc_ccd = IpcCcd::partial;           ///< IPC: which pairs bound a step
   double ipc_tolerance = 1e-2;                ///< IPC, `displacement`: in diagonals of the rest box a second [1/s]; 0: all iterations are done
   double ipc_velocity_tolerance = 1e-3;       ///< IPC, `velocity` [m/s]; 0: all iterations are done
   std::int64_t ipc_iterations = 10000;        ///< IPC: iterations a step at most; the step then ends where it is, as in the published codes
@@ -64,7 +67,7 @@ struct SettingInfo {
   std::string_view name, unit, meaning;
   double minimum, maximum;  ///< inclusive
   std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               IpcAdaptation Settings::*, IpcStopping Settings::*>
+               IpcAdaptation Settings::*, IpcStopping Settings::*, IpcCcd Settings::*>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };

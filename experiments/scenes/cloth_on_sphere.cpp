@@ -31,6 +31,7 @@ compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {
   scene.settings.contact_radius = 5e-3 * 69 / (sizes.vertices_a_side - 1);
   scene.settings.ipc_distance = scene.settings.contact_radius / 5;
   scene.settings.ipc_stopping = compare::IpcStopping::velocity;
+  scene.settings.ipc_ccd = compare::IpcCcd::full;
   return scene;
 }
 

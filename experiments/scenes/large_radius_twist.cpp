@@ -14,6 +14,7 @@ compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes) {
   scene.settings.contact_radius = 5e-3 * 199 / (sizes.vertices_a_side - 1);
   scene.settings.ipc_distance = scene.settings.contact_radius;
   scene.settings.ipc_stopping = compare::IpcStopping::velocity;
+  scene.settings.ipc_ccd = compare::IpcCcd::full;
   return scene;
 }
 

@@ -1,5 +1,6 @@
-// The incremental potential of an IPC step: inertia, elasticity and damping as Newton-OGC has them, barriers in place of OGC's contacts, lagged friction, and, where
-// prescribed vertices could not go all the way, what pulls them to their targets. Its unknowns are the free vertices, with such a pull the prescribed ones too.
+// The incremental potential of an IPC step: inertia, elasticity and damping as Newton-OGC has them, barriers in place of OGC's contacts, lagged friction,
+// and, where prescribed vertices could not go all the way, what pulls them to their targets. Its unknowns are the free vertices, with such a pull the
+// prescribed ones too.
 #pragma once
 
 #include <optional>

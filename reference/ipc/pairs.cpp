@@ -78,6 +78,35 @@ void merge(std::vector<BarrierTerm>& terms) {
   if (mergeable != terms.end()) terms.erase(kept + 1, terms.end());
 }
 
+/// What some of the pairs add.
+struct BarrierPart {
+  BarrierSet set;
+  double squared = std::numeric_limits<double>::infinity();  ///< of the closest pair [m²]
+
+  void add(const PairMesh& mesh, const BarrierShape& shape, const PrimitivePair& pair, const State& x) {
+    const Measured m = measured(mesh.topology, pair, x);
+    const double gap = shape.gap(m.squared);
+    if (!(gap < shape.support())) return;
+    if (m.squared < squared) squared = m.squared, set.closest = pair;
+    if (gap <= 0) {
+      set.touching.push_back(pair);
+      return;
+    }
+    set.active.push_back(pair);
+    set.squared.push_back(m.squared);
+    set.terms.push_back(term_of(mesh, pair, m));
+  }
+
+  void append(const BarrierPart& other) {
+    const auto extend = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    extend(set.active, other.set.active);
+    extend(set.squared, other.set.squared);
+    extend(set.terms, other.set.terms);
+    extend(set.touching, other.set.touching);
+    if (other.squared < squared) squared = other.squared, set.closest = other.set.closest;
+  }
+};
+
 }  // namespace
 
 std::array<Index, 4> vertices_of(const Topology& topology, const PrimitivePair& pair) {
@@ -126,40 +155,16 @@ std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, c
 }
 
 BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs, const State& x) {
-  struct Part {
-    BarrierSet set;
-    double squared = std::numeric_limits<double>::infinity();
-  };
   constexpr std::size_t grain = 512;
-  std::vector<Part> parts((pairs.size() + grain - 1) / grain);
+  std::vector<BarrierPart> parts((pairs.size() + grain - 1) / grain);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-    Part& part = parts[p];
-    for (std::size_t i = p * grain; i < std::min(pairs.size(), (p + 1) * grain); ++i) {
-      const Measured m = measured(mesh.topology, pairs[i], x);
-      const double gap = shape.gap(m.squared);
-      if (!(gap < shape.support())) continue;
-      if (m.squared < part.squared) part.squared = m.squared, part.set.closest = pairs[i];
-      if (gap <= 0) {
-        part.set.touching.push_back(pairs[i]);
-        continue;
-      }
-      part.set.active.push_back(pairs[i]);
-      part.set.squared.push_back(m.squared);
-      part.set.terms.push_back(term_of(mesh, pairs[i], m));
-    }
+    for (std::size_t i = p * grain; i < std::min(pairs.size(), (p + 1) * grain); ++i) parts[p].add(mesh, shape, pairs[i], x);
   });
-  BarrierSet all;
-  double squared = std::numeric_limits<double>::infinity();
-  for (Part& part : parts) {
-    all.terms.insert(all.terms.end(), part.set.terms.begin(), part.set.terms.end());
-    all.active.insert(all.active.end(), part.set.active.begin(), part.set.active.end());
-    all.squared.insert(all.squared.end(), part.set.squared.begin(), part.set.squared.end());
-    all.touching.insert(all.touching.end(), part.set.touching.begin(), part.set.touching.end());
-    if (part.squared < squared) squared = part.squared, all.closest = part.set.closest;
-  }
-  all.smallest = std::min(shape.reach(), std::sqrt(squared));
-  merge(all.terms);
-  return all;
+  BarrierPart all;
+  for (const BarrierPart& part : parts) all.append(part);
+  all.set.smallest = std::min(shape.reach(), std::sqrt(all.squared));
+  merge(all.set.terms);
+  return std::move(all.set);
 }
 
 }  // namespace ogc::reference

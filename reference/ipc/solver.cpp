@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "compare/problem/error.hpp"
 #include "reference/geometry/box_tree.hpp"
 #include "reference/ipc/intersections.hpp"
-#include "reference/solvers/newton_measure.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -106,7 +104,8 @@ void IpcSolver::check_start(const State& x) const {
     for (const PrimitivePair& pair : barriers_at(mesh_, shape_, near_pairs(mesh_, x, x, shape_.reach()), x).touching)
       wrong.push_back(describe(topology_, pair) + " have no gap");
   if (wrong.empty()) return;
-  std::string text = "IPC can't start: barriers keep gaps open and can't make any" + std::string(shape_.thickness > 0 ? " beyond the thickness" : "") + ". Move apart:";
+  const std::string beyond = shape_.thickness > 0 ? " beyond the thickness" : "";
+  std::string text = "IPC can't start: barriers keep gaps open and can't make any" + beyond + ". Move apart:";
   for (std::size_t i = 0; i < std::min(most_named, wrong.size()); ++i) text += "\n" + wrong[i];
   if (wrong.size() > most_named) text += "\nand " + std::to_string(wrong.size() - most_named) + " more";
   throw compare::InputError(text);
@@ -121,6 +120,8 @@ IpcStep IpcSolver::step(const State& start, const State& velocity, std::int64_t 
   move_prescribed();
   return finish(solve());
 }
+
+double IpcSolver::elapsed_ms() const { return now_ms() - started_ms_; }
 
 void IpcSolver::begin(const State& start, const State& velocity, std::int64_t number) {
   metrics_ = {};
@@ -309,7 +310,7 @@ IpcSolver::Bounded IpcSolver::bounded(const State& p) {
   const StepBound active = timed(IpcStage::ccd, [&] { return step_bound(mesh_, set_.active, x_, p, shape_.thickness); });
   const double fastest = largest_motion(p), free_share = fastest > 0 ? 0.5 * shape_.distance / fastest : 1;
   Bounded bound{std::min(active.share, free_share), active.pair, {}};
-  const bool full = free_share < 0.5 * active.share;
+  const bool full = settings_.ipc_ccd == compare::IpcCcd::full || free_share < 0.5 * active.share;
   bound.pairs = near(x_, moved(x_, full ? active.share : bound.share, p));
   if (!full) return bound;
   ++metrics_.continuous_detections;
@@ -350,64 +351,6 @@ void IpcSolver::adapt_stiffness() {
   if (stiffness_ >= bounds_.upper)
     note("κ is at its bound of " + number(bounds_.upper) + " J/m⁴ while " + describe(topology_, *pair) + " still come closer; it stays there");
   stiffness_ = std::min(bounds_.upper, 2 * stiffness_);
-}
-
-/// Each text once a step.
-void IpcSolver::note(const std::string& what) {
-  const std::string text = "step " + std::to_string(metrics_.step) + ": " + what;
-  if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end()) metrics_.notes.push_back(text);
-}
-
-/// Counts are sums so far; `finish` turns them into those of the iteration.
-void IpcSolver::add_row() {
-  compare::IterationMetrics row;
-  row.step = metrics_.step;
-  row.iteration = metrics_.iterations;
-  row.wall_ms = now_ms() - started_ms_;
-  row.residual = metrics_.residual;
-  const IpcEnergy energy = forces_.energy(x_, set_, stiffness_);
-  row.energy = Potential::total(energy.elastic) + energy.barrier + energy.rest;
-  row.detected = 1;
-  row.condition_number = std::numeric_limits<double>::quiet_NaN();
-  row.broad_phases = metrics_.broad_phases;
-  row.discrete_detections = metrics_.discrete_detections;
-  row.continuous_detections = metrics_.continuous_detections;
-  rows_.push_back(row);
-}
-
-IpcStep IpcSolver::finish(Outcome outcome) {
-  IpcStep step;
-  step.position = x_;
-  step.velocity = x_;
-  for (std::size_t v = 0; v < x_.size(); ++v) step.velocity[v] = (1 / settings_.time_step) * (x_[v] - start_[v]);
-  const bool asked_for_all = settings_.ipc_stopping == compare::IpcStopping::displacement ? settings_.ipc_tolerance == 0 : settings_.ipc_velocity_tolerance == 0;
-  if (outcome == Outcome::limit && !asked_for_all)
-    note("ended at the limit of " + std::to_string(settings_.ipc_iterations) + " iterations, above its tolerance; the run goes on, as the published codes do");
-  metrics_.status = outcome == Outcome::not_finite   ? compare::step_not_finite
-                    : outcome == Outcome::indefinite ? compare::step_indefinite
-                    : outcome == Outcome::stuck      ? compare::step_not_converged
-                                                     : compare::step_clean;
-  for (const PrimitivePair& pair : set_.active) ++(pair.sides == compare::ContactSides::edge_edge ? metrics_.edge_edge_contacts : metrics_.vertex_facet_contacts);
-  metrics_.query_radius = shape_.reach();
-  metrics_.smallest_distance = set_.smallest;
-  metrics_.wall_ms = now_ms() - started_ms_;
-  if (options_.profile) metrics_.stage_ms.assign(stage_ms_.begin(), stage_ms_.end());
-  const Potential& potential = forces_.potential();
-  metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential);
-  metrics_.largest_lag = largest_lag(x_, target_, potential.mobility());
-  measure_energies(metrics_, {x_, start_, target_}, potential, scene_, options_.energies);
-  if (options_.energies) metrics_.contact_energy = forces_.energy(x_, set_, stiffness_).barrier;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto spent = [&](std::int64_t compare::IterationMetrics::*row, std::int64_t compare::StepMetrics::*whole) {
-      rows_[i].*row = (i + 1 < rows_.size() ? rows_[i + 1].*row : metrics_.*whole) - rows_[i].*row;
-    };
-    spent(&compare::IterationMetrics::broad_phases, &compare::StepMetrics::broad_phases);
-    spent(&compare::IterationMetrics::discrete_detections, &compare::StepMetrics::discrete_detections);
-    spent(&compare::IterationMetrics::continuous_detections, &compare::StepMetrics::continuous_detections);
-  }
-  metrics_.iteration_rows = std::move(rows_);
-  step.metrics = std::move(metrics_);
-  return step;
 }
 
 }  // namespace ogc::reference

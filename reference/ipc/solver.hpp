@@ -7,12 +7,12 @@
 //                        ▲                                                                                                   │
 //                        └───────────────────────────────────────────────────────────────────────────────────────────────────┘
 //
-// The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like rule); where that rule would take more than
-// half of the step away, CCD of all pairs. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further, so that the pairs for the
-// continuous detection and for the barriers of every trial state are among those that it finds.
+// The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like rule); where that rule would take more
+// than half of the step away, CCD of all pairs. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further, so that the pairs
+// for the continuous detection and for the barriers of every trial state are among those that it finds.
 //
-// Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal; where that comes to nothing, too, the step ends as not
-// converged. Each such event goes into the notes of the step, with the pair that caused it.
+// Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal; where that comes to nothing, too, the step
+// ends as not converged. Each such event goes into the notes of the step, with the pair that caused it.
 //
 // Positions stay doubles from step to step: rounding them could take a gap away. What is stored of them is rounded.
 #pragma once
@@ -90,6 +90,8 @@ class IpcSolver {
   void release_pull();
   void note(const std::string& what);
   void add_row();
+  void count_by_iteration();
+  double elapsed_ms() const;  ///< since the step began
   IpcStep finish(Outcome outcome);
   System& system();
   std::vector<PrimitivePair> near(const State& from, const State& to);

@@ -69,8 +69,8 @@ TEST_CASE("CCD: no meeting is missed on the ladders of gaps, angles, needles, ne
     ++(time == 1 ? tally.cleared : time == 0 ? tally.touching : tally.stopped);
     if (time < 1 && !exactly_meet(m.edges, m.x, m.delta, 1, 60)) ++tally.false_positives;
   }
-  WARN(cases << " cases: " << tally.cleared << " cleared, " << tally.stopped << " stopped, " << tally.touching << " without a gap that can be told from rounding; of the last two "
-             << tally.false_positives << " do not meet at all");
+  WARN(cases << " cases: " << tally.cleared << " cleared, " << tally.stopped << " stopped, " << tally.touching << " without a gap that can be told from rounding; "
+             << "of the last two " << tally.false_positives << " do not meet at all");
   CHECK(tally.cleared > cases / 10);
   CHECK(tally.stopped > cases / 10);
   // What keeps a tenth of its gap is stopped only if the end comes closer than that: most of these motions do.
@@ -105,7 +105,8 @@ TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a co
 TEST_CASE("CCD: two nearly parallel edges that meet after 2e-12 of their way are stopped before", "[unit]") {
   const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969}, {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},
                    {0.80418212396323963, -0.18851411877550284, 0.28876038511264746}, {0.802819777349014, -0.19144398090874137, 0.28876038511262969}}};
-  const reference::Triple<double> first{-0.4853704120804041, 0.028829359573007807, 0.0018239962865722603}, second{-0.48416185691808877, 0.030531462066612391, 0};
+  const reference::Triple<double> first{-0.4853704120804041, 0.028829359573007807, 0.0018239962865722603};
+  const reference::Triple<double> second{-0.48416185691808877, 0.030531462066612391, 0};
   const double time = additive_ccd(ContactSides::edge_edge, x, {first, first, second, second}, 0);
   CHECK(time < 1.96e-12);
 }

@@ -85,7 +85,9 @@ TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), 
 TEST_CASE("barrier: a vertex over a triangle, its rim and its corner has one term of the right vertices", "[unit]") {
   const BarrierShape shape{0.1, 0};
   const std::vector<compare::Triangle> triangle{{0, 1, 2}};
-  const auto above = [&](double x, double y) { return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape).terms; };
+  const auto above = [&](double x, double y) {
+    return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape).terms;
+  };
   // The edge {3, 4} points upwards: its distance to the triangle's edges is that of vertex 3, which adds to the term.
   const auto inside = above(0.25, 0.25);
   REQUIRE(inside.size() == 1);
@@ -141,7 +143,7 @@ TEST_CASE("barrier: the pairs found with the tree are all pairs within reach, wi
           REQUIRE_FALSE(listed);
           continue;
         }
-        std::array<Triple<double>, 4> c{at[static_cast<std::size_t>(v)], at[static_cast<std::size_t>(corner[0])], at[static_cast<std::size_t>(corner[1])], at[static_cast<std::size_t>(corner[2])]};
+        const std::array<Triple<double>, 4> c = corners_of({v, corner[0], corner[1], corner[2]}, at);
         if (form_distance(closest_form(ContactSides::point_triangle, c), c) < reach) REQUIRE(listed);
       }
   }
@@ -172,7 +174,8 @@ TEST_CASE("barrier: gradient and Hessian are those of the energy, mollified or n
       ahead[k / 3][k % 3] += step, behind[k / 3][k % 3] -= step;
       CHECK(d.gradient[k] == Approx((of(ahead) - of(behind)) / (2 * step)).epsilon(0).margin(1e-5 * stiffest * 1e-2));
       const auto to = stencil_derivatives<4>(ahead, HessianProjection::none, of), from = stencil_derivatives<4>(behind, HessianProjection::none, of);
-      for (std::size_t j = 0; j < 12; ++j) CHECK(d.hessian[12 * k + j] == Approx((to.gradient[j] - from.gradient[j]) / (2 * step)).epsilon(0).margin(1e-5 * stiffest));
+      for (std::size_t j = 0; j < 12; ++j)
+        CHECK(d.hessian[12 * k + j] == Approx((to.gradient[j] - from.gradient[j]) / (2 * step)).epsilon(0).margin(1e-5 * stiffest));
     }
   }
   CHECK(mollified > 20);
@@ -194,8 +197,8 @@ TEST_CASE("barrier: the energy does not jump where closest features change, para
   };
   CHECK(largest_jump([](double t) { return pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.5 + 2 * t, 0.3, 0.05}}, {{0, 1, 2}}); }) < 0.02);
   CHECK(largest_jump([](double t) {
-          const double angle = 0.1 * (t - 0.5);
-          return pieces({{0, 0, 0}, {1, 0, 0}, {0.2, -0.3 * std::sin(angle), 0.05}, {0.2 + 0.6 * std::cos(angle), 0.3 * std::sin(angle), 0.05}}, {}, {{0, 1}, {2, 3}});
+          const double angle = 0.1 * (t - 0.5), low = -0.3 * std::sin(angle);
+          return pieces({{0, 0, 0}, {1, 0, 0}, {0.2, low, 0.05}, {0.2 + 0.6 * std::cos(angle), -low, 0.05}}, {}, {{0, 1}, {2, 3}});
         }) < 0.02);
 }
 

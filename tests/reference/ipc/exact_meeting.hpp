@@ -1,7 +1,7 @@
-// Do two primitives meet on a straight motion? Decided without rounding: the four points lie in one plane where a cubic of the time vanishes, and meet there where
-// polynomials of degree four have the right signs. All of them have integer coefficients once the coordinates are scaled; in Bernstein form a polynomial without a
-// change of sign in its coefficients has no root, and an interval is halved by additions alone. Halves without a root, or on the wrong side, are left; what survives
-// all halvings holds a meeting, or one that is missed by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
+// Do two primitives meet on a straight motion? Decided without rounding: the four points lie in one plane where a cubic of the time vanishes, and meet there
+// where polynomials of degree four have the right signs. All of them have integer coefficients once the coordinates are scaled; in Bernstein form a
+// polynomial without a change of sign in its coefficients has no root, and an interval is halved by additions alone. Halves without a root, or on the wrong
+// side, are left; what survives all halvings holds a meeting, or one that is missed by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
 #pragma once
 
 #include <array>

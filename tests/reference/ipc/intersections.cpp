@@ -20,7 +20,10 @@ Soup lattice_soup(unsigned seed, int triangles, int lattice) {
   tests::Draw draw(seed);
   Soup soup;
   for (Index t = 0; t < triangles; ++t) {
-    for (int k = 0; k < 3; ++k) soup.x.push_back({std::floor(draw.between(0, lattice)), std::floor(draw.between(0, lattice)), std::floor(draw.between(0, lattice))});
+    for (int k = 0; k < 3; ++k) {
+      Triple<double>& corner = soup.x.emplace_back();
+      for (double& c : corner) c = std::floor(draw.between(0, lattice));
+    }
     soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   return soup;

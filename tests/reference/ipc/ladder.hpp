@@ -74,7 +74,10 @@ class MotionLadder {
     const reference::Triple<double> shift{between(-1, 1), between(-1, 1), between(-1, 1)}, common{between(-1, 1), between(-1, 1), 0};
     const auto turned = [&](const reference::Triple<double>& p, const reference::Triple<double>& offset) {
       reference::Triple<double> r;
-      for (std::size_t k = 0; k < 3; ++k) r[k] = std::ldexp(std::nearbyint(std::ldexp(offset[k] + size * (q[k][0] * p[0] + q[k][1] * p[1] + q[k][2] * p[2]), exact_bits / 2)), -exact_bits / 2);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double c = offset[k] + size * (q[k][0] * p[0] + q[k][1] * p[1] + q[k][2] * p[2]);
+        r[k] = std::ldexp(std::nearbyint(std::ldexp(c, exact_bits / 2)), -exact_bits / 2);
+      }
       return r;
     };
     for (std::size_t k = 0; k < 4; ++k) m.x[k] = turned(m.x[k], shift), m.delta[k] = turned(m.delta[k], common);

@@ -251,6 +251,22 @@ TEST_CASE("IPC: one iteration a step is one iteration a step", "[unit]") {
   CHECK_THAT(run(scene, 1).rows[0].notes.at(0), Contains("limit of 1 iterations"));
 }
 
+/// Between d̂/(2h) and twice that a fall is shortened although nothing is near.
+TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alone, and the CFL-like rule does not", "[property]") {
+  compare::Scene scene;
+  scene.name = "fall";
+  add_sheet(scene, 4, 0.3, 0, false);
+  for (compare::Vec3& v : scene.velocities) v = {0, -1, 0};
+  scene.gravity = {};
+  scene.settings.ipc_distance = 0.015;
+  scene.settings.ipc_iterations = 1;
+  scene.settings.ipc_tolerance = 0;
+  scene.settings.ipc_ccd = compare::IpcCcd::full;
+  CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.02).epsilon(1e-6));
+  scene.settings.ipc_ccd = compare::IpcCcd::partial;
+  CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.015).epsilon(1e-6));
+}
+
 TEST_CASE("IPC: threads change no bit, and a run does not depend on those before", "[property]") {
   const Run one = [] {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
