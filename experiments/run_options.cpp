@@ -66,6 +66,9 @@ void apply_settings(compare::Scene& scene, const RunOptions& options) {
   if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
 
+const std::vector<std::string> solver_names{"vbd", "newton", "reference_vbd", "ipc", "penalty"};
+const std::vector<std::string> backend_names{"cpu", "cuda"};
+
 /// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one iteration.
 std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
   compare::Scene once = scene;
@@ -86,8 +89,8 @@ compare::Contestant solver_of(const RunOptions& options) {
 void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
   command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
   command.add_option("--solver", options->solver, "How a step is solved")
-      ->check(CLI::IsMember({"vbd", "newton", "reference_vbd", "ipc", "penalty"}))->capture_default_str();
-  command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember({"cpu", "cuda"}))->capture_default_str();
+      ->check(CLI::IsMember(solver_names))->capture_default_str();
+  command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember(backend_names))->capture_default_str();
   command.add_option("--scale", options->scale, "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
   command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")->check(CLI::PositiveNumber);
   command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")->take_all()->type_size(1)->expected(1);
@@ -120,10 +123,12 @@ std::string settings_help() {
 }
 
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
-  if (options.solver == "penalty")
+  if (options.solver == "penalty" || !std::ranges::count(solver_names, options.solver))
     throw compare::InputError("--solver " + options.solver +
-                              " does not exist yet; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact), "
+                              " does not exist; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact), "
                               "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");
+  if (!std::ranges::count(backend_names, options.backend))
+    throw compare::InputError("--backend " + options.backend + " does not exist; there are: " + backend_names[0] + ", " + backend_names[1]);
   if (options.solver != "vbd" && options.backend != "cpu") throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
   if (options.solver != "newton" && options.condition) throw compare::InputError("--condition belongs to --solver newton");
   if (options.solver == "ipc" && options.residual)

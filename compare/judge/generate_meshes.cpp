@@ -190,7 +190,7 @@ CaseData boundary(Random& random) {
 constexpr std::array<Generator, 14> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
-                                           {"large", 10, true, large, 100000},
+                                           {"large", 10, true, large, 1000000},
                                            {"lattice", 15, false, lattice},
                                            {"ladder.sheets", 8, false, sheets},
                                            {"ladder.fold", 7, false, fold},

@@ -37,7 +37,7 @@ TEST_CASE("an ablation makes a run folder for each point of its grid and a table
 TEST_CASE("an ablation with a wrong key or value anywhere in its grid runs nothing", "[unit]") {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder / "grid";
-  for (const char* vary : {"activation=ogc,barrier", "activatoin=ogc", "activation", "iterations=5,", "solver=newton,implicit"}) {
+  for (const char* vary : {"activation=ogc,barrier", "activatoin=ogc", "activation", "iterations=5,", "solver=newton,implicit", "backend=cpu,gpu"}) {
     const ProgramResult result = run_ogc(std::string("ablate cloth_on_sphere --scale smoke --steps 1 --vary ") + vary + " --out " + out.string());
     INFO(vary << "\n" << result.err);
     CHECK(result.status == 2);
