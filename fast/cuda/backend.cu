@@ -5,6 +5,7 @@
 #include "fast/cuda/cuda.hpp"
 
 namespace ogc::fast {
+
 void CudaRecording::clear() noexcept {
   if (graph_ != nullptr) cudaGraphExecDestroy(graph_);
   graph_ = nullptr;

@@ -177,6 +177,23 @@ OGC_HD inline void add_contact_incidence(const SweepView& view, ContactActivatio
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, sum);
 }
 
+/// Both sorts of contacts of a vertex, each as a part of its sum.
+struct ContactParts {
+  const SweepView& view;
+  ContactRow row;
+  ContactActivation kind;
+
+  /// Part of the records from `begin` on.
+  OGC_HD auto range(int begin, int count) const {
+    return part(count, [contacts = view.contacts + begin](int k) { return contacts[k]; },
+                [seen = &view, activation = kind](const ContactIncidence& contact, ForceAndBlock& sum) {
+                  add_contact_incidence(*seen, activation, contact, read_contact(*seen, contact), sum);
+                });
+  }
+  OGC_HD auto vertex_facet() const { return range(row.begin, row.vertex_facet); }
+  OGC_HD auto edge_edge() const { return range(row.begin + row.vertex_facet, row.count - row.vertex_facet); }
+};
+
 /// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St. Venant–Kirchhoff, discrete hinges, activation `ogc`, damping
 /// of strains, no springs), in four parts: triangles, hinges, vertex–facet contacts, edge–edge contacts.
 struct GatherDefault {
@@ -184,13 +201,8 @@ struct GatherDefault {
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
-    const ContactRow row = view.contact_rows[slot];
+    const ContactParts contacts{view, view.contact_rows[slot], ContactActivation::ogc};
     const SurfaceMaterial material = view.materials[vertex.body];
-    const auto load_contact = [&view, begin = row.begin](int k) { return view.contacts[begin + k]; };
-    const auto load_edge_edge = [&view, begin = row.begin + row.vertex_facet](int k) { return view.contacts[begin + k]; };
-    const auto add_one = [&view](const ContactIncidence& contact, ForceAndBlock& sum) {
-      add_contact_incidence(view, ContactActivation::ogc, contact, read_contact(view, contact), sum);
-    };
     return team.template sum<ForceAndBlock>(
         part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
              [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
@@ -198,7 +210,7 @@ struct GatherDefault {
              }),
         part(vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
              [&](const HingeIncidence& hinge, ForceAndBlock& sum) { add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum); }),
-        part(row.vertex_facet, load_contact, add_one), part(row.count - row.vertex_facet, load_edge_edge, add_one));
+        contacts.vertex_facet(), contacts.edge_edge());
   }
 };
 

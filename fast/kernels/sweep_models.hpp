@@ -109,7 +109,7 @@ struct GatherEveryModel {
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
-    const ContactRow row = view.contact_rows[slot];
+    const ContactParts contacts{view, view.contact_rows[slot], view.activation};
     SpringRow springs;
     if (view.spring_rows != nullptr) springs = view.spring_rows[slot];
     const SurfaceMaterial material = view.materials[vertex.body];
@@ -121,18 +121,13 @@ struct GatherEveryModel {
       if (view.isometric != nullptr) any.isometric = view.isometric[i];
       return any;
     };
-    const auto load_contact = [&view, begin = row.begin](int k) { return view.contacts[begin + k]; };
-    const auto load_edge_edge = [&view, begin = row.begin + row.vertex_facet](int k) { return view.contacts[begin + k]; };
-    const auto add_contact_one = [&view](const ContactIncidence& contact, ForceAndBlock& sum) {
-      add_contact_incidence(view, view.activation, contact, read_contact(view, contact), sum);
-    };
     return team.template sum<ForceAndBlock>(
         part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
              [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
         part(vertex.hinge_count, load_hinge, [&](const AnyHinge& any, ForceAndBlock& sum) { add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum); }),
         part(springs.count, [&](int k) { return view.springs[springs.begin + k]; },
              [&](const SpringIncidence& spring, ForceAndBlock& sum) { add_any_spring(view, vertex.vertex, spring, models, at, sum); }),
-        part(row.vertex_facet, load_contact, add_contact_one), part(row.count - row.vertex_facet, load_edge_edge, add_contact_one));
+        contacts.vertex_facet(), contacts.edge_edge());
   }
 };
 
