@@ -55,6 +55,7 @@ def summary(label, run, step):
     tail = residual[-max(1, len(residual) // 5):]
     return {"curve": label, "iterations [1]": int(rows["iteration"][-1]), "smallest_residual [1]": f"{residual.min():.3g}",
             "residual_of_last_fifth [1]": f"{np.median(tail):.3g}", "residual_contacts_of_the_end [1]": f"{run.column('residual')[-1]:.3g}", "iterations_to_1e-3 [1]": first_below(rows, 1e-3, "iteration"),
+            "iterations_to_1e-4 [1]": first_below(rows, 1e-4, "iteration"),
             "time_to_1e-3 [ms]": f"{first_below(rows, 1e-3, 'wall'):.4g}", "step [ms]": f"{run.column('wall')[-1]:.4g}",
             "detections [1]": int(run.column("discrete_detections")[-1]), "detection_share_of_time [1]": f"{detection_share(run):.3g}",
             "contacts [1]": int(run.column("vertex_facet_contacts")[-1] + run.column("edge_edge_contacts")[-1]), **provenance(run)}
@@ -90,6 +91,7 @@ def main(folder, ogc, scale="small", backends=("cpu",)):
     """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's path."""
     folder = Path(folder)
     claims = json.loads((Path(__file__).parent / "claims" / f"{SCENE}.json").read_text())["claims"]
+    claims = [c for c in claims if isinstance(c["measure"], list)]  # those that a curve can be held against: each names a cell of the table
     runs = curves(folder, ogc, scale, list(backends))
     write_table(folder / "fig17.csv", [summary(label, run, STEPS[scale]) for label, run in runs])
     draw(runs, STEPS[scale], scale, claims, folder / "fig17.png")

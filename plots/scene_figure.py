@@ -15,7 +15,7 @@ def load_claims(path, backend):
     path = Path(path)
     if not path.is_file():
         return {}
-    return {c["quantity"]: (c["value"], c["machine"]) for c in json.loads(path.read_text())["claims"] if c["backend"] == backend}
+    return {c["quantity"]: (c["value"], c["machine"]) for c in json.loads(path.read_text())["claims"] if c.get("backend") == backend}
 
 
 def bodies_of(run, frame):

@@ -1,0 +1,191 @@
+"""What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a judgement needs no package.
+
+A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`, `X_steps.csv`); a table is `figNN_SCALE.csv` with a commit
+and a device in each row. Runs that are unfinished, of a changed tree, or that failed their audit are no evidence.
+"""
+
+import csv
+import json
+import math
+import statistics
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+RESULTS = Path(__file__).parent / "results"
+
+
+class EvidenceError(Exception):
+    """A result that can't be read as its claim wants it; the message says which, what and what to do."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number and where it comes from; `source` is a path below the folder of the results."""
+
+    value: float
+    source: str
+    device: str
+    commit: str
+    ended: str
+
+
+class RunEvidence:
+    """A run: its manifest, and the columns of its rows without units."""
+
+    def __init__(self, manifest, rows, source):
+        self.manifest, self.rows, self.source = json.loads(Path(manifest).read_text()), Path(rows), source
+
+    @cached_property
+    def columns(self):
+        with self.rows.open(newline="") as file:
+            names, *rows = [row for row in csv.reader(file) if row]
+        return {name.partition("[")[0].strip(): [float(row[i] or "nan") for row in rows if len(row) == len(names)] for i, name in enumerate(names)}
+
+    def column(self, name):
+        if name not in self.columns:
+            raise EvidenceError(f"{self.source} has no column '{name}'; it has: {', '.join(self.columns)}")
+        return self.columns[name]
+
+    @property
+    def usable(self):
+        m = self.manifest
+        return m.get("status") == "finished" and m.get("dirty") is False and m.get("guarantee_kept") is not False
+
+    @property
+    def failed_audit(self):
+        """A run that stopped because its audit found an intersection: evidence against the guarantee, and for nothing else."""
+        return self.manifest.get("dirty") is False and self.manifest.get("guarantee_kept") is False
+
+    def matches(self, wanted):
+        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and steps, profiled, audited."""
+        m = self.manifest
+        special = {"steps": lambda n: len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
+                   "audited": lambda yes: (m.get("audit", "off") != "off") == yes, "scene": lambda name: m["scene"]["name"] == name}
+        return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
+
+    def measured(self, value):
+        m = self.manifest
+        return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"])
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of results: name (figNN), scale, rows."""
+
+    name: str
+    scale: str
+    rows: tuple
+    source: str
+
+
+class Evidence:
+    """All usable runs and tables below `folder`: accepted results, or run folders."""
+
+    def __init__(self, folder=RESULTS):
+        folder = Path(folder)
+        self.runs, self.tables = [], []
+        for path in sorted(folder.rglob("*run.json")):
+            rows = path.with_name(path.name.removesuffix("run.json") + "steps.csv")
+            if rows.is_file():
+                self.runs.append(RunEvidence(path, rows, path.relative_to(folder).as_posix()))
+        self.runs.sort(key=lambda run: run.manifest.get("ended", ""))
+        self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
+        for path in sorted(folder.rglob("fig*_*.csv")):
+            name, _, scale = path.stem.rpartition("_")
+            with path.open(newline="") as file:
+                self.tables.append(Table(name, scale, tuple(csv.DictReader(file)), path.relative_to(folder).as_posix()))
+
+    def measure(self, spec, wanted):
+        """The number that `spec` describes from the newest run that is as `wanted`, or None where there is no such run or table."""
+        if isinstance(spec, list):
+            return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
+        if "table" in spec:
+            return self._of_table(spec, wanted.get("scale"))
+        if "ratio" in spec:
+            return self._ratio(spec, wanted)
+        wanted = {**wanted, **spec.get("run", {})}
+        runs = [run for run in self.runs if run.matches(wanted)]
+        if "manifest" in spec:  # one failed audit outweighs every run that kept the guarantee, whatever step it stopped at
+            runs += [run for run in self.failed if run.matches({key: value for key, value in wanted.items() if key != "steps"})]
+        return runs[-1].measured(value_of(runs[-1], spec)) if runs else None
+
+    def _ratio(self, spec, wanted):
+        """Of two runs of one commit, and of one machine unless the ratio is about two."""
+        over, under = ([run for run in self.runs if run.matches({**wanted, **part.get("run", {})})] for part in spec["ratio"])
+        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"]
+                 and (spec.get("devices") == "differ" or a.manifest["device"] == b.manifest["device"])]
+        if not alike:
+            return None
+        a, b = alike[-1]
+        first, second = value_of(a, spec["ratio"][0]), value_of(b, spec["ratio"][1])
+        found = a.measured(first / second)
+        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, max(a.manifest["ended"], b.manifest["ended"]))
+
+    def _of_table(self, spec, scale):
+        for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
+            rows = [_row(table, spec[key]) for key in (("over", "under") if "over" in spec else ("where",))]
+            if any(row is None for row in rows):
+                continue
+            cells = [_cell(table, row, spec["column"]) for row in rows]
+            if len({row["commit"] for row in rows}) > 1:
+                raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one program")
+            return Measured(cells[0] / cells[1] if len(cells) > 1 else cells[0], table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""))
+        return None
+
+
+def _row(table, wanted):
+    rows = [row for row in table.rows if all(row.get(key) == value for key, value in wanted.items()) and "dirty" not in row["commit"]]
+    return rows[0] if rows else None
+
+
+def _cell(table, row, column):
+    if column not in row:
+        raise EvidenceError(f"{table.source} has no column '{column}'; it has: {', '.join(row)}")
+    try:
+        return float(row[column])
+    except ValueError:
+        return math.nan
+
+
+def value_of(run, spec):
+    """A number of one run: statistics of its rows, a setting, a count of its scene."""
+    m = run.manifest
+    if "steps" in spec:
+        return _statistic(run, spec) * spec.get("times", 1)
+    if "setting" in spec:
+        return m["settings"][spec["setting"]]["value"]
+    moving = [body for body in m["scene"]["bodies"] if not body["fixed"]]
+    if "material" in spec:
+        values = {body["material"][spec["material"]]["value"] for body in moving}
+        return values.pop() if len(values) == 1 else math.nan
+    if "scene" in spec:
+        return _count(m["scene"], moving, spec["scene"])
+    if "manifest" in spec:
+        return 0 if m[spec["manifest"]] is True else 1
+    if "simulated" in spec:
+        return len(run.column("step")) * m["settings"]["time_step"]["value"]
+    if "real_time" in spec:
+        return 1e3 * m["settings"]["time_step"]["value"] / statistics.fmean(run.column(spec["real_time"]))
+    raise EvidenceError(f"a claim measures {json.dumps(spec)}, which nobody knows how to")
+
+
+def _count(scene, moving, what):
+    fixed = [body for body in scene["bodies"] if body["fixed"]]
+    counts = {"vertices": (moving, "vertex_count"), "triangles": (moving, "triangle_count"), "fixed_vertices": (fixed, "vertex_count"), "fixed_triangles": (fixed, "triangle_count")}
+    if what in counts:
+        bodies, key = counts[what]
+        return sum(body[key] for body in bodies)
+    if what == "moving_bodies":
+        return len(moving)
+    if what not in scene:
+        raise EvidenceError(f"the manifest of {scene['name']} has no count of {what}")
+    return scene[what]
+
+
+def _statistic(run, spec):
+    names = spec["steps"] if isinstance(spec["steps"], list) else [spec["steps"]]
+    values = [sum(row) for row in zip(*(run.column(name) for name in names))]
+    kinds = {"mean": statistics.fmean, "max": max, "sum": sum, "max over mean": lambda v: max(v) / statistics.fmean(v),
+             "sum over": lambda v: sum(v) / sum(run.column(spec["over"]))}
+    return kinds[spec["statistic"]](values)

@@ -1,0 +1,114 @@
+"""Recomputes the verdict of every claim and holds the kept table against it; a verdict that no result supports, or a result that leaves a claim unjudged, fails.
+
+Usage: claims.py SOURCE_DIR. The standard library is enough.
+"""
+
+import json
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path(__file__).parents[2]
+sys.path.insert(0, str(SOURCE))
+from paper_figures import verdicts  # noqa: E402
+from paper_figures.evidence import RESULTS, Evidence, EvidenceError  # noqa: E402
+
+
+def claim(**changes):
+    return {"id": "s.c", "scene": "cloth_on_sphere", "figures": [], "band_set": "2000-01-01", "value": 1, "unit": "1", "place": "p", "says": "w", "why": "y",
+            "run": {"scale": "paper", "backend": "cuda"}, "measure": {"steps": "wall", "statistic": "mean"}, "band": [0, 1], **changes}
+
+
+class Accepted(unittest.TestCase):
+    def test_kept_verdicts_are_those_of_the_accepted_results(self):
+        self.assertEqual(verdicts.KEPT.read_text(), verdicts.as_table(verdicts.judge_all()), "run: python3 -m paper_figures.verdicts --write, and look at what changed")
+
+    def test_no_scene_with_accepted_results_has_an_unjudged_claim(self):
+        silent, stale = verdicts.unjudged(verdicts.judge_all())
+        self.assertEqual(silent, [], "judge these claims, or write waits_for into them: what is missing")
+        self.assertEqual(stale, [], "these are judged now: remove waits_for")
+
+    def test_every_claim_has_a_place_a_reason_and_a_verdict(self):
+        for judgement in verdicts.judge_all():
+            self.assertIn(judgement.verdict, verdicts.VERDICTS)
+            self.assertTrue(judgement.claim["place"] and judgement.claim["why"], judgement.claim["id"])
+
+
+class Judging(unittest.TestCase):
+    def verdict(self, **changes):
+        return verdicts.judge(claim(**changes), Evidence()).verdict
+
+    def test_the_band_decides(self):
+        ours = verdicts.judge(claim(), Evidence()).measured.value
+        self.assertEqual(self.verdict(band=[ours, ours]), "reproduced")
+        self.assertEqual(self.verdict(band=[None, ours * (1 - 1e-12)]), "refuted")
+        self.assertEqual(self.verdict(band=[ours * (1 + 1e-12), None]), "refuted")
+
+    def test_another_machine_has_no_band_and_a_missing_run_no_verdict(self):
+        self.assertEqual(verdicts.judge({k: v for k, v in claim(instead="s.c").items() if k != "band"}, Evidence()).verdict, "not comparable")
+        self.assertEqual(self.verdict(run={"scale": "paper", "steps": 101}), "not yet run")
+        self.assertEqual(self.verdict(run={"scale": "paper", "solver": "ipc"}), "not yet run")
+
+    def test_the_second_of_two_printed_values_counts(self):
+        ours = verdicts.judge(claim(), Evidence()).measured.value
+        self.assertEqual(self.verdict(band=[0, 0], also=[{"value": ours, "place": "elsewhere", "band": [ours, ours]}]), "reproduced")
+
+    def test_a_setting_is_the_printed_one_to_single_precision(self):
+        self.assertTrue(verdicts.within(0.009999999776482582, 0.01, "stored"))
+        self.assertFalse(verdicts.within(0.01000001, 0.01, "stored"))
+
+    def test_a_band_set_after_the_run_is_said_to_be_so(self):
+        self.assertIn("after this run", verdicts.judge(claim(band_set="2999-01-01"), Evidence()).note)
+        self.assertEqual(verdicts.judge(claim(), Evidence()).note, "")
+
+    def test_unknown_columns_and_mixed_commits_are_refused_in_words(self):
+        with self.assertRaisesRegex(EvidenceError, "has no column 'wallet'; it has: step, wall"):
+            self.verdict(measure={"steps": "wallet", "statistic": "mean"})
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "fig99_paper.csv").write_text("kind,time,commit,device\na,1,c1,d\nb,2,c2,d\n")
+            with self.assertRaisesRegex(EvidenceError, "mixes commits c1, c2"):
+                verdicts.judge(claim(measure={"table": "fig99", "column": "time", "over": {"kind": "a"}, "under": {"kind": "b"}}), Evidence(name))
+
+    def test_a_wait_that_is_not_declared_and_one_that_is_over_are_found(self):
+        judged, waiting = claim(), claim(id="s.d", run={"scale": "paper", "steps": 101})
+        found = [verdicts.judge(each, Evidence()) for each in (judged, waiting, {**judged, "waits_for": "x"})]
+        self.assertEqual(verdicts.unjudged(found), (["s.d"], ["s.c"]))
+
+
+class Runs(unittest.TestCase):
+    """A copy of one accepted run, changed."""
+
+    def judged(self, change, **changes):
+        with tempfile.TemporaryDirectory() as name:
+            shutil.copy(RESULTS / "h200/sphere_cuda_steps.csv", Path(name) / "steps.csv")
+            manifest = json.loads((RESULTS / "h200/sphere_cuda_run.json").read_text())
+            change(manifest)
+            (Path(name) / "run.json").write_text(json.dumps(manifest))
+            return verdicts.judge(claim(**{"band": [0, 100], **changes}), Evidence(name)).verdict
+
+    def test_unfinished_and_changed_programs_are_no_evidence(self):
+        self.assertEqual(self.judged(lambda m: None), "reproduced")
+        self.assertEqual(self.judged(lambda m: m.update(status="running")), "not yet run")
+        self.assertEqual(self.judged(lambda m: m.update(dirty=True)), "not yet run")
+
+    def test_a_failed_audit_refutes_the_guarantee_and_nothing_else(self):
+        failed = lambda m: m.update(status="failed: intersection", guarantee_kept=False)  # noqa: E731
+        guarantee = {"measure": {"manifest": "guarantee_kept"}, "run": {"scale": "paper", "steps": 1000}, "band": [0, 0]}
+        self.assertEqual(self.judged(failed), "not yet run")
+        self.assertEqual(self.judged(failed, **guarantee), "refuted")
+        self.assertEqual(self.judged(lambda m: None, **{**guarantee, "run": {"scale": "paper", "steps": 100}}), "reproduced")
+
+
+class Files(unittest.TestCase):
+    def test_faulty_claim_files_are_refused(self):
+        for change, words in (({"place": None}, "lacks place"), ({"measure": None}, "nothing is measured"), ({"band": None}, "must name the claim that is comparable")):
+            broken = {k: v for k, v in {**claim(), **change}.items() if v is not None}
+            with tempfile.TemporaryDirectory() as name, self.assertRaisesRegex(EvidenceError, words):
+                (Path(name) / "s.json").write_text(json.dumps({"scene": "s", "figures": [], "bands_set": "2000", "claims": [broken]}))
+                verdicts.load(name)
+
+
+if __name__ == "__main__":
+    unittest.main()
