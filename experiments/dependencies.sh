@@ -3,7 +3,7 @@
 
 packages=(
   build-essential cmake ninja-build git ca-certificates
-  python3 python3-venv
+  python3 python3-venv python3-yaml
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev
   libeigen3-dev libsuitesparse-dev libopenblas-dev
   nlohmann-json3-dev libcli11-dev catch2 librapidcheck-dev

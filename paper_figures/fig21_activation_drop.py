@@ -7,6 +7,7 @@ matrix, and, for the paper's two energies, by VBD in double, whose convergence i
 import argparse
 import csv
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -35,8 +36,8 @@ def ablation(folder, ogc, scale):
     """The run of each energy, by `ogc ablate`: finished, or failed for good."""
     folders = {energy: folder / "runs" / f"activation={energy}" for energy in ENERGIES}
     if not all(status_of(path).startswith(("finished", "failed")) for path in folders.values()):
-        if (folder / "runs").exists():
-            raise RunError(f"{folder / 'runs'} holds runs that are not finished: remove the folder to run them again")
+        if (folder / "runs").exists():  # an ablation that was interrupted: its table needs all of its runs
+            shutil.rmtree(folder / "runs")
         command = [str(ogc), "ablate", SCENE, "--scale", scale, "--steps", str(STEPS[scale]), "--solver", "newton", *TOLERANCE, "--set", "frame_steps=1",
                    "--audit", "end", "--vary", "activation=" + ",".join(ENERGIES), "--out", str(folder / "runs")]
         print(" ".join(command), file=sys.stderr, flush=True)

@@ -2,7 +2,9 @@
 
 import csv
 import json
+import os
 import re
+import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -23,14 +25,30 @@ class Iterations:
         return self.columns[name]
 
 
+def usable(folder, command):
+    """Whether `folder` holds the finished run of this command by this program. The workflow names in OGC_STAMP a file that is rewritten when the program changes."""
+    manifest, stamp = folder / "run.json", os.environ.get("OGC_STAMP", "")
+    if not manifest.is_file():
+        return False
+    recorded = json.loads(manifest.read_text())
+    changed = stamp and Path(stamp).is_file() and Path(stamp).stat().st_mtime > manifest.stat().st_mtime
+    return recorded.get("status") == "finished" and not changed and without_paths(recorded["command"]) == without_paths(command)
+
+
+def without_paths(command):
+    """The words of a command but for the program and the folders that its files lie in."""
+    words = command.split() if isinstance(command, str) else list(map(str, command))
+    return [word.rpartition("/")[2] for word in words[1:]]
+
+
 def run_once(ogc, arguments, folder):
-    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds a finished run already. Throws RunError where ogc fails."""
+    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already. Throws RunError where ogc fails."""
     folder = Path(folder)
-    manifest = folder / "run.json"
-    if not (manifest.is_file() and json.loads(manifest.read_text()).get("status") == "finished"):
-        if folder.exists():
-            raise RunError(f"{folder} holds a run that is not finished: remove the folder to run it again")
-        command = [str(ogc), "run", *map(str, arguments), "--out", str(folder)]
+    command = [str(ogc), "run", *map(str, arguments), "--out", str(folder)]
+    if not usable(folder, command):
+        if (folder / "run.json").is_file():
+            print(f"{folder}: not finished, of another command or of another program: run again", file=sys.stderr, flush=True)
+            shutil.rmtree(folder)
         print(" ".join(command), file=sys.stderr, flush=True)
         if subprocess.run(command, stdout=subprocess.DEVNULL).returncode != 0:
             raise RunError(f"{' '.join(command)}: failed; its last lines say why")

@@ -1,0 +1,8 @@
+"""Fig. 11: a long strip with four overhand knots, pulled at both ends; time, contacts, distances, four frames."""
+
+from paper_figures.common import main
+
+CAMERA = ((-0.35, 0.25, 1.6), (-0.35, 0, 0), (0, 1, 0))
+
+if __name__ == "__main__":
+    main("knot", frames=(0, 3550, 7100, 10650), camera=CAMERA)

@@ -1,0 +1,39 @@
+"""The steps of figures one after the other, where Snakemake can't be had. A step whose output is there already is not done again unless an input is newer, but a changed
+parameter goes unnoticed: remove the figure's folder then.
+
+Usage: python3 -m paper_figures.in_order RUNS OGC SCALE BACKEND [FIGURE …]
+"""
+
+import os
+import sys
+from pathlib import Path
+
+from paper_figures import job, recipes
+
+
+def due(step):
+    output = Path(step.output)
+    return not output.is_file() or any(Path(path).stat().st_mtime > output.stat().st_mtime for path in step.inputs)
+
+
+def main(runs, ogc, scale, backend, names):
+    """Exit status of the first step that fails, or 0."""
+    chosen = recipes.choose(names, recipes.load(), backend)
+    recipes.program_stamp(runs)
+    os.chdir(runs)
+    os.environ.update(PYTHONPATH=str(recipes.ROOT), OGC_STAMP=recipes.PROGRAM)
+    for step in (step for recipe in chosen for step in recipes.steps(recipe, scale, backend, ogc)):
+        if not due(step):
+            continue
+        print(f"{step.name} → {step.output}", file=sys.stderr, flush=True)
+        status = job.run(step.log, step.output, list(step.command))
+        if status != 0:
+            return status
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(*sys.argv[1:5], sys.argv[5:]))
+    except recipes.RecipeError as error:
+        sys.exit(f"reproduce: {error}")

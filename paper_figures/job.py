@@ -1,0 +1,41 @@
+"""Runs the command of one step with a log; where it fails, shows the command and the log's last lines. Beside the log it writes how long the command took.
+
+Usage: python3 -m paper_figures.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is removed first, if it is a run folder.
+"""
+
+import json
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+LINES = 20
+
+
+def clear(output):
+    """A run folder that holds an earlier attempt goes as a whole: `ogc` starts from nothing."""
+    folder = Path(output).parent
+    if Path(output).name == "run.json" and folder.is_dir():
+        shutil.rmtree(folder)
+
+
+def run(log, output, command):
+    """Exit status of the command; 1 where it succeeded without making its output."""
+    clear(output)
+    log = Path(log)
+    log.parent.mkdir(parents=True, exist_ok=True)
+    begun = time.monotonic()
+    with log.open("w") as file:
+        status = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+    if status == 0 and Path(output).is_file():
+        log.with_name(log.name + ".json").write_text(json.dumps({"command": command, "seconds": round(time.monotonic() - begun, 2)}))
+        return 0
+    last = "\n  ".join(log.read_text(errors="replace").splitlines()[-LINES:])
+    print(f"FAILED ({'exit status ' + str(status) if status else 'no ' + output}): {shlex.join(command)}\n  {last}\n  (the whole log: {log.resolve()})", file=sys.stderr)
+    return status or 1
+
+
+if __name__ == "__main__":
+    sys.exit(run(sys.argv[1], sys.argv[2], sys.argv[3:]))

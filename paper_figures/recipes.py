@@ -1,0 +1,202 @@
+"""Figures as steps: which command makes which file out of which. One YAML file a figure (figNN.yaml) says what is run and drawn; Snakemake (paper_figures/Snakefile)
+runs the steps, or `in_order` where Snakemake can't be had. Paths are relative to the folder of the runs.
+
+Keys of a YAML file: `title`; then `illustration: figNN`, or `scene` with `script` (a module of paper_figures) and `run` (options of `ogc run`; without it the
+script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point); `backends` where not both make sense.
+"""
+
+import argparse
+import csv
+import hashlib
+import itertools
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent
+SCALES = ("smoke", "small", "paper")
+PROGRAM = "program.txt"
+REPRESENTATIVE = "fig18"
+# What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
+SOURCES = ("compare", "reference", "fast", "experiments")
+KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "backends"}
+
+
+class RecipeError(Exception):
+    """A figure that does not exist or can't be made so; the message says what there is."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A command (list of words) that makes `output` out of `inputs`; `gpu`: how many devices it needs; `all_cores`: it uses every core that there is."""
+
+    name: str
+    output: str
+    inputs: tuple
+    command: tuple
+    gpu: int = 0
+    all_cores: bool = False
+
+    @property
+    def log(self):
+        return f"{Path(self.output).parent}/{self.name}.log"
+
+
+@dataclass(frozen=True)
+class Recipe:
+    name: str
+    title: str
+    scene: str
+    backends: tuple
+    body: dict
+
+    def folder(self, scale, backend):
+        return "illustrations" if "illustration" in self.body else f"{self.name}-{scale}-{backend}"
+
+    def picture(self, scale, backend):
+        """The last file that the recipe makes."""
+        return f"{self.folder(scale, backend)}/{self.name}.{'csv' if 'vary' in self.body else 'png'}"
+
+
+def load(folder=HERE):
+    """name -> Recipe. Throws RecipeError where a file has a key that nobody reads."""
+    result = {}
+    for path in sorted(Path(folder).glob("*.yaml")):
+        body = yaml.safe_load(path.read_text())
+        unknown = set(body) - KEYS
+        if unknown:
+            raise RecipeError(f"{path.name}: unknown key {', '.join(sorted(unknown))}; there are: {', '.join(sorted(KEYS))}")
+        result[path.stem] = Recipe(path.stem, body["title"], body.get("scene", ""), tuple(body.get("backends", ("cpu", "cuda"))), body)
+    return result
+
+
+def choose(names, recipes, backend):
+    """Recipes by figure, scene, `illustrations` or `all`. Throws RecipeError for a name that is none of these, or that has no such backend."""
+    chosen = []
+    for name in names or [REPRESENTATIVE]:
+        found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
+        if name == "all":
+            found = [r for r in recipes.values() if backend in r.backends and "vary" not in r.body]
+        elif name == "illustrations":
+            found = [r for r in recipes.values() if "illustration" in r.body]
+        if not found:
+            raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(recipes)}, illustrations, all")
+        if backend not in found[0].backends:
+            raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave --backend out")
+        chosen += [r for r in found if r not in chosen]
+    return chosen
+
+
+def steps(recipe, scale, backend, ogc, python=sys.executable):
+    """The steps of a figure, in an order in which they can be done."""
+    here, gpu = recipe.folder(scale, backend), int(backend == "cuda")
+    picture = recipe.picture(scale, backend)
+    drawing = (python, "-m", f"paper_figures.{recipe.body.get('script', 'illustrations')}")
+    plots = tuple(str(path) for path in sorted((ROOT / "plots").glob("*.py")))
+    script = (str(HERE / f"{recipe.body['script']}.py"),) if "script" in recipe.body else ()
+    if "illustration" in recipe.body:
+        data = f"{here}/{recipe.name}.json"
+        return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
+                Step(recipe.name, picture, (data, str(HERE / "illustrations.py"), *plots), (*drawing, here, recipe.name))]
+    if "vary" in recipe.body:
+        return _sweep(recipe, scale, backend, ogc, python)
+    if "run" in recipe.body:
+        run = f"{here}/run"
+        command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
+        return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True),
+                Step(recipe.name, picture, (f"{run}/run.json", *script, *plots), (*drawing, run, "--out", picture))]
+    options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
+    return [Step(recipe.name, picture, (PROGRAM, *script, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
+
+
+def _sweep(recipe, scale, backend, ogc, python):
+    here, vary = recipe.folder(scale, backend), recipe.body["vary"]
+    points = []
+    for values in itertools.product(*vary.values()):
+        name = ",".join(f"{key}={value}" for key, value in zip(vary, values))
+        options = [word for key, value in zip(vary, values) for word in ("--vary", f"{key}={value}")]
+        command = (ogc, "ablate", recipe.scene, "--scale", scale, "--backend", backend, "--audit", "end", *options, "--out", f"{here}/{name}")
+        points.append(Step(f"{recipe.name}_{len(points) + 1:02d}", f"{here}/{name}/{name}/run.json", (PROGRAM,), command, int(backend == "cuda")))
+    gather = Step(recipe.name, recipe.picture(scale, backend), tuple(point.output for point in points),
+                  (python, "-m", "paper_figures.sweep", here, recipe.picture(scale, backend)))
+    return [*points, gather]
+
+
+def program_stamp(runs):
+    """Writes PROGRAM into the folder of the runs: a digest of the sources, rewritten only where it changed, so that a new build of the same sources reruns nothing."""
+    digest = hashlib.sha256()
+    for path in sorted(p for room in SOURCES for p in (ROOT / room).rglob("*") if p.suffix in (".cpp", ".hpp", ".h", ".cu", ".cuh")):
+        digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes())
+    stamp = Path(runs) / PROGRAM
+    if not stamp.is_file() or stamp.read_text() != digest.hexdigest():
+        stamp.parent.mkdir(parents=True, exist_ok=True)
+        stamp.write_text(digest.hexdigest())
+
+
+def seconds_of(recipe, scale, backend, runs):
+    """What the steps of a finished figure took here [s], or None."""
+    logs = [runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc")]
+    return sum(json.loads(log.read_text())["seconds"] for log in logs) if all(log.is_file() for log in logs) else None
+
+
+def measured_times():
+    """(figure, scale, backend) -> (seconds, machine) of results/*/durations.csv."""
+    result = {}
+    for path in sorted((HERE / "results").glob("*/durations.csv")):
+        with path.open(newline="") as file:
+            for row in csv.DictReader(file):
+                result[row["figure"], row["scale"], row["backend"]] = (float(row["seconds"]), row["machine"])
+    return result
+
+
+def in_words(seconds):
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+
+
+def table(recipes, scale, backend, runs):
+    """Lines of --list."""
+    times, lines = measured_times(), [f"{'figure':14} {'scene':23} {'scale':6} {'time (measured on)':34} done  title"]
+    for recipe in recipes.values():
+        used = backend if backend in recipe.backends else recipe.backends[0]
+        drawn = "illustration" in recipe.body
+        known = times.get((recipe.name, "-" if drawn else scale, "-" if drawn else used))
+        time = f"{in_words(known[0])} ({known[1]})" if known else "not measured"
+        done = "yes" if (Path(runs) / recipe.picture(scale, used)).is_file() else "no"
+        lines.append(f"{recipe.name:14} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} {recipe.title}")
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Lists the figures (used by experiments/reproduce), or prints what those of a folder took.")
+    parser.add_argument("--scale", default="small", choices=SCALES)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--runs", default=ROOT / "runs", type=Path)
+    parser.add_argument("--check-names", nargs="*", help="only say whether there are such figures")
+    parser.add_argument("--pictures", nargs="*", help="the file that each figure ends in")
+    parser.add_argument("--durations", metavar="MACHINE", help="CSV of the times that figures took here, for results/MACHINE/durations.csv")
+    arguments = parser.parse_args()
+    try:
+        recipes = load()
+        if arguments.check_names is not None:
+            choose(arguments.check_names, recipes, arguments.backend)
+        elif arguments.pictures is not None:
+            print("\n".join(str(arguments.runs / r.picture(arguments.scale, arguments.backend)) for r in choose(arguments.pictures, recipes, arguments.backend)))
+        elif arguments.durations:
+            print("figure,scale,backend,seconds,machine")
+            for recipe, scale, backend in itertools.product(recipes.values(), SCALES, ("cpu", "cuda")):
+                took = seconds_of(recipe, scale, backend, arguments.runs)
+                drawn = "illustration" in recipe.body
+                if took is not None and not (drawn and (scale, backend) != ("smoke", "cpu")):
+                    print(f"{recipe.name},{'-,-' if drawn else f'{scale},{backend}'},{took:.1f},{arguments.durations}")
+        else:
+            print("\n".join(table(recipes, arguments.scale, arguments.backend, arguments.runs)))
+    except RecipeError as error:
+        sys.exit(f"reproduce: {error}")
+
+
+if __name__ == "__main__":
+    main()
