@@ -19,7 +19,7 @@ def due(step):
 def main(runs, ogc, scale, backend, names):
     """Exit status of the first step that fails, or 0."""
     chosen = recipes.choose(names, recipes.load(), backend)
-    recipes.program_stamp(runs)
+    recipes.program_stamp(runs, ogc)
     os.chdir(runs)
     os.environ.update(PYTHONPATH=str(recipes.ROOT), OGC_STAMP=recipes.PROGRAM)
     for step in (step for recipe in chosen for step in recipes.steps(recipe, scale, backend, ogc)):

@@ -33,7 +33,7 @@ def run(log, output, command):
         log.with_name(log.name + ".json").write_text(json.dumps({"command": command, "seconds": round(time.monotonic() - begun, 2)}))
         return 0
     last = "\n  ".join(log.read_text(errors="replace").splitlines()[-LINES:])
-    print(f"FAILED ({'exit status ' + str(status) if status else 'no ' + output}): {shlex.join(command)}\n  {last}\n  (the whole log: {log.resolve()})", file=sys.stderr)
+    print(f"FAILED ({'exit status ' + str(status) if status else f'no {output}'}): {shlex.join(command)}\n  {last}\n  (the whole log: {log.resolve()})", file=sys.stderr)
     return status or 1
 
 

@@ -126,11 +126,14 @@ def _sweep(recipe, scale, backend, ogc, python):
     return [*points, gather]
 
 
-def program_stamp(runs):
-    """Writes PROGRAM into the folder of the runs: a digest of the sources, rewritten only where it changed, so that a new build of the same sources reruns nothing."""
-    digest = hashlib.sha256()
-    for path in sorted(p for room in SOURCES for p in (ROOT / room).rglob("*") if p.suffix in (".cpp", ".hpp", ".h", ".cu", ".cuh")):
-        digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes())
+def program_stamp(runs, ogc):
+    """Writes PROGRAM into the folder of the runs, rewritten only where it changed: a digest of the sources, so that a new build of the same sources reruns nothing, or
+    of the program itself where it was not built here."""
+    digest, ogc = hashlib.sha256(), Path(ogc).resolve()
+    ours = ogc.is_relative_to(ROOT / "build")
+    files = sorted(p for room in SOURCES for p in (ROOT / room).rglob("*") if p.suffix in (".cpp", ".hpp", ".h", ".cu", ".cuh")) if ours else [ogc]
+    for path in files:
+        digest.update((path.relative_to(ROOT) if ours else path).as_posix().encode() + b"\0" + path.read_bytes())
     stamp = Path(runs) / PROGRAM
     if not stamp.is_file() or stamp.read_text() != digest.hexdigest():
         stamp.parent.mkdir(parents=True, exist_ok=True)

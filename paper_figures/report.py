@@ -1,0 +1,172 @@
+"""The report: index.html with every figure, table and claim, and a page a scene with its curves; each file holds its pictures and style itself and needs no network.
+
+It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which a test holds it to.
+"""
+
+import argparse
+import base64
+import html
+import io
+import re
+import shlex
+import sys
+from collections import Counter
+from pathlib import Path
+
+from paper_figures import recipes, verdicts
+from paper_figures.evidence import RESULTS, Evidence, EvidenceError
+
+DEVIATIONS = recipes.ROOT / "compare/deviations.md"
+STYLE = """
+body { font: 15px/1.45 sans-serif; max-width: 78em; margin: 1.5em auto; padding: 0 1em; color: #111; }
+table { border-collapse: collapse; margin: .6em 0 1.4em; } td, th { border-bottom: 1px solid #ccc; padding: .25em .6em; text-align: left; vertical-align: top; }
+img { max-width: 100%; } h2 { margin-top: 2em; } code { background: #f2f2f2; } .number { text-align: right; min-width: 6em; } td small { color: #444; }
+.verdict { white-space: nowrap; font-weight: bold; } .reproduced { color: #005a87; } .refuted { color: #a33d00; } .not-comparable, .not-yet-run { color: #555; font-weight: normal; }
+"""
+PAPER_ORDER = [f"fig{number:02d}" for number in range(1, 23)]
+
+
+def escape(text):
+    return html.escape(str(text))
+
+
+def page(title, body):
+    return f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style></head>\n<body>\n{body}\n</body></html>\n'
+
+
+def embedded(data, words):
+    return f'<img alt="{escape(words)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
+
+
+def claim_row(judgement):
+    claim, m = judgement.claim, judgement.measured
+    also = "".join(f"<br><small>also {other['value']:g} ({escape(other['place'])})</small>" for other in claim.get("also", []))
+    ours = f"{m.value:.4g}" if m else ""
+    origin = f"{escape(m.device)}; commit {escape(m.commit)}; <code>{escape(m.source)}</code>" if m else ""
+    instead = f'comparable: <a href="index.html#{escape(claim["instead"])}">{escape(claim["instead"])}</a>' if "instead" in claim and judgement.verdict == "not comparable" else ""
+    notes = "; ".join(filter(None, [escape(judgement.note), instead, origin]))
+    return (f'<tr class="claim" id="{escape(claim["id"])}" data-verdict="{judgement.verdict}"><td>{escape(claim["says"])}<br><small>{escape(claim["place"])}</small></td>'
+            f'<td class="number">{claim["value"]:g} {escape(claim["unit"]) if claim["unit"] != "1" else ""}{also}</td><td class="number">{ours}</td>'
+            f'<td>{escape(verdicts.band_in_words(claim))}<br><small>{escape(claim["why"])}</small></td>'
+            f'<td class="verdict {judgement.verdict.replace(" ", "-")}">{judgement.verdict}</td><td><small>{notes}</small></td></tr>')
+
+
+def claim_table(judgements):
+    rows = "\n".join(map(claim_row, judgements))
+    return f"<table><tr><th>the paper says</th><th>paper</th><th>ours</th><th>band, and why</th><th>verdict</th><th>evidence</th></tr>\n{rows}\n</table>" if rows else ""
+
+
+def numbered(text):
+    """fig02_x and fig2 alike -> fig02."""
+    found = re.match(r"fig(\d+)", text)
+    return f"fig{int(found[1]):02d}" if found else text
+
+
+def pictures_of(figure, folder=RESULTS):
+    return [path for path in sorted(folder.rglob("*.png")) if numbered(path.stem) == figure]
+
+
+def commands_of(evidence, scene):
+    """The commands that made the accepted runs of a scene, each once, with machine and commit."""
+    lines = dict.fromkeys((run.manifest["command"], run.manifest["device"], run.manifest["commit"][:10]) for run in evidence.runs if run.manifest["scene"]["name"] == scene)
+    return "".join(f"<li><code>{escape(command)}</code> – {escape(device)}, commit {escape(commit)}</li>" for command, device, commit in lines)
+
+
+def figure_section(figure, book, judgements, evidence):
+    """Pictures, claims, parameters and commands of one figure."""
+    mine = [recipe for recipe in book.values() if numbered(recipe.name) == figure]
+    claims = [j for j in judgements if j.claim["figures"][0] == figure]
+    scenes = sorted({j.claim["scene"] for j in claims} | {recipe.scene for recipe in mine} - {""})
+    title = mine[0].title if mine else "no recipe yet"
+    images = "".join(f"<figure>{embedded(path.read_bytes(), f'{figure}, ours')}<figcaption><small>{escape(path.relative_to(RESULTS).as_posix())}: "
+                     f"see the README beside it for machine and commit</small></figcaption></figure>" for path in pictures_of(figure))
+    redo = "".join(f"<li><code>experiments/reproduce {escape(r.name)}{'' if 'illustration' in r.body else ' --scale paper'}</code> (parameters: "
+                   f"<code>paper_figures/{escape(r.name)}.yaml</code>: {escape(shlex.join(map(str, r.body.get('run', r.body.get('options', [])))) or 'those of the scene')})</li>" for r in mine)
+    links = ", ".join(f'<a href="{scene}.html">{scene}</a>' for scene in scenes)
+    made = "".join(commands_of(evidence, scene) for scene in scenes)
+    words = "Drawn from the exact reference; it makes no claim in numbers." if mine and "illustration" in mine[0].body else "" if claims else "No claim in numbers."
+    return (f'<h2 id="{figure}">{figure.replace("fig0", "Fig. ").replace("fig", "Fig. ")}: {escape(title)}</h2>{f"<p>{words}</p>" if words else ""}{images}{claim_table(claims)}'
+            f"{f'<p>Scene: {links}</p>' if links else ''}{f'<p>To redo it:</p><ul>{redo}</ul>' if redo else ''}{f'<p>Accepted runs:</p><ul>{made}</ul>' if made else ''}")
+
+
+def table1_section(judgements):
+    """Table 1 has its claims with the figures' scenes: here a row a scene, with a link to them."""
+    scenes = dict.fromkeys(j.claim["scene"] for j in judgements if "table1" in j.claim["figures"])
+    rows = ""
+    for scene in scenes:
+        found = Counter(j.verdict for j in judgements if j.claim["scene"] == scene)
+        rows += f'<tr><td><a href="{scene}.html">{scene}</a></td>' + "".join(f'<td class="number">{found[v] or ""}</td>' for v in verdicts.VERDICTS) + "</tr>\n"
+    own = claim_table([j for j in judgements if j.claim["figures"][0] == "table1"])
+    return f'<h2 id="table1">Table 1: performance and parameters</h2><table><tr><th>scene</th>{"".join(f"<th>{v}</th>" for v in verdicts.VERDICTS)}</tr>{rows}</table>{own}'
+
+
+def inline(text):
+    """Inline marks of the list of deviations: code and emphasis."""
+    return re.sub(r"\*([^*]+)\*", r"<em>\1</em>", re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text)))
+
+
+def deviations_section(path=DEVIATIONS):
+    rows = [[cell.strip() for cell in line.strip().strip("|").split(" | ")] for line in path.read_text().splitlines() if line.startswith("|") and not line.startswith("|---")]
+    head, *body = rows
+    cells = "\n".join("<tr>" + "".join(f"<td>{inline(cell)}</td>" for cell in row) + "</tr>" for row in body)
+    return f'<h2 id="deviations">Deviations and errata</h2><table><tr>{"".join(f"<th>{escape(cell)}</th>" for cell in head)}</tr>{cells}</table>'
+
+
+def curves(run):
+    """PNG of a run's time, detections, contacts and smallest distance over its steps."""
+    from plots import style
+
+    plt = style.use()
+    figure, axes = plt.subplots(2, 2, figsize=(10, 5.2))
+    panels = (("wall", "time a step [ms]", 1), ("discrete_detections", "detections a step", 1), ("edge_edge_contacts", "edge–edge contacts", 1), ("smallest_distance", "smallest distance [mm]", 1e3))
+    for panel, (name, label, factor) in zip(axes.flat, panels):
+        panel.plot(run.column("step"), [factor * value for value in run.column(name)], linewidth=0.9)
+        panel.set(xlabel="step", ylabel=label, ylim=(0, None))
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=90)
+    plt.close(figure)
+    return out.getvalue()
+
+
+def scene_page(scene, judgements, evidence):
+    parts = [f'<p><a href="index.html">All figures</a></p><h1>{escape(scene)}</h1>', claim_table([j for j in judgements if j.claim["scene"] == scene])]
+    for run in (run for run in evidence.runs if run.manifest["scene"]["name"] == scene):
+        m = run.manifest
+        settings = ", ".join(f"{escape(name)} {escape(value['value'])}" for name, value in m["settings"].items())
+        audit = {True: f"exact audit of {m['audited_states']} states: no intersection", False: "exact audit FAILED"}.get(m.get("guarantee_kept"), "not audited")
+        parts.append(f"<h2>{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>{escape(m['device'])}, commit {escape(m['commit'][:10])}, {len(run.column('step'))} steps, {audit}</p>"
+                     f"{embedded(curves(run), 'curves of ' + run.source)}<details><summary>Settings</summary><p>{settings}</p></details>")
+    return page(scene, "\n".join(parts if len(parts) > 2 else [*parts, "<p>No accepted run yet.</p>"]))
+
+
+def write(out, evidence=None):
+    """index.html at `out` and the scenes' pages beside it. Returns the paths."""
+    evidence, book, out = evidence or Evidence(), recipes.load(), Path(out)
+    judgements = verdicts.judge_all(evidence)
+    figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book) or any(j.claim["figures"][0] == f for j in judgements)]
+    contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
+    sections = [figure_section(figure, book, judgements, evidence) for figure in figures]
+    body = (f'<p id="counts">{verdicts.headline(judgements)}</p><h1>Offset Geometric Contact: what the paper says, and what we measured</h1>'
+            f"<p>A band is fixed before the run that it judges; where it is younger than the run, the row says so. Nothing here is written by hand: "
+            f"<code>experiments/reproduce --report</code> makes it from claims, accepted results and recipes.</p><p>{contents}</p>"
+            + "\n".join([*sections, table1_section(judgements), deviations_section()]))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    scenes = sorted({j.claim["scene"] for j in judgements} | {recipe.scene for recipe in book.values()} - {""})
+    written = {out: page("OGC Testbed: report", body), **{out.with_name(f"{scene}.html"): scene_page(scene, judgements, evidence) for scene in scenes}}
+    for path, text in written.items():
+        path.write_text(text)
+    return list(written)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", default=recipes.HERE / "report/index.html", help="the page; the scenes' pages go beside it")
+    try:
+        paths = write(parser.parse_args().out)
+    except (EvidenceError, recipes.RecipeError) as error:
+        sys.exit(f"report: {error}")
+    print(f"{paths[0]} and {len(paths) - 1} pages of scenes, {sum(path.stat().st_size for path in paths) / 2**20:.1f} MiB")
+
+
+if __name__ == "__main__":
+    main()
