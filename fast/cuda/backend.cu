@@ -18,6 +18,7 @@ CudaBackend::CudaBackend() {
   OGC_CUDA_CHECK(cudaGetDevice(&device));
   OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device));
   most_blocks_ = static_cast<std::int64_t>(multiprocessors) * blocks_per_multiprocessor;
+  serial_team_lanes_ = static_cast<std::int64_t>(multiprocessors) * serial_lanes_per_multiprocessor;
   OGC_CUDA_CHECK(cudaStreamCreate(&stream_));
   current_ = stream_;
 }
@@ -26,6 +27,7 @@ CudaBackend::CudaBackend(CudaBackend&& other) noexcept
     : stream_(std::exchange(other.stream_, nullptr)),
       current_(std::exchange(other.current_, nullptr)),
       most_blocks_(other.most_blocks_),
+      serial_team_lanes_(other.serial_team_lanes_),
       scratch_(std::move(other.scratch_)),
       events_(std::exchange(other.events_, {})),
       repetitions_(std::exchange(other.repetitions_, 0)) {}

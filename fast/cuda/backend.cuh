@@ -31,6 +31,9 @@ inline constexpr int cuda_block_size = 128;
 /// Blocks a multiprocessor can hold at once (2048 threads), twice: enough to keep it busy, few enough that a long count-limited loop costs little.
 inline constexpr int blocks_per_multiprocessor = 2 * 2048 / cuda_block_size;
 
+/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md); the bits are the same.
+inline constexpr int serial_lanes_per_multiprocessor = 240;
+
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   const int stride = static_cast<int>(gridDim.x) * cuda_block_size;
@@ -53,9 +56,16 @@ __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const 
 
 /// A block is 32/W teams; a team beyond the last works on the last item and writes nothing.
 template <int W, class F>
-__global__ void __launch_bounds__(32 * F::parts) run_each_team(int n, F f) {
+__global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
-  f(min(i, n - 1), LaneTeam<W>(i < n));
+  f(min(i, n - 1), SpreadTeam<W>(i < n));
+}
+
+/// Likewise; a block is cuda_block_size/W teams.
+template <int W, class F>
+__global__ void __launch_bounds__(cuda_block_size) run_serial_teams(int n, F f) {
+  const int i = (static_cast<int>(blockIdx.x) * cuda_block_size + static_cast<int>(threadIdx.x)) / W;
+  f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
 /// A body recorded as a graph. Empty at first; `CudaBackend::replay` fills and renews it.
@@ -104,16 +114,18 @@ class CudaBackend {
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
+    const bool serial = static_cast<std::int64_t>(n) * W >= serial_team_lanes_;
+    const int teams = (serial ? cuda_block_size : 32) / W;  // of a block
     cudaLaunchAttribute overlap{};
     overlap.id = cudaLaunchAttributeProgrammaticStreamSerialization;
     overlap.val.programmaticStreamSerializationAllowed = 1;
     cudaLaunchConfig_t launch{};
-    launch.gridDim = dim3(static_cast<unsigned>((n + 32 / W - 1) / (32 / W)));
-    launch.blockDim = dim3(32 * F::parts);
+    launch.gridDim = dim3(static_cast<unsigned>((n + teams - 1) / teams));
+    launch.blockDim = dim3(serial ? cuda_block_size : 32 * F::parts);
     launch.stream = current_;
     launch.attrs = &overlap;
     launch.numAttrs = start == Start::overlapping ? 1 : 0;
-    cudaLaunchKernelEx(&launch, run_each_team<W, F>, n, f);
+    cudaLaunchKernelEx(&launch, serial ? run_serial_teams<W, F> : run_spread_teams<W, F>, n, f);
     check_launch(typeid(F));
   }
 
@@ -212,6 +224,7 @@ class CudaBackend {
   cudaStream_t stream_ = nullptr, current_ = nullptr;
   bool recording_ = false;
   std::int64_t most_blocks_ = 1;
+  std::int64_t serial_team_lanes_ = 1;  ///< launches of so many lanes or more fill the device: their teams are SerialLaneTeams
   Scratch scratch_;
   std::vector<cudaEvent_t> events_;  // events_[k], events_[k + 1]: start and end of repetition k
   int repetitions_ = 0;

@@ -1,14 +1,18 @@
-// Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the number of items alone: item i goes to chunk
-// i mod 1024, chunks are added in runs of 32, then the 32 runs; no backend and no number of threads can change a bit.
+// Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the size of the mesh alone: item i goes to chunk
+// i mod C, C = 1024 or, for large meshes, 32768; chunks are added in runs of 32 until 32 rows are left, then those; no backend and no number of threads can
+// change a bit. A chunk is one thread's work, and 1024 threads are a twentieth of what a large device holds.
 #pragma once
 
-#include <algorithm>
+#include <utility>
 
 #include "fast/kernels/qualifiers.hpp"
 
 namespace ogc::fast {
 
-inline constexpr int reduce_chunks = 1024, reduce_run = 32;
+inline constexpr int reduce_run = 32;
+
+/// C for a mesh of so many vertices.
+inline int reduce_chunks(int vertices) { return vertices <= 32768 ? 1024 : 32768; }
 
 /// for_each over chunks: adds the chunk's items to its row of `columns` partial sums.
 template <class Term>
@@ -16,37 +20,26 @@ struct AddChunk {
   Term term;
   int count;
   const int* counted;  ///< on the device; null: `count` holds
-  int columns;
+  int chunks, columns;
   double* partial;
 
   OGC_HD void operator()(int chunk) const {
     const int n = counted == nullptr ? count : *counted;
-    for (int i = chunk; i < n; i += reduce_chunks) term(i, partial + chunk * columns);
+    for (int i = chunk; i < n; i += chunks) term(i, partial + chunk * columns);
   }
 };
 
+/// for_each over runs and columns: a row of `to` is the sum of 32 rows of `from`.
 struct AddRun {
   int columns;
-  const double* partial;
-  double* runs;
+  const double* from;
+  double* to;
 
   OGC_HD void operator()(int i) const {
     const int run = i / columns, column = i % columns;
     double sum = 0;
-    for (int k = 0; k < reduce_run; ++k) sum += partial[(run * reduce_run + k) * columns + column];
-    runs[i] = sum;
-  }
-};
-
-struct AddRuns {
-  int columns;
-  const double* runs;
-  double* total;
-
-  OGC_HD void operator()(int column) const {
-    double sum = 0;
-    for (int run = 0; run < reduce_chunks / reduce_run; ++run) sum += runs[run * columns + column];
-    total[column] = sum;
+    for (int k = 0; k < reduce_run; ++k) sum += from[(run * reduce_run + k) * columns + column];
+    to[i] = sum;
   }
 };
 
@@ -60,28 +53,33 @@ struct ClearPartial {
 template <class Backend>
 class Reduction {
  public:
-  Reduction(Backend& backend, int columns) : backend_(backend), columns_(columns) {
-    partial_.resize(static_cast<std::size_t>(reduce_chunks * columns));
-    runs_.resize(static_cast<std::size_t>(reduce_chunks / reduce_run * columns));
+  /// For a mesh of `vertices`.
+  Reduction(Backend& backend, int columns, int vertices) : backend_(backend), columns_(columns), chunks_(reduce_chunks(vertices)) {
+    partial_.resize(static_cast<std::size_t>(chunks_ * columns));
+    runs_.resize(static_cast<std::size_t>(chunks_ / reduce_run * columns));
   }
-  void begin() { backend_.for_each(reduce_chunks * columns_, ClearPartial{partial_.data()}); }
+  void begin() { backend_.for_each(chunks_ * columns_, ClearPartial{partial_.data()}); }
   /// term(i, sums) adds item i to its columns.
   template <class Term>
   void add(int count, Term term) {
-    backend_.for_each(reduce_chunks, AddChunk<Term>{term, count, nullptr, columns_, partial_.data()});
+    backend_.for_each(chunks_, AddChunk<Term>{term, count, nullptr, chunks_, columns_, partial_.data()});
   }
   template <class Term>
   void add_counted(const int* count, Term term) {
-    backend_.for_each(reduce_chunks, AddChunk<Term>{term, 0, count, columns_, partial_.data()});
+    backend_.for_each(chunks_, AddChunk<Term>{term, 0, count, chunks_, columns_, partial_.data()});
   }
   void end(double* total) {
-    backend_.for_each(reduce_chunks / reduce_run * columns_, AddRun{columns_, partial_.data(), runs_.data()});
-    backend_.for_each(columns_, AddRuns{columns_, runs_.data(), total});
+    double *from = partial_.data(), *to = runs_.data();
+    for (int rows = chunks_ / reduce_run; rows > 1; rows /= reduce_run) {
+      backend_.for_each(rows * columns_, AddRun{columns_, from, to});
+      std::swap(from, to);
+    }
+    backend_.for_each(columns_, AddRun{columns_, from, total});
   }
 
  private:
   Backend& backend_;
-  int columns_;
+  int columns_, chunks_;
   typename Backend::template Buffer<double> partial_, runs_;
 };
 

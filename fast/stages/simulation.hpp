@@ -31,7 +31,7 @@ class ResidentSimulation : public compare::Simulation {
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(std::count_if(rest_.mobility.begin(), rest_.mobility.end(), [](Mobility m) { return m != Mobility::fixed; }))),
-        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies)),
+        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
     sweep_.reserve_contacts(4 * detection_.capacity());

@@ -92,8 +92,10 @@ class StepObserver {
 template <class Backend>
 class Step {
  public:
-  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings)
-      : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, sum_columns) {}
+  /// For a mesh of `vertices`; `state` is filled later.
+  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings,
+       int vertices)
+      : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, sum_columns, vertices) {}
 
   /// Null: nobody.
   void observe(StepObserver* observer) { observer_ = observer; }

@@ -18,8 +18,8 @@ struct Term {
 
 TEST_CASE("sums hold every item once, in its column, whatever their number", "[property]") {
   CpuBackend backend;
-  for (const int n : {0, 1, 31, 1023, 1024, 1025, 5000}) {
-    Reduction<CpuBackend> reduction(backend, 3);
+  for (const int n : {0, 1, 31, 1023, 1024, 1025, 5000, 32767, 32768, 32769, 70000}) {
+    Reduction<CpuBackend> reduction(backend, 3, n);
     std::vector<double> total(3, -1);
     for (int repeat = 0; repeat < 2; ++repeat) {
       reduction.begin();
