@@ -8,8 +8,10 @@
 #include "compare/judge/generators.hpp"
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/files/scratch.hpp"
 
 using namespace ogc::compare;
+using ogc::tests::Scratch;
 
 namespace {
 
@@ -17,12 +19,6 @@ std::string read(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
-
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "ogc_test_corpus";
-  Folder() { std::filesystem::remove_all(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 void write(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::create_directories(path.parent_path());
@@ -32,11 +28,11 @@ void write(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 TEST_CASE("a saved case comes back bit for bit, for every stage", "[property]") {
-  const Folder folder;
+  const Scratch folder;
   for (const Stage stage : all_stages)
     for (const Generator& generator : generators(stage)) {
       const TestCase test = generate({stage, std::string(generator.name), 5, 17, "", {}});
-      const auto path = save_case(folder.path, test, "why");
+      const auto path = save_case(folder.folder(), test, "why");
       INFO(path.string());
       REQUIRE(path.extension() == ".h5");
       const TestCase loaded = load_case(path);
@@ -46,24 +42,24 @@ TEST_CASE("a saved case comes back bit for bit, for every stage", "[property]") 
 }
 
 TEST_CASE("parameters stand in the file and in its name", "[unit]") {
-  const Folder folder;
+  const Scratch folder;
   const CaseName name = parse_problem("stage=truncate gen=uniform seed=1 index=2 b=0.25");
-  const auto path = save_case(folder.path, generate(name), "");
-  REQUIRE(path != save_case(folder.path, generate(parse_problem("stage=truncate gen=uniform seed=1 index=2")), ""));
+  const auto path = save_case(folder.folder(), generate(name), "");
+  REQUIRE(path != save_case(folder.folder(), generate(parse_problem("stage=truncate gen=uniform seed=1 index=2")), ""));
   REQUIRE(load_case(path).name == name);
   REQUIRE(std::get<TruncateCase>(load_case(path).data).bound == 0.25f);
 }
 
 TEST_CASE("a case written by hand as JSON is read too", "[unit]") {
-  const Folder folder;
+  const Scratch folder;
   const TestCase test = generate(parse_problem("stage=sweep gen=" + std::string(generators(Stage::sweep)[0].name) + " seed=1 index=2"));
-  write(folder.path / "case.json", case_to_json(test, "why").dump());
-  REQUIRE(case_to_json(load_case(folder.path / "case.json"), "") == case_to_json(test, ""));
+  write(folder / "case.json", case_to_json(test, "why").dump());
+  REQUIRE(case_to_json(load_case(folder / "case.json"), "") == case_to_json(test, ""));
 }
 
 TEST_CASE("a mesh case is saved with a mesh and a picture to look at", "[unit]") {
-  const Folder folder;
-  auto path = save_case(folder.path, generate({Stage::detect_edge_edge, "ladder.fan", 5, 1, "", {}}), "a < b");
+  const Scratch folder;
+  auto path = save_case(folder.folder(), generate({Stage::detect_edge_edge, "ladder.fan", 5, 1, "", {}}), "a < b");
   const std::string picture = read(std::filesystem::path(path).replace_extension(".svg"));
   REQUIRE(picture.starts_with("<svg "));
   REQUIRE(picture.find("<polygon") != std::string::npos);
@@ -75,8 +71,8 @@ TEST_CASE("a mesh case is saved with a mesh and a picture to look at", "[unit]")
 
 TEST_CASE("a broken case file is refused with its name and what is wrong", "[unit]") {
   using Catch::Matchers::Contains;
-  const Folder folder;
-  const auto path = folder.path / "case.json";
+  const Scratch folder;
+  const auto path = folder / "case.json";
   REQUIRE_THROWS_WITH(load_case(path), Contains("case.json"));
   write(path, "{");
   REQUIRE_THROWS_AS(load_case(path), InputError);
@@ -92,8 +88,8 @@ TEST_CASE("a broken case file is refused with its name and what is wrong", "[uni
 
 TEST_CASE("a damaged HDF5 file is refused with its name", "[unit]") {
   using Catch::Matchers::Contains;
-  const Folder folder;
-  const auto path = folder.path / "case.h5";
+  const Scratch folder;
+  const auto path = folder / "case.h5";
   REQUIRE_THROWS_WITH(load_case(path), Contains("case.h5"));
   write(path, "no HDF5");
   REQUIRE_THROWS_WITH(load_case(path), Contains("case.h5"));
@@ -101,8 +97,8 @@ TEST_CASE("a damaged HDF5 file is refused with its name", "[unit]") {
 
 TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is refused", "[unit]") {
   using Catch::Matchers::Contains;
-  const Folder folder;
-  const auto path = folder.path / "case.json";
+  const Scratch folder;
+  const auto path = folder / "case.json";
   const auto block = [&](const std::string& question) {
     write(path, R"({"format": 2, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": {"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
       "positions": [["0", "0", "0"], ["1", "0", "0"]], "questions": [)" + question + "]}}");
@@ -118,13 +114,13 @@ TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is
 
 TEST_CASE("a batch file holds one problem a line, comments and empty lines apart", "[unit]") {
   using Catch::Matchers::Contains;
-  const Folder folder;
-  const auto path = folder.path / "corpus.txt";
+  const Scratch folder;
+  const auto path = folder / "corpus.txt";
   write(path, "# worst cases\n\nstage=bound gen=few seed=1 index=1\nstage=truncate gen=bits seed=2 index=9\n");
   const auto names = load_batch(path);
   REQUIRE(names.size() == 2);
   REQUIRE(names[1] == CaseName{Stage::truncate, "bits", 2, 9, "", {}});
   write(path, "stage=bound gen=few seed=1 index=1\nstage=bund\n");
   REQUIRE_THROWS_WITH(load_batch(path), Contains("line 2") && Contains("bund"));
-  REQUIRE_THROWS_AS(load_batch(folder.path / "none.txt"), InputError);
+  REQUIRE_THROWS_AS(load_batch(folder / "none.txt"), InputError);
 }
