@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Opens the report in headless Chromium: every picture is shown, nothing is asked of the network; takes a screenshot to look at. Installs Chromium where it is
-# missing (about 110 MB to fetch), which is why this is not part of tests/run. Usage: browser.sh [SCREENSHOT.png]
+# missing (its package alone is 77 MiB), which is why this is not part of tests/run. Usage: browser.sh [SCREENSHOT.png]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck source=experiments/dependencies.sh
