@@ -71,7 +71,9 @@ while kill -0 "$workflow" 2>/dev/null && [ -z "$killed" ]; do
   killed=$(squeue -h -t running -o %i | tail -1)
   if [ -n "$killed" ]; then scancel --signal=KILL --full "$killed"; say "Killed job $killed"; fi
 done
-wait "$workflow" || { tail -n 60 "$folder/log/workflow" >&2; tail -n 20 "$folder/log/slurmctld" >&2; exit 1; }
+status=0
+wait "$workflow" || status=$?
+[ "$status" -eq 0 ] || { say "slurm.sh: the workflow ended with exit status $status"; tail -n 60 "$folder/log/workflow" >&2; tail -n 20 "$folder/log/slurmctld" >&2; exit 1; }
 [ -n "$killed" ] || { say "slurm.sh: no job could be killed while it ran"; exit 1; }
 
 points=$(find "$runs/sweep-smoke-cpu" -mindepth 3 -maxdepth 3 -name run.json | wc -l)
