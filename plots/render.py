@@ -28,6 +28,8 @@ def picture(bodies, camera, size=(640, 480)):
         faces = np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel()
         mesh = pv.PolyData(np.asarray(points, dtype=float), faces)
         plotter.add_mesh(mesh, color=front, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, backface_params={"color": back})
+    extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
+    plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")
     plotter.camera_position = [tuple(camera[0]), tuple(camera[1]), tuple(camera[2])]
     image = plotter.screenshot(return_img=True)
