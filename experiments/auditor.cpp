@@ -1,7 +1,11 @@
 #include "experiments/auditor.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
+#include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "experiments/output.hpp"
 #include "reference/contestant.hpp"
 
@@ -16,7 +20,17 @@ std::string on_body(const std::vector<std::string>& bodies, compare::Index verte
   return vertex < 0 ? "" : " (body '" + bodies[static_cast<std::size_t>(vertex)] + "')";
 }
 
+constexpr std::array<std::string_view, 4> audit_names{"every", "frame", "end", "off"};  // by AuditMode
+
 }  // namespace
+
+std::string name_of(AuditMode mode) { return std::string(audit_names[static_cast<std::size_t>(mode)]); }
+
+AuditMode audit_mode(const std::string& name) {
+  const auto found = std::ranges::find(audit_names, name);
+  if (found == audit_names.end()) throw compare::InputError("audit: " + compare::unknown_name("mode", name, audit_names));
+  return static_cast<AuditMode>(found - audit_names.begin());
+}
 
 std::vector<std::string> body_names(const compare::Scene& scene) {
   std::vector<std::string> names(scene.mesh.positions.size());

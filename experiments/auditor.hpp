@@ -21,6 +21,9 @@ namespace ogc::experiments {
 
 /// What is audited: each step, each stored frame, the last state, nothing.
 enum class AuditMode { every, frame, end, off };
+std::string name_of(AuditMode mode);
+/// Throws compare::InputError where nothing is called so.
+AuditMode audit_mode(const std::string& name);
 
 /// A body's name for each vertex.
 std::vector<std::string> body_names(const compare::Scene& scene);

@@ -1,10 +1,15 @@
 // `ogc run`: options to a RunRequest, and the result to an exit status.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"
-#include "experiments/run_options.hpp"
+#include "experiments/resume.hpp"
 
 namespace ogc::experiments {
 
@@ -17,13 +22,31 @@ std::string introduction(const RunRequest& request) {
          number(scene.settings.time_step) + " s; writes " + request.folder.string();
 }
 
-int run(const RunOptions& options, const CommandContext& context) {
+/// What --resume leaves open: no bit depends on it.
+constexpr std::array<std::string_view, 4> free_options{"--resume", "--threads", "--checkpoint", "--json"};
+
+ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
+  std::string given;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && std::ranges::find(free_options, option->get_name()) == free_options.end())
+      given += (given.empty() ? "" : ", ") + option->get_name();
+  if (!given.empty())
+    throw compare::InputError("--resume " + folder + " goes on with the scene, settings and options that the folder holds, and with no other; leave out: " + given +
+                              ". For other ones begin a new run, from a frame of this one with --from-state if you like");
+  ResumedRun run = resumed_run(folder);
+  run.request.checkpoint_seconds = options.checkpoint_seconds;
+  return run;
+}
+
+int run(const RunOptions& options, const std::string& resume, const CLI::App& command, const CommandContext& context) {
   std::optional<tbb::global_control> limit;
   if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  RunRequest request = request_of(options, context);
+  if (options.scene.empty() && resume.empty())
+    throw compare::InputError("run needs a scene (" + scene_names() + "), a scene file, or --resume RUN; see ogc run --help");
+  ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)} : resumed(options, resume, command);
   catch_interrupts();
-  const std::string text = introduction(request);
-  RunSession session(std::move(request), contestant_of(options));
+  const std::string text = introduction(run.request);
+  RunSession session(std::move(run.request), contestant_of(run.options));
   log_line(text);
   const RunSummary summary = session.run();
   if (context.json) {
@@ -41,7 +64,9 @@ int run(const RunOptions& options, const CommandContext& context) {
 void add_run_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Simulate a scene into a run folder, audited exactly");
-  add_run_options(*command, options);
+  add_run_options(*command, options)->required(false);
+  auto resume = std::make_shared<std::string>();
+  command->add_option("--resume", *resume, "Go on with a run that was cut off, in its own folder, to the same bits; takes no scene, no settings");
   command->add_option("--threads", options->threads, "Threads of the CPU (default: all); changes no bit of the result")->check(CLI::PositiveNumber);
   command->add_flag("--json", context.json, "Print the summary as JSON on standard output");
   command->footer(settings_help() +
@@ -50,11 +75,15 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "  ogc run cloth_on_sphere --scale small --solver newton --set newton_tolerance=1e-3 --iterations\n"
                   "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
                   "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
+                  "  ogc run --resume runs/twist-paper-20250801-120000\n"
                   "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
                   "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the exact one. On the CPU it takes\n"
                   "turns with the simulation, on a GPU it runs beside it, so that it is never part of a step's time.\n"
-                  "Ctrl-C stops after the current frame; what is finished stays. Exit status 1: a penetration, a broken bound, a number that is not finite.");
-  command->callback([options, &context] { context.status = run(*options, context); });
+                  "Ctrl-C stops after the current frame; what is finished stays, whatever ends the run: a signal, kill -9, a full disk, power. --resume goes on\n"
+                  "from checkpoint.h5 (every --checkpoint seconds, and at each end that leaves time for it), which the same program and scene take to the very\n"
+                  "bits of a run that was never cut off: frames, rows of steps.csv (but for times), final state. Not with --solver ipc.\n"
+                  "Exit status 1: a penetration, a broken bound, a number that is not finite.");
+  command->callback([options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
 }
 
 }  // namespace ogc::experiments

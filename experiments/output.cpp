@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::experiments {
@@ -72,19 +73,8 @@ std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t
 }
 
 std::string state_hash(std::span<const compare::Vec3f> positions) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  const auto add = [&hash](float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    for (int byte = 0; byte < 4; ++byte) hash = (hash ^ ((bits >> (8 * byte)) & 0xff)) * 0x100000001b3;
-  };
-  for (const compare::Vec3f& position : positions) {
-    add(position.x);
-    add(position.y);
-    add(position.z);
-  }
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return text.data();
+  static_assert(std::endian::native == std::endian::little, "the low byte comes first");
+  return compare::digest({reinterpret_cast<const char*>(positions.data()), positions.size_bytes()});
 }
 
 std::string utc_stamp() {

@@ -1,7 +1,6 @@
 #include "experiments/run_options.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
@@ -86,8 +85,8 @@ compare::Contestant solver_of(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
-  command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
+CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  CLI::Option* scene = command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
   command.add_option("--solver", options->solver, "How a step is solved")
       ->check(CLI::IsMember(solver_names))->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember(backend_names))->capture_default_str();
@@ -103,6 +102,9 @@ void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& optio
   command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration, measured beside the run");
   command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
+  command.add_option("--checkpoint", options->checkpoint_seconds, "Seconds between two checkpoints, at least; 0: at each state that is judged")
+      ->check(CLI::NonNegativeNumber)->capture_default_str();
+  return scene;
 }
 
 std::string scene_names() {
@@ -143,9 +145,9 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.iterations = options.iterations || options.condition;
   request.condition = options.condition;
   request.audit_beside = options.backend == "cuda";
-  const std::map<std::string, AuditMode> modes{
-      {"every", AuditMode::every}, {"frame", AuditMode::frame}, {"end", AuditMode::end}, {"off", AuditMode::off}};
-  request.audit = modes.at(options.audit);
+  request.residual = options.residual;
+  request.audit = audit_mode(options.audit);
+  request.checkpoint_seconds = options.checkpoint_seconds;
   if (!options.from_state.empty()) request.from_state = options.from_state;
   request.profile = options.profile;
   const std::string scale = request.scale.empty() ? "" : "-" + request.scale;

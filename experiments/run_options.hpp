@@ -14,10 +14,11 @@ struct RunOptions {
   std::int64_t steps = 0;                ///< 0: the scene's
   bool profile = false, iterations = false, condition = false, residual = false;
   int threads = 0;                       ///< 0: all
+  double checkpoint_seconds = default_checkpoint_seconds;
 };
 
-/// Adds all of them but --threads.
-void add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options);
+/// Adds all of them but --threads. Returns the scene, which is required.
+CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options);
 
 /// Names of the built-in scenes, separated by commas.
 std::string scene_names();

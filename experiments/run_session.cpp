@@ -7,8 +7,10 @@
 #include "compare/files/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"
+#include "compare/record/steps_csv.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/progress.hpp"
+#include "experiments/resume.hpp"
 #include "experiments/version.hpp"
 
 namespace ogc::experiments {
@@ -17,16 +19,6 @@ namespace {
 
 using compare::Snapshot;
 using compare::StepMetrics;
-
-const char* audit_name(AuditMode mode) {
-  switch (mode) {
-    case AuditMode::every: return "every";
-    case AuditMode::frame: return "frame";
-    case AuditMode::end: return "end";
-    case AuditMode::off: break;
-  }
-  return "off";
-}
 
 bool finite(const Snapshot& snapshot) {
   return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
@@ -67,7 +59,10 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   origin.dirty = build.dirty;
   origin.status = "running";
   origin.extra["scale"] = request.scale;
-  origin.extra["audit"] = audit_name(request.audit);
+  origin.extra["audit"] = name_of(request.audit);
+  origin.extra["iteration_rows"] = request.iterations ? "yes" : "no";
+  origin.extra["condition_numbers"] = request.condition ? "yes" : "no";
+  origin.extra["residuals"] = request.residual ? "yes" : "no";
   if (request.from_state) origin.extra["from_state"] = request.from_state->string();
   return origin;
 }
@@ -119,6 +114,7 @@ void RunSession::start_state() {
     start_.positions = std::move(frame.positions);
     start_.velocities = std::move(frame.velocities);
   }
+  if (request_.resume) start_ = request_.resume->state;
   if (!finite(start_)) throw compare::InputError("the start holds a position that is not finite");
   step_ = start_.step;
 }
@@ -132,7 +128,7 @@ void RunSession::check_start() const {
 
 void RunSession::open_folder() {
   simulation_ = contestant_.start(request_.scene, {.profile = request_.profile, .energies = true, .iterations = request_.iterations, .condition = request_.condition});
-  if (request_.from_state) simulation_->restore(start_);
+  if (request_.from_state || request_.resume) simulation_->restore(start_);
   summary_.scene = request_.scene.name;
   summary_.scale = request_.scale;
   summary_.solver = request_.solver;
@@ -141,17 +137,43 @@ void RunSession::open_folder() {
   summary_.folder = request_.folder.string();
   summary_.first_step = summary_.last_step = step_;
   summary_.smallest_distance = std::numeric_limits<double>::infinity();
+  auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);
+  last_good_ = start_;
+  if (request_.resume) return reopen_folder();
+  begin_folder();
+}
+
+void RunSession::begin_folder() {
+  last_good_.bounds.assign(start_.positions.size(), 0);
   writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, provenance(request_, summary_.device),
                                                  request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
-  auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);
+}
+
+/// What the run did before is counted from its own rows.
+void RunSession::reopen_folder() {
+  const compare::RunReader before(request_.folder);
+  if (const std::string& device = before.provenance().device; request_.backend == "cuda" && device != summary_.device)
+    throw compare::InputError(request_.folder.string() + ": was computed on " + device + ", this is " + summary_.device +
+                              ": another device or driver may give other bits. Resume it there, or begin a new run from its last frame with --from-state");
+  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, step_, request_.backend == "cpu" ? ", " + summary_.device : "");
+  const std::vector<StepMetrics> rows = compare::read_steps(request_.folder).rows;
+  if (!rows.empty()) summary_.first_step = rows.front().step - 1;
+  if (summary_.first_step + static_cast<std::int64_t>(rows.size()) != step_)
+    throw compare::InputError((request_.folder / "steps.csv").string() + ": has not every row up to the checkpoint's step " + std::to_string(step_) +
+                              ": it was changed by hand or is damaged; begin a new run from the last frame with --from-state");
+  // An interruption stores a frame where the whole run has none.
+  writer_->keep_frames([this](std::int64_t step) { return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps; });
+  count(rows);
+  summary_.audited_states = static_cast<std::size_t>(request_.resume->audited_states);
+  if (summary_.audited_states > 0) summary_.guarantee_kept = true;
+  log_line("goes on after step " + std::to_string(step_) + " of " + std::to_string(settings_.steps));
 }
 
 RunSummary RunSession::run() {
   open_folder();
   try {
-    last_good_ = start_;
-    last_good_.bounds.assign(start_.positions.size(), 0);
-    store_frame(last_good_);
+    if (!request_.resume) store_frame(last_good_);
+    save_checkpoint();
     simulate();
     finish();
   } catch (const std::exception& error) {
@@ -199,8 +221,13 @@ bool RunSession::one_chunk() {
 
 void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
   writer_->add_steps(rows);
-  for (const StepMetrics& row : rows) {
+  for (const StepMetrics& row : rows)
     for (const std::string& note : row.notes) log_line(note);
+  count(rows);
+}
+
+void RunSession::count(const std::vector<StepMetrics>& rows) {
+  for (const StepMetrics& row : rows) {
     step_times_.push_back(row.wall_ms);
     if (row.wall_ms > summary_.worst_ms) summary_.worst_ms = row.wall_ms, summary_.worst_step = row.step;
     summary_.last_vertex_facet_contacts = row.vertex_facet_contacts;
@@ -230,6 +257,15 @@ void RunSession::offer(Snapshot snapshot, bool is_frame) {
 void RunSession::accept(Offered offered) {
   last_good_ = std::move(offered.snapshot);
   if (offered.is_frame) store_frame(last_good_);
+  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - saved_at_).count() >= request_.checkpoint_seconds) save_checkpoint();
+}
+
+/// After rows and frames up to its step, so that a run that goes on from it misses none.
+void RunSession::save_checkpoint() {
+  if (last_good_.step == saved_step_ || !resumable(request_.solver)) return;
+  writer_->save({last_good_, static_cast<std::int64_t>(summary_.audited_states)});
+  saved_step_ = last_good_.step;
+  saved_at_ = std::chrono::steady_clock::now();
 }
 
 void RunSession::collect(const std::vector<Verdict>& verdicts) {
@@ -269,6 +305,7 @@ void RunSession::store_frame(const Snapshot& snapshot) {
 
 void RunSession::finish() {
   store_frame(last_good_);
+  save_checkpoint();
   summary_.last_step = last_good_.step;
   summary_.final_hash = state_hash(last_good_.positions);
   summary_.was_interrupted = !failed() && step_ < settings_.steps;

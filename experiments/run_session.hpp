@@ -2,6 +2,7 @@
 // frame of a folder is the last good state; the simulation may be a few states ahead by then, and is stopped.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,9 @@
 
 namespace ogc::experiments {
 
+/// What a run that is cut off loses at most, besides the frame that it works at.
+inline constexpr double default_checkpoint_seconds = 30;
+
 struct RunRequest {
   compare::Scene scene;               ///< with all settings applied
   std::string scale;                  ///< "smoke", …; empty for a scene file
@@ -24,8 +28,11 @@ struct RunRequest {
   AuditMode audit = AuditMode::frame;
   bool audit_beside = false;          ///< see Auditor
   std::optional<std::filesystem::path> from_state;
+  std::optional<compare::Checkpoint> resume;  ///< of `folder`, whose run goes on (experiments/resume.hpp)
+  double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
   bool profile = false;
   bool iterations = false, condition = false;  ///< see compare::SimulationOptions
+  bool residual = false;              ///< the contestant was wrapped so (experiments/measured_simulation.hpp); for run.json
   std::filesystem::path folder;
   std::string command_line;
 };
@@ -68,10 +75,14 @@ class RunSession {
   void start_state();
   void check_start() const;
   void open_folder();
+  void begin_folder();
+  void reopen_folder();
+  void save_checkpoint();
   void simulate();
   bool one_chunk();
   std::int64_t chunk() const;
   void add_rows(const std::vector<compare::StepMetrics>& rows);
+  void count(const std::vector<compare::StepMetrics>& rows);
   void offer(compare::Snapshot snapshot, bool is_frame);
   void accept(Offered offered);
   void collect(const std::vector<Verdict>& verdicts);
@@ -90,6 +101,8 @@ class RunSession {
   std::deque<Offered> offered_;    ///< states that wait for their verdict
   compare::Snapshot start_, last_good_;
   std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
+  std::int64_t saved_step_ = -1;   ///< of the last checkpoint
+  std::chrono::steady_clock::time_point saved_at_;
   std::vector<double> step_times_;
   RunSummary summary_;
 };

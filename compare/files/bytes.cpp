@@ -1,6 +1,9 @@
 // Streams report a full disk only when they are flushed, so writing ends with a close that is checked.
 #include "compare/files/bytes.hpp"
 
+#include <array>
+#include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -27,6 +30,14 @@ void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
   if (!stream) throw ResourceError(path.string() + ": can't be written; check free space and permissions");
+}
+
+std::string digest(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
 }
 
 }  // namespace ogc::compare

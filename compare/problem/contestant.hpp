@@ -84,6 +84,7 @@ struct Snapshot {
   std::vector<Vec3f> previous;                ///< X_prev of the last detection
   std::vector<float> bounds;                  ///< b_v of the last detection
   float query_radius = 0;                     ///< r_q of the last detection
+  std::vector<std::int64_t> capacities{};     ///< of lists that grow, in the contestant's own order: no position depends on them, but which step is repeated does
 };
 
 struct SimulationOptions {
@@ -100,7 +101,7 @@ class Simulation {
   /// Runs `steps` steps (a frame); returns one row each. Stops early after a row whose status says not_finite or bound_violated.
   virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
   virtual Snapshot snapshot() = 0;
-  /// Continues from positions, velocities and step number; what else a snapshot holds is recomputed.
+  /// Continues from positions, velocities and step number, with room for `capacities` where there are any; what else a snapshot holds is recomputed.
   virtual void restore(const Snapshot& snapshot) = 0;
   virtual std::vector<std::string> stage_names() const { return {}; }
   /// One line on where it runs: "NVIDIA H200, CUDA 13.0" or "2 threads".

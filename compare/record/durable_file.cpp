@@ -1,6 +1,7 @@
 #include "compare/record/durable_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -87,6 +88,21 @@ void write_and_reserve(const std::filesystem::path& path, std::string_view bytes
 LineAppender::LineAppender(const std::filesystem::path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) refuse(path, "open the file", errno);
+  // A file system without locks has no process to tell of.
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+}
+
+LineAppender::LineAppender(const std::filesystem::path& path, std::size_t length)
+    : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)), length_(length) {
+  if (descriptor_ < 0) refuse(path, "open the file", errno);
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor_);
+    throw InputError(path.string() + ": another process writes to it: the run is still going on; wait for it, or stop it");
+  }
+  if (::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) return;
+  const int error = errno;
+  ::close(descriptor_);
+  refuse(path, "cut the file", error);
 }
 
 LineAppender::~LineAppender() { ::close(descriptor_); }

@@ -23,11 +23,13 @@ void commit_partial(const std::filesystem::path& path);
 /// Syncs a file or folder that stands under its name already. Throws ResourceError.
 void sync_to_disk(const std::filesystem::path& path);
 
-/// Appends to a file by whole lines.
+/// Appends to a file by whole lines, and holds a lock on it that ends with the process, however that ends.
 class LineAppender {
  public:
   /// Creates the file; throws ResourceError where it can't.
   explicit LineAppender(const std::filesystem::path& path);
+  /// Goes on with a file of which the first `length` bytes are kept. Throws InputError where another process appends to it, ResourceError where it can't.
+  LineAppender(const std::filesystem::path& path, std::size_t length);
   ~LineAppender();
   LineAppender(const LineAppender&) = delete;
   LineAppender& operator=(const LineAppender&) = delete;

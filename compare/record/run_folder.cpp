@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "compare/files/bytes.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/hdf5.hpp"
@@ -17,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Vec3f> as_vectors(const std::vector<float>& floats) {
-  std::vector<Vec3f> vectors(floats.size() / 3);
-  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2]};
-  return vectors;
-}
-
 fs::path frame_path(const fs::path& folder, std::int64_t step) { return folder / "frames" / (frame_name(step) + ".h5"); }
 
 /// Step in the name of a frame's file; none for another file.
@@ -33,6 +28,18 @@ std::optional<std::int64_t> frame_step_of(const std::string& name) {
   std::int64_t step = 0;
   const auto parsed = std::from_chars(name.data() + prefix.size(), end, step);
   return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(step) : std::nullopt;
+}
+
+/// Length of a table with its header and its whole rows of steps up to `step`. A row begins with the number of its step.
+std::size_t length_until(const fs::path& table, std::int64_t step) {
+  const std::string text = read_bytes(table);
+  std::size_t kept = text.find('\n') + 1;
+  for (std::size_t end; (end = text.find('\n', kept)) != std::string::npos; kept = end + 1) {
+    std::int64_t row = 0;
+    std::from_chars(text.data() + kept, text.data() + end, row);
+    if (row > step) break;
+  }
+  return kept;
 }
 
 /// Finished frames by step.
@@ -53,7 +60,7 @@ void make_folder(const fs::path& folder) {
 
 void refuse_used_folder(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError(folder.string() + ": is a file: name a new folder for the run");
-  for (const char* name : {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "trajectory.vtkhdf"})
+  for (const char* name : {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf"})
     if (fs::exists(folder / name))
       throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
 }
@@ -70,6 +77,12 @@ std::string store_scene(const fs::path& folder, const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<Vec3f> as_vectors(const std::vector<float>& floats) {
+  std::vector<Vec3f> vectors(floats.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2]};
+  return vectors;
+}
 
 std::span<const float> as_floats(std::span<const Vec3f> vectors) {
   static_assert(sizeof(Vec3f) == 3 * sizeof(float), "coordinates are stored as rows of three");
@@ -92,6 +105,24 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& prov
   if (manifest_.provenance.started.empty()) manifest_.provenance.started = utc_now();
   manifest_.provenance.status = "running";
   write_manifest();
+  scene_digest_ = scene_digest(folder_);
+}
+
+RunWriter::RunWriter(fs::path folder, const Scene& scene, std::int64_t step, const std::string& note)
+    : folder_(std::move(folder)), scene_(scene), manifest_(read_manifest(folder_)), scene_digest_(scene_digest(folder_)) {
+  steps_.emplace(folder_ / "steps.csv", length_until(folder_ / "steps.csv", step));
+  if (fs::exists(folder_ / "iterations.csv")) iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
+  Provenance& provenance = manifest_.provenance;
+  std::string& resumed = provenance.extra["resumed"];
+  resumed += (resumed.empty() ? "" : "; ") + utc_now() + " after step " + std::to_string(step) + note;
+  provenance.ended.clear();
+  provenance.status = "running";
+  write_manifest();
+}
+
+void RunWriter::keep_frames(const std::function<bool(std::int64_t)>& keep) {
+  for (const auto& [step, path] : list_frames(folder_))
+    if (!keep(step)) fs::remove(path);
 }
 
 void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", manifest_text(manifest_, scene_)); }
@@ -117,6 +148,8 @@ void RunWriter::add_frame(const Frame& frame) {
   file.write("bounds", std::span(frame.bounds));
   write_durably(path, file.image());
 }
+
+void RunWriter::save(const Checkpoint& checkpoint) const { write_checkpoint(folder_, checkpoint, scene_digest_); }
 
 void RunWriter::finish(const std::string& status) {
   manifest_.provenance.status = status;

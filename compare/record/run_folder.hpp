@@ -5,10 +5,12 @@
 //   scene/NAME.json     the scene, meshes beside it (compare/files/scene_files.hpp)
 //   steps.csv           compare/record/steps_csv.hpp
 //   frames/frame_000025.h5   the state after step 25: positions, velocities [vertices × 3], bounds [vertices]; attributes step, time
+//   checkpoint.h5       where the run can go on (compare/record/checkpoint.hpp)
 //   trajectory.vtkhdf   all frames, for viewers
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "compare/problem/contestant.hpp"
+#include "compare/record/checkpoint.hpp"
 #include "compare/record/durable_file.hpp"
 #include "compare/record/manifest.hpp"
 
@@ -35,6 +38,8 @@ std::string frame_name(std::int64_t step);
 
 /// The same memory as rows of three numbers, as files store it.
 std::span<const float> as_floats(std::span<const Vec3f> vectors);
+/// And back.
+std::vector<Vec3f> as_vectors(const std::vector<float>& floats);
 
 /// Writes a run. Throws ResourceError (disk full or not writable, with the path).
 class RunWriter {
@@ -42,10 +47,17 @@ class RunWriter {
   /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it is empty. Stage names give
   /// columns of steps.csv; none for a run without profile. Throws InputError where the folder holds a run already, or what a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names);
+  /// Goes on with the run of the folder after `step`, a checkpoint's: rows of later steps are cut off, as they are written again; status "running", and run.json
+  /// says when it went on, with `note`. Scene: the folder's. Throws InputError where another process writes the run, or where it can't be read.
+  RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
+  /// Removes the frames of other steps.
+  void keep_frames(const std::function<bool(std::int64_t)>& keep);
   /// Appends rows to steps.csv in one write, and their iteration rows, if there are any, to iterations.csv. Throws std::invalid_argument where a row has times for another number of stages.
   void add_steps(const std::vector<StepMetrics>& rows);
   /// Stores a state; one of the same step is replaced. Throws std::invalid_argument where its arrays have not one entry for each vertex.
   void add_frame(const Frame& frame);
+  /// Replaces checkpoint.h5. Rows and frames up to its step must be written before.
+  void save(const Checkpoint& checkpoint) const;
   /// Sets an entry of Provenance::extra; the next manifest (at the latest that of finish) carries it.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
   /// Writes the final run.json, then assembles trajectory.vtkhdf where there is a frame.
@@ -57,6 +69,7 @@ class RunWriter {
   std::filesystem::path folder_;
   Scene scene_;
   Manifest manifest_;
+  std::string scene_digest_;
   std::optional<LineAppender> steps_, iterations_;
 };
 

@@ -4,7 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <stdexcept>
+#include <vector>
 
 #include "fast/contact_view.hpp"
 #include "fast/stages/bound.hpp"
@@ -81,6 +85,14 @@ class Detection {
 
   /// Contacts that fit before the lists have to grow.
   int capacity() const { return lists_.capacity(); }
+  /// Those of all lists, for `reserve` of another detection over the same surface.
+  std::vector<std::int64_t> capacities() const { return {lists_.capacity(), lists_.noted_capacity()}; }
+  /// Host only: gives the lists the capacities that another detection had. Throws std::invalid_argument where they are not of such lists.
+  void reserve(const std::vector<std::int64_t>& capacities) {
+    const auto possible = [](std::int64_t capacity) { return capacity > 0 && capacity <= std::numeric_limits<int>::max(); };
+    if (capacities.size() != 2 || !std::all_of(capacities.begin(), capacities.end(), possible)) throw std::invalid_argument("capacities of other lists");
+    lists_.reserve(static_cast<int>(capacities[0]), static_cast<int>(capacities[1]));
+  }
 
   const float* d_min_vertex() const { return d_min_vertex_.data(); }      ///< Eq. 22, rounded down [m]
   const float* d_min_edge() const { return d_min_edge_.data(); }          ///< Eq. 24

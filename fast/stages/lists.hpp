@@ -38,6 +38,7 @@ class Lists {
   const int* edge_edge_count() const { return status_.data() + 2; }
   const int* overflow() const { return status_.data() + 1; }
   int capacity() const { return capacity_; }
+  int noted_capacity() const { return noted_capacity_; }
 
   /// After both searches: noted pairs to records and incidences.
   void assemble(Backend& backend, const Vec* positions, float contact_radius) {
@@ -68,6 +69,9 @@ class Lists {
     status_.fill_zero();
     return true;
   }
+
+  /// Host only: these capacities and no other; sets are empty until the next detection.
+  void reserve(int capacity, int noted_capacity) { resize(capacity, noted_capacity); }
 
  private:
   template <class T>

@@ -79,12 +79,16 @@ class ResidentSimulation : public compare::Simulation {
     download(state_.previous, result.previous);
     result.bounds = last_bounds();
     result.query_radius = query_radius_;
+    result.capacities = detection_.capacities();
     return result;
   }
 
   void restore(const compare::Snapshot& snapshot) override {
     upload_motion(snapshot.positions, snapshot.velocities);
     step_number_ = snapshot.step;
+    if (snapshot.capacities.empty()) return;
+    detection_.reserve(snapshot.capacities);
+    lists_moved();
   }
 
   std::vector<std::string> stage_names() const override { return clock_.on() ? step_stage_names() : std::vector<std::string>{}; }
@@ -242,6 +246,10 @@ class ResidentSimulation : public compare::Simulation {
 
   void grow() {
     detection_.grow();
+    lists_moved();
+  }
+
+  void lists_moved() {
     sweep_.reserve_contacts(4 * detection_.capacity());
     recording_.clear();
   }

@@ -1,0 +1,29 @@
+// checkpoint.h5: where a run can go on to the same bits. One file, replaced as a whole; its digest tells a damaged one. What else a run needs stands in run.json and
+// scene/, whose digest it keeps, so that a scene changed by hand is no surprise later.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "compare/problem/contestant.hpp"
+
+namespace ogc::compare {
+
+inline constexpr std::int64_t checkpoint_format_version = 1;
+
+/// A state that was judged, where states are judged at all.
+struct Checkpoint {
+  Snapshot state;                   ///< step, positions, velocities, bounds, capacities
+  std::int64_t audited_states = 0;  ///< judged so far
+};
+
+/// Writes `folder`/checkpoint.h5 durably. Throws ResourceError.
+void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint, const std::string& scene_digest);
+
+/// Reads it. Throws InputError that says what to do: missing, damaged, of a newer format, or of a scene with another digest.
+Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& scene_digest);
+
+/// Of the files of a run's scene, by name and content. Throws InputError.
+std::string scene_digest(const std::filesystem::path& folder);
+
+}  // namespace ogc::compare

@@ -1,0 +1,21 @@
+// Going on with a run that was cut off (`ogc run --resume RUN`) to the bits that it would have come to. What it needs stands in the folder: run.json says by what and
+// with which options it was computed, scene/ holds the scene with its settings, checkpoint.h5 the state. What could change a bit is compared and refused.
+#pragma once
+
+#include "experiments/run_options.hpp"
+
+namespace ogc::experiments {
+
+/// Whether all of the solver's state between two steps is what a snapshot holds. IPC's is in double.
+bool resumable(const std::string& solver);
+
+/// What a run that goes on is computed by, and what it is asked.
+struct ResumedRun {
+  RunOptions options;   ///< for contestant_of
+  RunRequest request;
+};
+
+/// Of the folder. Throws compare::InputError that says what to do: no run, finished, another program, a solver that can't, scene or checkpoint changed or damaged.
+ResumedRun resumed_run(const std::filesystem::path& folder);
+
+}  // namespace ogc::experiments
