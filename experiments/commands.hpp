@@ -21,6 +21,7 @@ void add_ablate_command(CLI::App& app, CommandContext& context);
 void add_contacts_command(CLI::App& app, CommandContext& context);
 void add_audit_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
+void add_bench_command(CLI::App& app, CommandContext& context);
 void add_export_command(CLI::App& app, CommandContext& context);
 void add_illustrate_command(CLI::App& app, CommandContext& context);
 

@@ -20,4 +20,19 @@ struct BackendInfo {
 };
 BackendInfo backend_info(Backend backend);
 
+/// What one iteration of the sweep has to do on a scene, whatever the machine: operations counted in the kernels' source, bytes if each array is moved once
+/// (fast/work.cpp says how both are counted).
+struct SweepWork {
+  int vertices = 0, colours = 0;              ///< free vertices
+  double flop = 0, bytes = 0;                 ///< without contacts
+  double flop_vertex_facet = 0, flop_edge_edge = 0, bytes_contact = 0;  ///< of a contact more, all of whose vertices are free
+};
+SweepWork sweep_work(const compare::Scene& scene);
+
+/// What the searches of one detection have to do, by what was counted on `cloth_on_sphere` (fast/PERFORMANCE.md); of other scenes it says no more than the order.
+struct SearchWork {
+  double flop = 0, bytes = 0;  ///< in double precision; of the trees' nodes
+};
+SearchWork search_work(const compare::Scene& scene);
+
 }  // namespace ogc::fast

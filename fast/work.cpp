@@ -1,0 +1,73 @@
+// The work of an iteration, counted from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of default models counts one, comparisons,
+// negations and the additions that join lanes count none; of branches the longest that generic input takes. Bytes: the sizes of the very structs that are read, each
+// once an iteration, however often a cache serves them: what no order of work can avoid.
+#include "fast/contestant.hpp"
+
+#include <algorithm>
+
+#include "fast/kernels/bvh.hpp"
+#include "fast/kernels/sweep.hpp"
+#include "fast/stages/colouring.hpp"
+#include "fast/stages/rest_state.hpp"
+
+namespace ogc::fast {
+
+namespace {
+
+// Parts that recur: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
+
+/// fast/kernels/membrane.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
+constexpr double membrane_flop = 174;
+/// fast/kernels/bending.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections 12, angle's arguments 11, arctangent2 13, feet 7,
+/// divisors 2, gradient 11, moment 5, force 6, block 17.
+constexpr double hinge_flop = 141;
+/// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10, activation 3, force 7, block 17;
+/// friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
+constexpr double contact_flop = 145;
+/// closest_on_triangle, inside: differences 9, normal 9, its square 5, two weights 28, the third 2, quotients 3.
+constexpr double on_triangle_flop = 56;
+/// closest_on_segments, not parallel: differences 9, three dots 15, cross 9, its square 5, projection 5, limit 2, first parameter 15, second 8, weights 2.
+constexpr double on_segments_flop = 70;
+/// inertia 12, its inverse 1, solve 28, new position 3, truncation that is not needed 10.
+constexpr double vertex_flop = 54;
+
+/// Vertices of a contact of each sort, where its points lie inside: each updates itself from it.
+constexpr double contact_vertices = 4;
+
+// Counted at step 60 of cloth_on_sphere (fast/PERFORMANCE.md, "Detection on the H200"): nodes that a search opens, pairs of which it takes a distance.
+constexpr double edge_nodes = 37, edge_distances = 12, vertex_nodes = 45, vertex_distances = 11;
+/// Of a distance in double, an estimate.
+constexpr double distance_flop = 500;
+
+}  // namespace
+
+SearchWork search_work(const compare::Scene& scene) {
+  const compare::Topology topology = compare::build_topology(scene);
+  const auto edges = static_cast<double>(topology.edges.size()), vertices = static_cast<double>(topology.vertex_count);
+  return {(edges * edge_distances + vertices * vertex_distances) * distance_flop, (edges * edge_nodes + vertices * vertex_nodes) * sizeof(Quad)};
+}
+
+SweepWork sweep_work(const compare::Scene& scene) {
+  const compare::Topology topology = compare::build_topology(scene);
+  const RestState rest = build_rest_state(scene, topology);
+  const auto is_free = [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; };
+  double triangles = 0, hinges = 0;
+  for (const TriangleRest& triangle : rest.triangles) triangles += static_cast<double>(std::ranges::count_if(triangle.corner, is_free));
+  for (const HingeRest& hinge : rest.hinges) hinges += static_cast<double>(std::ranges::count_if(hinge.vertex, is_free));
+  const bool damped = std::ranges::any_of(rest.materials, [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
+  SweepWork work;
+  work.vertices = static_cast<int>(std::ranges::count(rest.mobility, Mobility::free));
+  work.colours = colour_vertices(rest).count;
+  const double vertices = work.vertices;
+  work.flop = vertices * vertex_flop + triangles * membrane_flop + hinges * hinge_flop;
+  // x, y, X_prev, b_v read, x written.
+  work.bytes = vertices * (sizeof(SweepVertex) + sizeof(ContactRow) + 4 * sizeof(Vec) + sizeof(float)) + triangles * sizeof(MembraneIncidence) +
+               hinges * sizeof(HingeIncidence);
+  if (damped) work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
+  work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
+  work.flop_edge_edge = contact_vertices * (contact_flop + on_segments_flop);
+  work.bytes_contact = contact_vertices * sizeof(ContactIncidence);
+  return work;
+}
+
+}  // namespace ogc::fast
