@@ -18,7 +18,7 @@
 namespace ogc::experiments {
 
 /// What a run that is cut off loses at most, besides the frame that it works at.
-inline constexpr double default_checkpoint_seconds = 30;
+inline constexpr double default_checkpoint_seconds = 60;
 
 struct RunRequest {
   compare::Scene scene;               ///< with all settings applied

@@ -60,7 +60,7 @@ FOREIGN = {
     "dlfcn.h": ("experiments/plugins",),
     "poll.h": ("experiments/plugins",),
     "signal.h": ("experiments/plugins",),
-    "spawn.h": ("experiments/plugins",),
+    "spawn.h": ("experiments/plugins", "experiments/bench"),
     "stdint.h": ("compare/plugin.h",),
     "catch2/": (),
     "rapidcheck": (),

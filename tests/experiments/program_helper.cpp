@@ -44,7 +44,10 @@ std::filesystem::path TemporaryFolder::write(const std::string& name, const std:
 ProgramResult run_ogc(const std::string& arguments, const std::string& before) {
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string(), err = (folder / "err").string();
-  const std::string command = "{ " + before + "'" OGC_PROGRAM "' " + arguments + "; } > '" + out + "' 2> '" + err + "'";
+  // Where the tests run from a bundle, the environment says where the program is.
+  const char* elsewhere = std::getenv("OGC_PROGRAM");
+  const std::string program = elsewhere == nullptr ? OGC_PROGRAM : elsewhere;
+  const std::string command = "{ " + before + "'" + program + "' " + arguments + "; } > '" + out + "' 2> '" + err + "'";
   const int code = std::system(command.c_str());
   ProgramResult result;
   result.status = WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);

@@ -1,111 +1,24 @@
 // Runs that are cut off, by real signals at random moments, and go on: everything but times comes out as if nothing had happened.
-#include <chrono>
-#include <fstream>
-#include <map>
-#include <random>
-
 #include "compare/files/bytes.hpp"
-#include "compare/record/run_folder.hpp"
-#include "compare/record/steps_csv.hpp"
 #include "tests/catch.hpp"
+#include "tests/experiments/cut_runs.hpp"
 #include "tests/experiments/program.hpp"
 
 using namespace ogc;
 using namespace ogc::tests;
 
-namespace {
-
 namespace fs = std::filesystem;
-
-/// Frames by name, byte by byte.
-std::map<std::string, std::string> frames_of(const fs::path& run) {
-  std::map<std::string, std::string> frames;
-  for (const auto& entry : fs::directory_iterator(run / "frames")) frames[entry.path().filename().string()] = compare::read_bytes(entry.path());
-  return frames;
-}
-
-/// steps.csv without what a clock says.
-std::string rows_of(const fs::path& run) {
-  compare::StepTable table = compare::read_steps(run);
-  for (compare::StepMetrics& row : table.rows) row.wall_ms = 0, row.stage_ms.clear();
-  return compare::step_lines(table.rows, table.stage_names.size());
-}
-
-/// Of iterations.csv, all but the third column, a time.
-std::string iterations_of(const fs::path& run) {
-  std::ifstream file(run / "iterations.csv");
-  std::string text;
-  for (std::string line; std::getline(file, line);) {
-    const std::size_t time = line.find(',', line.find(',') + 1);
-    text += line.substr(0, time) + line.substr(line.find(',', time + 1)) + "\n";
-  }
-  return text;
-}
-
-void check_same_run(const fs::path& whole, const fs::path& resumed) {
-  CHECK(compare::RunReader(resumed).provenance().extra.at("final_hash") == compare::RunReader(whole).provenance().extra.at("final_hash"));
-  CHECK(compare::RunReader(resumed).provenance().extra.at("audited_states") == compare::RunReader(whole).provenance().extra.at("audited_states"));
-  CHECK(rows_of(resumed) == rows_of(whole));
-  CHECK(iterations_of(resumed) == iterations_of(whole));
-  CHECK(frames_of(resumed) == frames_of(whole));
-  CHECK(fs::exists(resumed / "trajectory.vtkhdf"));
-}
-
-struct Cuts {
-  int killed = 0, in_time = 0;  ///< of the cuts: those that met a run which had begun
-};
-
-/// Runs the scene to its end, cut off after random fractions of `seconds`, which should be about what the whole run takes.
-Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::string& signal, double seconds, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> moment(0.1 * seconds, 0.6 * seconds);
-  Cuts cuts;
-  std::string arguments = command + " --out " + run.string();
-  for (int attempt = 0; attempt < 40; ++attempt) {
-    const std::string before = cuts.killed < 4 ? "timeout --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
-    const ProgramResult result = run_ogc("run " + arguments, before);
-    if (result.status == 0) break;
-    INFO(result.err);
-    REQUIRE((result.status == 128 + 9 || result.status == 130 || result.status == 143));
-    ++cuts.killed;
-    const bool begun = fs::exists(run / "checkpoint.h5") && fs::exists(run / "run.json");
-    cuts.in_time += begun;
-    if (begun) arguments = "--resume " + run.string() + " --checkpoint 0";
-    if (!begun) fs::remove_all(run);
-  }
-  return cuts;
-}
-
-}  // namespace
 
 TEST_CASE("a run that kill -9, SIGINT or SIGTERM cut off again and again ends with the bits of one that was left alone", "[property]") {
   const TemporaryFolder folder;
   const std::string scene = GENERATE("cloth_on_sphere --scale smoke --audit every", "twist --scale smoke --steps 40 --audit frame --set frame_steps=4");
-  const std::string command = scene + " --checkpoint 0";
-  const auto begin = std::chrono::steady_clock::now();
-  REQUIRE(run_ogc("run " + command + " --out " + (folder / "whole").string()).status == 0);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const unsigned seed = std::random_device{}();
-  for (const std::string signal : {"KILL", "INT", "TERM"}) {
-    INFO(scene << ", " << signal << ", seed " << seed);
-    const fs::path run = folder / signal;
-    const Cuts cuts = run_with_cuts(command, run, signal, seconds, seed);
-    CHECK(cuts.killed > 0);
-    check_same_run(folder / "whole", run);
-  }
+  check_cut_runs(folder / "runs", scene, {"KILL", "INT", "TERM"});
 }
 
 TEST_CASE("every solver in single precision resumes to the same bits, with its rows by iteration", "[property]") {
-  const auto [solver, options] = GENERATE(table<std::string, std::string>({{"newton", "--iterations --steps 12"}, {"reference_vbd", "--steps 8"}, {"vbd", "--iterations --residual --profile --steps 8"}}));
   const TemporaryFolder folder;
-  const std::string command = "cloth_on_sphere --scale smoke --set frame_steps=2 --checkpoint 0 --solver " + solver + " " + options;
-  const auto begin = std::chrono::steady_clock::now();
-  REQUIRE(run_ogc("run " + command + " --out " + (folder / "whole").string()).status == 0);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const unsigned seed = std::random_device{}();
-  INFO(solver << ", seed " << seed);
-  CHECK(run_with_cuts(command, folder / "cut", "KILL", seconds, seed).killed > 0);
-  check_same_run(folder / "whole", folder / "cut");
+  const std::string options = GENERATE("newton --iterations --steps 12", "reference_vbd --steps 8", "vbd --iterations --residual --profile --steps 8");
+  check_cut_runs(folder / "runs", "cloth_on_sphere --scale smoke --set frame_steps=2 --solver " + options, {"KILL"});
 }
 
 TEST_CASE("what can't be resumed to the same bits is refused, and the message says why and what to do", "[unit]") {

@@ -1,0 +1,91 @@
+#include "tests/experiments/cut_runs.hpp"
+
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <random>
+
+#include "compare/files/bytes.hpp"
+#include "compare/record/run_folder.hpp"
+#include "compare/record/steps_csv.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/program.hpp"
+
+namespace ogc::tests {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Frames by name, byte by byte.
+std::map<std::string, std::string> frames_of(const fs::path& run) {
+  std::map<std::string, std::string> frames;
+  for (const auto& entry : fs::directory_iterator(run / "frames")) frames[entry.path().filename().string()] = compare::read_bytes(entry.path());
+  return frames;
+}
+
+/// steps.csv without what a clock says.
+std::string rows_of(const fs::path& run) {
+  compare::StepTable table = compare::read_steps(run);
+  for (compare::StepMetrics& row : table.rows) row.wall_ms = 0, row.stage_ms.clear();
+  return compare::step_lines(table.rows, table.stage_names.size());
+}
+
+/// Of iterations.csv, all but the third column, a time.
+std::string iterations_of(const fs::path& run) {
+  std::ifstream file(run / "iterations.csv");
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t time = line.find(',', line.find(',') + 1);
+    text += line.substr(0, time) + line.substr(line.find(',', time + 1)) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void check_same_run(const fs::path& whole, const fs::path& resumed) {
+  CHECK(compare::RunReader(resumed).provenance().extra.at("final_hash") == compare::RunReader(whole).provenance().extra.at("final_hash"));
+  CHECK(compare::RunReader(resumed).provenance().extra.at("audited_states") == compare::RunReader(whole).provenance().extra.at("audited_states"));
+  CHECK(rows_of(resumed) == rows_of(whole));
+  CHECK(iterations_of(resumed) == iterations_of(whole));
+  CHECK(frames_of(resumed) == frames_of(whole));
+  CHECK(fs::exists(resumed / "trajectory.vtkhdf"));
+}
+
+Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::string& signal, double seconds, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> moment(0.1 * seconds, 0.6 * seconds);
+  Cuts cuts;
+  std::string arguments = command + " --out " + run.string();
+  for (int attempt = 0; attempt < 40; ++attempt) {
+    const std::string before = cuts.in_time < 3 && cuts.killed < 20 ? "timeout --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
+    const ProgramResult result = run_ogc("run " + arguments, before);
+    if (result.status == 0) break;
+    INFO(result.err);
+    REQUIRE((result.status == 128 + 9 || result.status == 130 || result.status == 143));
+    ++cuts.killed;
+    const bool begun = fs::exists(run / "checkpoint.h5") && fs::exists(run / "run.json");
+    cuts.in_time += begun;
+    if (begun) arguments = "--resume " + run.string() + " --checkpoint 0";
+    if (!begun) fs::remove_all(run);
+  }
+  return cuts;
+}
+
+void check_cut_runs(const fs::path& folder, const std::string& command, std::initializer_list<std::string> signals) {
+  const std::string all = command + " --checkpoint 0";
+  const auto begin = std::chrono::steady_clock::now();
+  const ProgramResult whole = run_ogc("run " + all + " --out " + (folder / "whole").string());
+  INFO(whole.err);
+  REQUIRE(whole.status == 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const unsigned seed = std::random_device{}();
+  for (const std::string& signal : signals) {
+    INFO(command << ", " << signal << ", seed " << seed);
+    CHECK(run_with_cuts(all, folder / signal, signal, seconds, seed).in_time > 0);
+    check_same_run(folder / "whole", folder / signal);
+  }
+}
+
+}  // namespace ogc::tests
