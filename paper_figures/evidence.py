@@ -1,6 +1,6 @@
 """What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a judgement needs no package.
 
-A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`, `X_steps.csv`); a table is `figNN_SCALE.csv` with a commit
+A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`, `X_steps.csv`); a table is `figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit
 and a device in each row. Runs that are unfinished, of a changed tree, or that failed their audit are no evidence.
 """
 
@@ -71,7 +71,7 @@ class RunEvidence:
 
 @dataclass(frozen=True)
 class Table:
-    """A table of results: name (figNN), scale, rows."""
+    """A table of results: name (figNN, tableN), scale, rows."""
 
     name: str
     scale: str
@@ -91,7 +91,7 @@ class Evidence:
                 self.runs.append(RunEvidence(path, rows, path.relative_to(folder).as_posix()))
         self.runs.sort(key=lambda run: run.manifest.get("ended", ""))
         self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
-        for path in sorted(folder.rglob("fig*_*.csv")):
+        for path in sorted([*folder.rglob("fig*_*.csv"), *folder.rglob("table*_*.csv")]):
             name, _, scale = path.stem.rpartition("_")
             with path.open(newline="") as file:
                 self.tables.append(Table(name, scale, tuple(csv.DictReader(file)), path.relative_to(folder).as_posix()))

@@ -1,0 +1,117 @@
+"""Table 1 from runs whose numbers are known, and from real ones that were cut off on the way.
+
+Usage: table1.py SOURCE_DIR OGC. The standard library is enough.
+"""
+
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+SOURCE, OGC = Path(sys.argv[1]), sys.argv[2]
+del sys.argv[1:3]
+sys.path.insert(0, str(SOURCE))
+from paper_figures import table1  # noqa: E402
+from paper_figures.evidence import Evidence, EvidenceError  # noqa: E402
+
+
+def make_run(folder, backend, rows, first=1, **changes):
+    """Rows: (time [ms], contacts of either sort, repeats)."""
+    folder.mkdir(parents=True)
+    manifest = {"status": "finished", "dirty": False, "commit": "0123456789abcdef", "device": backend + " device", "ended": "2026-01-01T00:00:00Z", "backend": backend,
+                "scale": "paper", "solver": "vbd", "guarantee_kept": True, "audited_states": "7", "scene": {"name": "twist", "vertices": 10000, "triangles": 19602},
+                "settings": {"steps": {"value": 9600}, "iterations": {"value": 10}}, **changes}
+    (folder / "run.json").write_text(json.dumps(manifest))
+    lines = ["step [1],wall [ms],vertex_facet_contacts [1],edge_edge_contacts [1],repeats [1]"]
+    lines += [f"{first + i},{ms},{n},{n},{repeats}" for i, (ms, n, repeats) in enumerate(rows)]
+    (folder / "steps.csv").write_text("\n".join(lines) + "\n")
+
+
+class Known(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def test_averages_maxima_contacts_and_quotients_are_those_counted_by_hand(self):
+        make_run(self.folder / "twist/whole", "cuda", [(1, 10, 0), (9, 20, 1), (2, 30, 0)])
+        make_run(self.folder / "twist/cpu_0", "cpu", [(10, 1, 0), (20, 1, 0)])
+        make_run(self.folder / "twist/cpu_100", "cpu", [(40, 3, 0)], first=9601)
+        device, cpu = table1.rows_of(self.folder)
+        self.assertEqual((device["average [ms]"], device["maximum [ms]"], device["repeated steps"]), (4, 2, 1))
+        self.assertEqual((device["contacts, average"], device["contacts, maximum"], device["steps"], device["of steps"]), (40, 60, 3, 9600))
+        self.assertEqual((device["paper average [ms]"], device["paper maximum [ms]"]), (0.9, 1.5))
+        self.assertAlmostEqual(device["average / paper's"], 4 / 0.9)
+        self.assertEqual((cpu["average [ms]"], cpu["maximum [ms]"], cpu["windows [ms]"]), (27.5, 40, "0: 15; 9600: 40"))
+        self.assertEqual((cpu["paper average [ms]"], cpu["paper maximum [ms]"]), (21, 30))
+
+    def test_of_several_whole_runs_the_median_counts(self):
+        for name, ms in (("whole", 3), ("whole_2", 1), ("whole_3", 2)):
+            make_run(self.folder / "twist" / name, "cuda", [(ms, 0, 0)])
+        row, = table1.rows_of(self.folder)
+        self.assertEqual((row["average [ms]"], row["maximum [ms]"], row["runs"]), (2, 2, 3))
+
+    def test_a_claim_can_read_the_table(self):
+        make_run(self.folder / "runs/twist/whole", "cuda", [(1, 10, 0)])
+        paths = table1.write(table1.rows_of(self.folder / "runs"), self.folder / "results")
+        self.assertEqual([path.name for path in paths], ["table1_paper.csv", "table1_paper.md", "table1_paper.html"])
+        found = Evidence(self.folder / "results").measure({"table": "table1", "where": {"scene": "twist", "backend": "cuda"}, "column": "average [ms]"}, {"scale": "paper"})
+        self.assertEqual((found.value, found.device, found.commit), (1, "cuda device", "0123456789"))
+        for path in paths[1:]:
+            self.assertIn("RTX 4090", path.read_text())
+
+    def test_what_does_not_belong_together_is_refused(self):
+        with self.assertRaisesRegex(EvidenceError, "experiments/table1"):
+            table1.rows_of(self.folder)
+        make_run(self.folder / "twist/whole", "cuda", [(1, 10, 0)])
+        make_run(self.folder / "twist/whole_2", "cuda", [(1, 10, 0), (1, 10, 0)])
+        with self.assertRaisesRegex(EvidenceError, "different lengths"):
+            table1.rows_of(self.folder)
+        make_run(self.folder / "other/twist/cpu_0", "cpu", [(1, 10, 0)])
+        make_run(self.folder / "other/twist/cpu_25", "cpu", [(1, 10, 0)], commit="another")
+        with self.assertRaisesRegex(EvidenceError, "different programs"):
+            table1.rows_of(self.folder / "other")
+
+
+class Real(unittest.TestCase):
+    def call(self, *words):
+        return subprocess.run([str(SOURCE / "experiments/table1"), OGC, *words], capture_output=True, text=True, timeout=250)
+
+    def test_the_runs_are_made_in_one_command_and_gone_on_with_where_they_were_cut_off(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = [folder, "--backend", "cpu", "--scale", "smoke", "--window", "3", "cloth_on_sphere", "twist"]
+            limited = self.call(*words, "--seconds", "4")
+            self.assertEqual((limited.returncode, limited.stderr), (75, ""), "less time than a run is worth beginning with")
+            twist = Path(folder) / "twist/whole"
+            cut = subprocess.Popen([OGC, "run", "twist", "--scale", "smoke", "--set", "frame_steps=5", "--checkpoint", "0", "--out", str(twist)],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while cut.poll() is None and not (twist / "checkpoint.h5").is_file():
+                time.sleep(0.01)
+            cut.kill()
+            was_cut = cut.wait() != 0
+            whole = self.call(*words)
+            self.assertEqual(whole.returncode, 0, whole.stderr)
+            self.assertEqual("resumed" in json.loads((twist / "run.json").read_text()), was_cut)
+            paths = table1.write(table1.rows_of(folder), folder)
+            with paths[0].open(newline="") as file:
+                rows = list(csv.DictReader(file))
+            # The whole runs are of the CPU here, so each scene has two rows of it: the run, then the windows.
+            self.assertEqual([row["scene"] for row in rows], ["twist", "twist", "cloth_on_sphere", "cloth_on_sphere"])
+            self.assertEqual([row["runs"] for row in rows], ["1", "5", "1", "5"])
+            self.assertEqual({row["steps"] for row in rows[1::2]}, {"15"})
+            self.assertEqual(rows[2]["steps"], rows[2]["of steps"])
+            again = self.call(*words)
+            self.assertEqual((again.returncode, again.stdout), (0, ""))
+
+    def test_wrong_words_exit_2(self):
+        self.assertEqual(self.call("/nowhere", "--windw", "3").returncode, 2)
+        self.assertEqual(self.call("/nowhere", "twisted").returncode, 2)
+        self.assertEqual(self.call().returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
