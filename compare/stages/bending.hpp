@@ -38,7 +38,7 @@ inline constexpr double bending_force_tolerance = 36;
 /// Of the gradient ∇θ alone, the block's other factor: all of the above but the angle, moment and force.
 inline constexpr double bending_gradient = 20;
 /// The gradient's, twice, a factor (2) and an outer product (2). The scale of a block holds the square of the gradient's error, too: bending_gradient · u ·
-/// c (1 + k) · cond(∇θ)², which is what is left where ∇θ vanishes.
+/// c (1 + k) · cond(∇θ)², which is what is left where ∇θ vanishes; that of a force the product of ∇θ's error and the moment's, 16 u · cond.
 inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// A hinge is grey where its angle, now or at the start, lies within this many units of u · scale of ±π: the answers with 2π more or less are accepted.
 inline constexpr double bending_grey = 16;

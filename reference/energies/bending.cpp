@@ -47,10 +47,17 @@ Part at_angle(const AngleTerms& terms, const ByVertex& angle, const Input& start
   return part;
 }
 
-/// Where the gradient vanishes by cancellation, the block, its square, has no first derivative: an error of n u · cond in the gradient is all there is.
-double second_order(const Inputs& inputs, const AngleTerms& terms, const ByVertex& angle) {
-  const double gradient = inputs.condition(angle.slope);
-  return compare::bending_gradient * compare::unit_roundoff * (terms.elastic.value + terms.damping.value) * gradient * gradient;
+/// What is left of the scales where first derivatives vanish: errors of n u · cond in the gradient, twice in the block, and in the force beside one of the
+/// moment, which takes the other roundings of a force.
+struct SecondOrder {
+  double force, block;
+};
+
+SecondOrder second_order(const Inputs& inputs, const AngleTerms& terms, const ByVertex& angle, const Input& start) {
+  constexpr double moment_share = (compare::bending_force_tolerance - compare::bending_gradient) / compare::bending_force_tolerance;
+  const Input moment = terms.elastic * (angle.value - terms.rest_angle) + terms.damping * (angle.value - start);
+  const double gradient = inputs.condition(angle.slope), error = compare::bending_gradient * compare::unit_roundoff * gradient;
+  return {moment_share * error * inputs.condition({&moment, 1}), error * (terms.elastic.value + terms.damping.value) * gradient};
 }
 
 /// What is asked, as numbers that know their inputs.
@@ -91,12 +98,13 @@ std::vector<compare::ForceAnswer> hinge_answers(const Question& q) {
   constexpr double vertex_units = (compare::bending_block_tolerance + compare::per_vertex_additions) / compare::bending_force_tolerance;
   return over_angles(q, terms.damping.value > 0, [&](const ByVertex& angle, const Input& start) {
     const Part part = at_angle(terms, angle, start);
-    const double square = second_order(q.inputs, terms, angle);
+    const SecondOrder left = second_order(q.inputs, terms, angle, start);
     compare::ForceAnswer result = q.by_vertex() ? damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved)
                                                 : answer(q.inputs, part.energy, part.block);
-    result.block_scale += q.by_vertex() ? (1 + q.damping.value) * square : square;
+    result.block_scale += q.by_vertex() ? (1 + q.damping.value) * left.block : left.block;
+    result.force_scale += left.force;
     if (!q.by_vertex()) return result;
-    result.force_scale += q.damping.value * square * std::hypot(q.moved[0].value, q.moved[1].value, q.moved[2].value);
+    result.force_scale += q.damping.value * left.block * std::hypot(q.moved[0].value, q.moved[1].value, q.moved[2].value);
     return with_units(result, vertex_units, 1);
   });
 }
@@ -125,7 +133,9 @@ std::vector<compare::ForceAnswer> isometric_answers(Question& q) {
   std::vector<compare::ForceAnswer> answers = over_angles(q, true, [&](const ByVertex& angle, const Input& start) {
     const Part damping = at_angle(terms, angle, start);
     compare::ForceAnswer result = answer(q.inputs, damping.energy, damping.block);
-    result.block_scale += second_order(q.inputs, terms, angle);
+    const SecondOrder left = second_order(q.inputs, terms, angle, start);
+    result.force_scale += left.force;
+    result.block_scale += left.block;
     return result;
   });
   for (compare::ForceAnswer& one : answers) one = sum(one, elastic);

@@ -214,3 +214,19 @@ TEST_CASE("damping by vertex of both bending models is k times the block on the 
     for (std::size_t k = 0; k < 6; ++k) CHECK(damped.block[k] == Approx((1 + double{c.damping}) * free.block[k]).margin(1e-10));
   }
 }
+
+TEST_CASE("a force that vanishes because angle and gradient both do keeps the product of their errors", "[unit]") {
+  // o0, x0, o1 on a line, o0 and o1 equally far: the angle is 0, and the levers of both triangles cancel at x1.
+  BendingCase c;
+  c.vertex = {{{0.033203125f, 0.236328125f, 0.366210938f}, {0.099609375f, 0.236425787f, 0.36597997f}, {0.033203125f, 0.236328125f, 0.299316406f},
+               {0.033203125f, 0.236328125f, 0.43310547f}}};
+  c.start = c.vertex;
+  c.stiffness = 1.5e-6f;
+  c.own = 1;
+  const compare::ForceAnswer answer = reference::bending(c)[0];
+  const double error = compare::bending_force_tolerance * compare::unit_roundoff * answer.force_scale;
+  CHECK(norm({answer.force.x, answer.force.y, answer.force.z}) < 1e-20);
+  // A single-precision kernel was off by 1.5e-22 N here; the moment is known to u c, the gradient to u over the height.
+  CHECK(error > 1.5e-22);
+  CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
+}
