@@ -1,5 +1,6 @@
 // Random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case is the same whatever was
-// generated before it, on however many threads, and a problem string alone brings it back.
+// generated before it, on however many threads, and a problem string alone brings it back. All but `magnitude` (a library's power) and
+// `between` (contraction) is the same to the bit in device code, too (tests/fast/cuda/random.cu).
 #pragma once
 
 #include <bit>
@@ -13,43 +14,48 @@ namespace ogc::compare {
 /// The stream of one case. Names, not numbers, key the stage and the generator: adding one leaves the others' cases as they were.
 class Random {
  public:
-  Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)
+  constexpr Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)
       : key_(mix(mix(mix(mix(seed) + hash(stage)) + hash(generator)) + index)) {}
 
   /// 64 uniform bits.
-  std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }
+  constexpr std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }
   /// A multiple of 2⁻⁵³ in [0, 1).
-  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-  double between(double low, double high) { return low + (high - low) * unit(); }
+  constexpr double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  constexpr double between(double low, double high) { return low + (high - low) * unit(); }
   /// An integer in [0, n), n ≥ 1; the bias of n/2⁶⁴ does not matter here.
-  int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
+  constexpr int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
   /// True in one of n.
-  bool one_in(int n) { return below(n) == 0; }
-  double sign() { return one_in(2) ? 1 : -1; }
+  constexpr bool one_in(int n) { return below(n) == 0; }
+  constexpr double sign() { return one_in(2) ? 1 : -1; }
   template <class T>
-  T pick(std::span<const T> items) {
+  constexpr T pick(std::span<const T> items) {
     return items[bits() % items.size()];
   }
   /// 10^x for x uniform in [low, high).
   double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
   /// A positive single-precision number whose bit pattern is uniform over 2⁻²⁰ … 2²⁰.
-  float pattern() {
+  constexpr float pattern() {
     constexpr std::uint32_t low = 107u << 23, high = 147u << 23;
     return std::bit_cast<float>(low + static_cast<std::uint32_t>(bits() % (high - low + 1)));
   }
   /// A rung of a ladder towards a degeneracy: 0 in one of four, otherwise ±10⁻ᵏ with k = 1 … 12.
-  double rung() { return one_in(4) ? 0.0 : sign() * std::pow(10.0, fine_ ? -5 - below(8) : -1 - below(12)); }
+  constexpr double rung() {
+    constexpr double powers[]{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+    if (one_in(4)) return 0;
+    const double direction = sign();
+    return direction * powers[fine_ ? 4 + below(8) : below(12)];
+  }
   /// From now on only the lower rungs, 10⁻⁵ and below: for cases that lie next to a decision boundary.
-  void be_fine() { fine_ = true; }
-  bool is_fine() const { return fine_; }
+  constexpr void be_fine() { fine_ = true; }
+  constexpr bool is_fine() const { return fine_; }
 
  private:
-  static std::uint64_t mix(std::uint64_t x) {
+  static constexpr std::uint64_t mix(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
   }
-  static std::uint64_t hash(std::string_view name) {
+  static constexpr std::uint64_t hash(std::string_view name) {
     std::uint64_t h = 0xcbf29ce484222325u;
     for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return h;
