@@ -2,7 +2,8 @@
 """Mechanical mutants of the CPU kernels before the judge: what share it catches, and which survive.
 
 Every comparison, sum, product, sign, index, coordinate, number and condition of the given kernels is rewritten to one that can be switched
-(tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same cases, whose exact answers are found once.
+(tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same cases, whose exact answers are found once; what the judge
+lets through meets the kernels' own tests (tests/fast/kernels).
 
     tests/mutants.py BUILD [--kernels a,b,…] [--stages a,b,…] [--cases N] [--limit N] [--minutes M] [--only IDS] [--flags F] [--out FILE]
 
@@ -11,6 +12,7 @@ BUILD is a folder in which `ogc` was built by ninja. Not a part of tests/run: it
 
 import argparse
 import collections
+import concurrent.futures
 import os
 import random
 import re
@@ -21,11 +23,12 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-KERNELS = ("closest_face closest_points predicates exact_sign segment block bound activation truncate membrane bending arctangent rounding vector accumulator "
-           "collect_contacts separation detect_vertex_facet detect_edge_edge "
-           "contact_force friction_force contact_stream solve3 inertia sweep initial_guess").split()
-STAGES = ("closest_face closest_points activation truncate membrane bending bound detect_vertex_facet detect_edge_edge contact_force friction_force "
-          "initial_guess sweep").split()
+NOT_MATHEMATICS = {"qualifiers", "atomic"}
+KERNELS = sorted(path.stem for path in (ROOT / "fast/kernels").glob("*.hpp") if path.stem not in NOT_MATHEMATICS)
+STAGES = ("closest_face closest_points activation truncate membrane bending spring bound block detect_vertex_facet detect_edge_edge contact_force "
+          "friction_force initial_guess rest_state sweep step").split()
+REWRITTEN = ["tests/mutants/contestant.cpp", "fast/stages/rest_state.cpp", *(str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("tests/fast/kernels/*.cpp")))]
+AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/kernel_tests.cpp"]
 
 BINARY = {  # operator -> (struct, what its alternatives are)
     "<": ("Less", ("<=", ">=")), ">": ("Greater", (">=", "<=")), "<=": ("LessEqual", ("<", ">")), ">=": ("GreaterEqual", (">", "<")),
@@ -157,8 +160,19 @@ FLAGS = "-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize".spli
 KIND_ORDER = ("number", "coordinate", "condition", "choice", "sign", "index", "operator")
 
 
+def compile_all(sources, folder, flags):
+    """Compiles two at a time; returns what the compiler said of those that failed, and the objects."""
+    objects = [folder / (source.replace("/", "_") + ".o") for source in sources]
+
+    def one(source, target):
+        return subprocess.run(["g++", *FLAGS, *flags, f"-I{folder}", f"-I{ROOT}", str(ROOT / source), "-o", str(target)], capture_output=True, text=True)
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        results = list(pool.map(one, sources, objects))
+    return "".join(r.stderr for r in results if r.returncode != 0), objects
+
+
 def compile_rewritten(kernels, folder, log):
-    """Rewrites and compiles until what does not compile is left out; returns the mutants and the object."""
+    """Rewrites and compiles until what does not compile is left out; returns the mutants and the objects."""
     excluded = set()
     target = folder / "fast/kernels"
     target.mkdir(parents=True)
@@ -166,12 +180,13 @@ def compile_rewritten(kernels, folder, log):
         rewriter = Rewriter(excluded)
         for name in kernels:
             (target / f"{name}.hpp").write_text(rewriter.kernel(name), encoding="utf-8")
-        command = ["g++", *FLAGS, f"-I{folder}", f"-I{ROOT}", "-c", str(ROOT / "tests/mutants/contestant.cpp"), "-o", str(folder / "contestant.o")]
-        result = subprocess.run(command, capture_output=True, text=True)
-        if result.returncode == 0:
-            return rewriter.mutants, folder / "contestant.o"
-        found = {(name, int(line)) for name, line in re.findall(r"fast/kernels/(\w+)\.hpp:(\d+):\d+: error", result.stderr)}
-        found |= {(name, int(line)) for name, line in re.findall(r"fast/kernels/(\w+)\.hpp:(\d+):\d+:   required from here", result.stderr)}
+        errors, _ = compile_all(REWRITTEN, folder, ["-fsyntax-only"])
+        if not errors:
+            errors, objects = compile_all(REWRITTEN, folder, ["-c"])
+        if not errors:
+            return rewriter.mutants, objects
+        found = {(name, int(line)) for name, line in re.findall(r"fast/kernels/(\w+)\.hpp:(\d+):\d+: error", errors)}
+        found |= {(name, int(line)) for name, line in re.findall(r"In instantiation of.*\nfast/kernels/(\w+)\.hpp:(\d+):\d+:   required from", errors)}
         before = len(excluded)
         present = {(m.kernel, m.line, m.kind) for m in rewriter.mutants}
         for name, line in found:
@@ -180,30 +195,39 @@ def compile_rewritten(kernels, folder, log):
                     excluded.add((name, line, kind))
                     break
         if len(excluded) == before:
-            sys.exit("the rewritten kernels do not compile:\n" + result.stderr[:4000])
+            sys.exit("the rewritten kernels do not compile:\n" + errors[:4000])
         log(f"{len(excluded)} lines left as they are, in part")
 
 
-def link(build, folder, contestant):
+def link(build, folder, rewritten):
     """The judge of the mutants, with the libraries of `ogc`."""
     program = folder / "mutant_judge"
     rules = (build / "build.ninja").read_text(encoding="utf-8")
     libraries = re.search(r"^build ogc: .*?^  LINK_LIBRARIES = (.*?)$", rules, re.DOTALL | re.MULTILINE)[1].split()
-    subprocess.run(["g++", *FLAGS, f"-I{ROOT}", str(ROOT / "tests/mutants/judge.cpp"), str(contestant), *libraries, "-o", str(program)], check=True, cwd=build)
+    errors, objects = compile_all(AS_THEY_ARE, folder, ["-c"])
+    if errors:
+        sys.exit("the judge of the mutants does not compile:\n" + errors[:4000])
+    subprocess.run(["g++", *FLAGS, *map(str, rewritten + objects), *libraries, "-o", str(program)], check=True, cwd=build)
     return program
 
 
+def numbers_after(word, line):
+    """The mutants that a line of the judge names after its first word."""
+    words = line.split()
+    if not words or words[0] != word or not all(w.isdigit() for w in words[1:]):
+        sys.exit("the kernels as they are do not pass: " + " ".join(words[:40]))
+    return set(map(int, words[1:]))
+
+
 def judge(program, mutants, options, log):
-    """Pairs of a mutant and what was found (empty: it survives), and the mutants that no case reaches."""
+    """Pairs of a mutant and what was found (empty: it survives), the mutants that neither a case nor a test reaches, and the number of the others."""
     command = [str(program), str(options.cases), str(options.seed), str(options.seconds), str(ROOT / "tests/experiments/corpus.txt"), *options.stages.split(",")]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1)
-    words = process.stdout.readline().split()
-    if not words or words[0] != "right":
-        sys.exit("the kernels as they are do not pass: " + " ".join(words[:40]))
-    reached = set(map(int, words[1:]))
+    reached = numbers_after("tests", process.stdout.readline()) | numbers_after("right", process.stdout.readline())
     unreached = [m for m in mutants if m.id not in reached]
     wanted = [m for m in mutants if m.id in reached]
     random.Random(options.seed).shuffle(wanted)
+    log(f"{len(wanted)} mutants are reached")
     results, start = [], time.monotonic()
     for mutant in wanted[:options.limit]:
         if time.monotonic() - start > 60 * options.minutes:
@@ -212,7 +236,7 @@ def judge(program, mutants, options, log):
         process.stdin.flush()
         results.append((mutant, process.stdout.readline().strip()))
         if len(results) % 100 == 0:
-            log(f"{len(results)} judged, {sum(not found for _, found in results)} survive")
+            log(f"{len(results)} judged, {sum(found == 'test' for _, found in results)} left to the kernels' tests, {sum(not found for _, found in results)} survive")
     process.stdin.close()
     process.wait()
     return results, unreached, len(wanted)
@@ -239,19 +263,21 @@ def main():
 
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        mutants, contestant = compile_rewritten(options.kernels.split(","), folder, log)
+        mutants, rewritten = compile_rewritten(options.kernels.split(","), folder, log)
         if options.only:
             ids = set(map(int, options.only.split(",")))
             mutants = [m for m in mutants if m.id in ids]
         log(f"{len(mutants)} mutants of {len(options.kernels.split(','))} kernels compiled")
-        results, unreached, wanted = judge(link(options.build, folder, contestant), mutants, options, log)
-    caught = [found for _, found in results if found]
+        results, unreached, wanted = judge(link(options.build, folder, rewritten), mutants, options, log)
+    judged = sum(found not in ("", "test") for _, found in results)
+    tested = sum(found == "test" for _, found in results)
     if options.out:
         rows = [f"{m.id}\t{m.kernel}.hpp:{m.line}\t{m.kind}\t{m.text}\t{found or 'SURVIVES'}" for m, found in sorted(results)]
         rows += [f"{m.id}\t{m.kernel}.hpp:{m.line}\t{m.kind}\t{m.text}\tnot reached" for m in unreached]
         options.out.write_text("\n".join(rows) + "\n", encoding="utf-8")
-    print(f"{len(mutants)} mutants; {len(unreached)} that no case reaches; {len(results)} of the other {wanted} judged; "
-          f"{len(caught)} caught ({100 * len(caught) / max(1, len(results)):.1f} %)")
+    share = 100 / max(1, len(results))
+    print(f"{len(mutants)} mutants; {len(unreached)} that neither a case nor a test reaches; {len(results)} of the other {wanted} judged; "
+          f"{judged} caught by the judge ({share * judged:.1f} %), {tested} more by the kernels' tests (together {share * (judged + tested):.1f} %)")
     for mutant, found in sorted(results):
         if not found:
             print(f"{mutant.id}\t{mutant.kernel}.hpp:{mutant.line}\t{mutant.kind}\t{mutant.text}")

@@ -1,8 +1,10 @@
 // Judges mutants (tests/mutants.py). The truth about every case is found once, with the kernels as they are, and kept; each mutant whose number comes in on
-// standard input is then switched on and judged on the same cases in a process of its own, which it may crash or hang.
+// standard input is then switched on and judged on the same cases in a process of its own, which it may crash or hang. Those that the judge lets through meet
+// the kernels' own tests.
 //
 // Usage: mutant_judge CASES SEED SECONDS CORPUS STAGE …
-// First line out: "right" and the numbers that the cases reach; then a line for each mutant: empty where it survives.
+// First line out: "tests" and the numbers that the kernels' tests reach; second line: "right" and those that the cases reach. Then a line for each mutant: empty where it
+// survives, "test" where only a test of the kernels finds it, otherwise what the judge said.
 #include <signal.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
@@ -18,6 +20,7 @@
 #include "compare/judge/judge.hpp"
 #include "reference/contestant.hpp"
 #include "tests/mutants/contestant.hpp"
+#include "tests/mutants/kernel_tests.hpp"
 #include "tests/mutants/switch.hpp"
 
 namespace {
@@ -88,15 +91,15 @@ std::string verdict(const Contestant& contestant, const Authority& authority, co
   return found;
 }
 
-/// In a process of its own: what the child found, or how it ended.
-std::string judge_apart(int mutant, const Contestant& contestant, const Authority& authority, const Plan& plan, unsigned seconds) {
+/// What `work` says, in a process of its own, or how that ended.
+template <class Work>
+std::string apart(unsigned seconds, Work work) {
   int ends[2];
   if (pipe(ends) != 0) return "no pipe";
   const pid_t child = fork();
   if (child == 0) {
     alarm(seconds);
-    ogc_mutant::active = mutant;
-    const std::string found = verdict(contestant, authority, plan);
+    const std::string found = work();
     if (write(ends[1], found.data(), found.size()) < 0) _exit(4);
     _exit(0);
   }
@@ -110,6 +113,19 @@ std::string judge_apart(int mutant, const Contestant& contestant, const Authorit
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? "hangs" : "crashes: signal " + std::to_string(WTERMSIG(status));
   if (WEXITSTATUS(status) != 0) return "could not be judged: exit status " + std::to_string(WEXITSTATUS(status));
   return found;
+}
+
+std::string numbers_reached() {
+  std::string numbers;
+  for (std::size_t id = 0; id < std::size(ogc_mutant::reached); ++id)
+    if (ogc_mutant::reached[id]) numbers += ' ' + std::to_string(id);
+  return numbers;
+}
+
+/// " 1 5 …": the mutants that the kernels' tests reach; the tests pass, or the text says that they do not.
+std::string reached_by_tests() {
+  ogc_mutant::recording = true;
+  return ogc::tests::failing_kernel_tests() == 0 ? numbers_reached() : " the kernels' own tests fail";
 }
 
 }  // namespace
@@ -128,16 +144,18 @@ int main(int count, char** words) {
   std::size_t round = 0;
   const Authority authority = remembering(ogc::reference::authority(), round);
   const Contestant contestant = ogc::tests::mutant_contestant();
+  const auto seconds = static_cast<unsigned>(std::stoul(words[3]));
+  std::cout << "tests" << apart(10 * seconds, reached_by_tests) << std::endl;
   ogc_mutant::recording = true;
   const std::string wrong = verdict(contestant, authority, plan);
   ogc_mutant::recording = false;
-  std::cout << (wrong.empty() ? "right" : wrong);
-  for (std::size_t id = 0; id < std::size(ogc_mutant::reached); ++id)
-    if (ogc_mutant::reached[id]) std::cout << ' ' << id;
-  std::cout << std::endl;
+  std::cout << (wrong.empty() ? "right" : wrong) << numbers_reached() << std::endl;
   for (std::string number; std::getline(std::cin, number);) {
     ++round;
-    std::string found = judge_apart(std::stoi(number), contestant, authority, plan, static_cast<unsigned>(std::stoul(words[3])));
+    ogc_mutant::active = std::stoi(number);
+    std::string found = apart(seconds, [&] { return verdict(contestant, authority, plan); });
+    if (found.empty()) found = apart(seconds, [] { return std::string(ogc::tests::failing_kernel_tests() > 0 ? "test" : ""); });
+    ogc_mutant::active = 0;
     for (char& c : found)
       if (c == '\n') c = ' ';
     std::cout << found << std::endl;
