@@ -56,14 +56,16 @@ fast::Backend backend_of(const std::string& name) {
 /// Run folders, each opened once.
 class OpenStates {
  public:
+  explicit OpenStates(const compare::Authority& authority) : authority_(authority) {}
   const compare::States* of(const std::string& folder) {
     if (folder.empty()) return nullptr;
     auto& states = open_[folder];
-    if (!states) states = std::make_unique<compare::States>(folder);
+    if (!states) states = std::make_unique<compare::States>(folder, authority_);
     return states.get();
   }
 
  private:
+  const compare::Authority& authority_;
   std::map<std::string, std::unique_ptr<compare::States>> open_;
 };
 
@@ -246,7 +248,7 @@ int run(CompareOptions options, const CommandContext& context) {
   const Judged judged = judged_of(options);
   if (judged.plugin) choose_stages_of_plugin(options, judged);
   const compare::Authority authority = reference::authority();
-  OpenStates states;
+  OpenStates states(authority);
   const bool is_given = !options.problem.empty() || !options.batch.empty() || !options.replay.empty();
   const std::vector<compare::TestCase> given = given_cases(options, states);
   if (is_given && given.empty()) throw InputError(options.batch + ": holds no problem; write one problem string a line");

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/judge.hpp"
-#include "compare/judge/mutate.hpp"
 #include "compare/judge/parameters.hpp"
 #include "compare/judge/stage_table.hpp"
 #include "reference/contestant.hpp"
@@ -58,7 +57,7 @@ std::string stage_list_text() {
   for (const StageInfo& info : compare::stage_table()) {
     text += std::string(stage_name(info.stage)) + ": " + std::string(info.question) + "\n  a case: " + std::string(info.unit) + "; same bits: " +
             std::string(determinism_name(info.determinism)) + "\n";
-    text += "  generators: " + names_of(compare::generators(info.stage)) + (compare::can_mutate(info.stage) ? ", mutated\n" : "\n");
+    text += "  generators: " + names_of(compare::generators(info.stage)) + "; of a run: states, mutated\n";
     text += "  parameters: " + names_of(compare::parameters(info.stage)) + "\n";
   }
   return text;

@@ -1,7 +1,6 @@
 // Cases of activation and truncate.
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "compare/judge/generators.hpp"
 #include "compare/judge/placement.hpp"
@@ -11,18 +10,6 @@ namespace ogc::compare {
 namespace {
 
 using namespace placement;
-
-constexpr float up(float x) { return std::nextafter(x, std::numeric_limits<float>::infinity()); }
-
-/// x itself, one of its neighbours, or x (1 + rung).
-float beside(Random& random, float x) {
-  switch (random.below(4)) {
-    case 0: return x;
-    case 1: return std::nextafter(x, 0.0f);
-    case 2: return up(x);
-    default: return static_cast<float>(x * (1 + random.rung()));
-  }
-}
 
 CaseData activation_uniform(Random& random) {
   const float r = static_cast<float>(random.magnitude(-4, 1));

@@ -38,14 +38,13 @@ std::span<const Generator> generators(Stage stage) {
 
 const Generator& find_generator(Stage stage, std::string_view name) {
   if (name == real_states.name) return is_mesh_stage(stage) && stage != Stage::block ? real_states : pairs_of_real_states;
-  if (name == mutated_states.name && can_mutate(stage)) return mutated_states;
+  if (name == mutated_states.name) return mutated_states;
   std::string known;
   for (const Generator& generator : generators(stage)) {
     if (generator.name == name) return generator;
     known += std::string(generator.name) + ", ";
   }
-  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known +
-                   (can_mutate(stage) ? "states, mutated" : "states"));
+  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known + "states, mutated");
 }
 
 TestCase generate(const CaseName& name, const States* states) { return generate(find_generator(name.stage, name.generator), name, states); }

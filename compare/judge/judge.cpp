@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "compare/judge/ask.hpp"
-#include "compare/judge/mutate.hpp"
 #include "compare/judge/narrow.hpp"
 #include "compare/judge/states.hpp"
 
@@ -104,10 +103,8 @@ std::vector<Generator> chosen(Stage stage, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
   std::erase_if(rows, [&](const Generator& row) { return row.least > options.cases; });
-  if (options.states && options.states->has(stage)) {
-    rows.push_back(find_generator(stage, "states"));
-    if (can_mutate(stage)) rows.push_back(find_generator(stage, "mutated"));
-  }
+  if (options.states && options.states->missing(stage).empty())
+    for (const std::string_view name : {"states", "mutated"}) rows.push_back(find_generator(stage, name));
   return rows;
 }
 
@@ -146,6 +143,8 @@ StageReport judge_stage(Stage stage, const Contestant& contestant, const Authori
     report.skipped = true;
     return report;
   }
+  if (options.states)
+    if (const std::string why = options.states->missing(stage); !why.empty()) report.note = "no states of " + options.states->folder() + ": " + why;
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Generator> rows = chosen(stage, options);
   double shares = 0;

@@ -28,6 +28,7 @@ struct StageReport {
   Tally tally;
   double seconds = 0;
   bool skipped = false;                    ///< the contestant or the authority does not have the stage
+  std::string note{};                      ///< why the run given as real states has none for the stage; otherwise empty
   /// No mismatch, at least one case, and the generic generators' grey share within its limit.
   bool passed() const;
 };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/placement.hpp"
+#include "compare/judge/rest_cases.hpp"
+
 namespace ogc::compare {
 
 namespace {
@@ -57,8 +60,10 @@ class Mutation {
 };
 
 /// The points that may move, out of a case and back into it.
-struct Points {
+class Points {
+ public:
   Random& random;
+  explicit Points(Random& source) : random(source) {}
   void operator()(ClosestFaceCase& c) const {
     std::array<Vec3f, 4> points{c.point, c.triangle[0], c.triangle[1], c.triangle[2]};
     mutate_points(random, points);
@@ -91,26 +96,58 @@ struct Points {
   }
   void operator()(ContactForceCase& c) const { mutate_points(random, std::span(c.vertex).first(static_cast<std::size_t>(vertex_count(c.sides)))); }
   void operator()(FrictionForceCase& c) const { (*this)(c.contact); }
-  template <class Other>
-  void operator()(Other&) const {}
+  void operator()(MembraneCase& c) const { both(c.corner, c.start); }
+  void operator()(BendingCase& c) const { both(c.vertex, c.start); }
+  void operator()(SpringCase& c) const { both(c.vertex, c.start); }
+  void operator()(ActivationCase& c) const {
+    const std::array<float, 3> distances{c.distance, c.contact_radius, c.contact_radius / 2};
+    c.distance = std::max(0x1p-20f, placement::beside(random, random.pick(std::span<const float>(distances))));
+  }
+  void operator()(BoundCase& c) const {
+    for (std::vector<float>* distances : {&c.d_min_vertex, &c.d_min_edge, &c.d_min_triangle}) {
+      if (distances->empty()) continue;
+      const auto any = [&]() -> float& { return (*distances)[random.bits() % distances->size()]; };
+      for (int count = 1 + random.below(4); count > 0; --count) any() = random.one_in(8) ? 0 : std::abs(placement::beside(random, any()));
+    }
+  }
+  void operator()(SweepCase& c) const {
+    mutate_points(random, c.target);
+    mutate_points(random, c.start);
+  }
+  void operator()(StepCase& c) const {
+    auto scene = std::make_shared<Scene>(*c.scene);
+    scene->velocities = mutated(c.scene->velocities);
+    c.scene = std::move(scene);
+  }
+  void operator()(RestStateCase& c) const {
+    RestStateCase other = c;
+    for (int attempt = 0; attempt < 8; ++attempt) {
+      auto scene = std::make_shared<Scene>(*c.scene);
+      scene->rest_positions = mutated(c.scene->rest_positions);
+      other.scene = std::move(scene);
+      if (!problems_of(other).empty()) continue;
+      c = std::move(other);
+      return;
+    }
+  }
+
+ private:
+  template <std::size_t N>
+  void both(std::array<Vec3f, N>& now, std::array<Vec3f, N>& start) const {
+    std::array<Vec3f, 2 * N> points;
+    std::copy(start.begin(), start.end(), std::copy(now.begin(), now.end(), points.begin()));
+    mutate_points(random, points);
+    std::copy_n(points.begin(), N, now.begin());
+    std::copy_n(points.begin() + N, N, start.begin());
+  }
+  std::vector<Vec3> mutated(const std::vector<Vec3>& vectors) const {
+    std::vector<Vec3f> points = to_single(vectors);
+    mutate_points(random, points);
+    return to_double(points);
+  }
 };
 
 }  // namespace
-
-bool can_mutate(Stage stage) {
-  switch (stage) {
-    case Stage::closest_face:
-    case Stage::closest_points:
-    case Stage::block:
-    case Stage::detect_vertex_facet:
-    case Stage::detect_edge_edge:
-    case Stage::initial_guess:
-    case Stage::contact_force:
-    case Stage::friction_force:
-    case Stage::truncate: return true;
-    default: return false;
-  }
-}
 
 void mutate(Random& random, CaseData& data) {
   std::visit([&](auto& c) { Points{random}(c); }, data);

@@ -8,11 +8,9 @@
 
 namespace ogc::compare {
 
-/// Whether a case has points that may be moved without making it illegal: all but scenes (rest_state, sweep, step), bounds and distances.
-bool can_mutate(Stage stage);
-
 /// Moves a few points, in one or more of these ways: next to another point, or halfway between two others, up to a rung of their distance; onto another
-/// point; by a rung; one coordinate taken over from another point; all points to few binary digits.
+/// point; by a rung; one coordinate taken over from another point; all points to few binary digits. Of a step its velocities, of a sweep xᵗ and the targets, of
+/// the rest shape as long as it stays legal. Distances go to, or a rung beside, another distance, the radius or its half.
 void mutate(Random& random, CaseData& data);
 
 /// The same for points alone.

@@ -15,6 +15,15 @@ Vec3 turned(const Vec3& p, const Vec3& a, double cosine, double sine) {
 
 }  // namespace
 
+float beside(Random& random, float x) {
+  switch (random.below(4)) {
+    case 0: return x;
+    case 1: return std::nextafter(x, 0.0f);
+    case 2: return up(x);
+    default: return static_cast<float>(x * (1 + random.rung()));
+  }
+}
+
 Vec3 in_box(Random& random, double low, double high) {
   const double x = random.between(low, high), y = random.between(low, high), z = random.between(low, high);
   return {x, y, z};

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "compare/judge/random.hpp"
@@ -15,6 +16,9 @@ inline Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.
 inline Vec3 scaled(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
 
+inline float up(float x) { return std::nextafter(x, std::numeric_limits<float>::infinity()); }
+/// x itself, one of its neighbours, or x (1 + rung).
+float beside(Random& random, float x);
 /// A point of the box [low, high)³.
 Vec3 in_box(Random& random, double low, double high);
 /// Small integers, halves or quarters, so that exact ties are common.

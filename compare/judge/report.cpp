@@ -102,6 +102,7 @@ Json report_json(const StageReport& report) {
             {"grey_share_generic", tally.grey_share()}, {"near", total.near}, {"near_share", near_share},
             {"seconds", report.seconds}, {"cases_per_second", speed(report)},
             {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
+  if (!report.note.empty()) json["note"] = report.note;
   const auto infos = metrics(tally.stage);
   json["metrics"] = Json::array();
   for (std::size_t i = 0; i < infos.size(); ++i) {
@@ -127,6 +128,7 @@ std::string report_table(std::span<const StageReport> reports) {
   for (const StageReport& report : reports) {
     if (report.skipped) continue;
     text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
+    if (!report.note.empty()) text += "  " + report.note + "\n";
     if (const std::string loose = loose_metrics(report); !loose.empty()) text += "  loose, never within a factor of 50 of what is accepted: " + loose + "\n";
     const auto infos = metrics(report.tally.stage);
     for (std::size_t i = 0; i < infos.size(); ++i)

@@ -6,6 +6,7 @@
 
 #include "compare/judge/block_questions.hpp"
 #include "compare/judge/colours.hpp"
+#include "compare/judge/rest_cases.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 
@@ -27,7 +28,7 @@ double mean_edge_length(const Topology& topology, const std::vector<Vec3f>& posi
 
 }  // namespace
 
-States::States(const std::filesystem::path& folder) : folder_(folder.string()) {
+States::States(const std::filesystem::path& folder, const Authority& authority) : folder_(folder.string()), authority_(authority) {
   const RunReader run(folder);
   if (run.frame_count() == 0) throw InputError(folder_ + ": the run holds no frame yet; give a run that has stored at least one");
   const Scene& scene = run.scene();
@@ -37,6 +38,8 @@ States::States(const std::filesystem::path& folder) : folder_(folder.string()) {
   topology_ = std::make_shared<Topology>(build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges));
   if (topology_->edges.empty()) throw InputError(folder_ + ": the run's mesh has no edge; give a run of a mesh");
   groups_ = rigid_groups(scene);
+  body_ = body_of_vertex(scene);
+  rest_ = authority_.rest_state({scene_.get(), topology_.get()}).exact;
   contact_radius_ = static_cast<float>(scene.settings.contact_radius);
   query_radius_cap_ = static_cast<float>(scene.settings.query_radius_cap);
   bound_relaxation_ = static_cast<float>(scene.settings.bound_relaxation);
@@ -48,6 +51,20 @@ States::States(const std::filesystem::path& folder) : folder_(folder.string()) {
     for (std::size_t v = 0; v < state.positions.size(); ++v) state.cells.emplace_back(cell(state.positions[v]), static_cast<Index>(v));
     std::sort(state.cells.begin(), state.cells.end());
     states_.push_back(std::move(state));
+  }
+  smallest_distances_.resize(states_.size());
+}
+
+std::string States::missing(Stage stage) const {
+  switch (stage) {
+    case Stage::closest_face: return topology_->triangles.empty() ? "its mesh has no triangle" : "";
+    case Stage::membrane: return rest_.triangles.empty() ? "no body that moves has a membrane" : "";
+    case Stage::bending: return rest_.hinges.empty() ? "no body that moves bends" : "";
+    case Stage::spring: return scene_->springs.empty() ? "its scene has no spring" : "";
+    case Stage::rest_state:
+    case Stage::sweep:
+    case Stage::step: return problems_of(RestStateCase{scene_, topology_});
+    default: return "";
   }
 }
 
@@ -110,9 +127,8 @@ FrictionForceCase States::contact(const State& state, Random& random) const {
   c.contact.own = random.below(4);
   const double h = scene_->settings.time_step;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vec3f &x = state.positions[vertices[k]], &v = state.velocities[vertices[k]];
-    c.contact.vertex[k] = {static_cast<float>(x.x + h * v.x), static_cast<float>(x.y + h * v.y), static_cast<float>(x.z + h * v.z)};
-    c.contact.detected[k] = c.start[k] = x;
+    c.contact.vertex[k] = moved(state, vertices[k]);
+    c.contact.detected[k] = c.start[k] = state.positions[vertices[k]];
   }
   if (edges && !topology_->triangles.empty()) {
     const auto squared = [&](Index a, Index b) {
@@ -121,11 +137,11 @@ FrictionForceCase States::contact(const State& state, Random& random) const {
     };
     c.contact.rest_squared = {squared(vertices[0], vertices[1]), squared(vertices[2], vertices[3])};
   }
-  const Material& material = scene_->bodies.front().material;
+  const MeetingMaterial material = meeting(vertices[0], vertices[edges ? 2 : 1]);
   c.contact.contact_radius = contact_radius_;
-  c.contact.stiffness = static_cast<float>(material.contact_stiffness);
+  c.contact.stiffness = material.stiffness;
   c.contact.activation = scene_->settings.activation;
-  c.friction = static_cast<float>(material.friction);
+  c.friction = material.friction;
   c.slip_limit = static_cast<float>(scene_->settings.friction_velocity * h);
   return c;
 }
@@ -144,15 +160,15 @@ CaseData States::guessed_vertex(const State& state, Random& random) const {
                           state.positions[v], bound, random.one_in(8)};
 }
 
-CaseData States::bound(Random& random) const {
-  BoundCase c{topology_, {}, {}, {}, bound_relaxation_};
-  const auto fill = [&](std::vector<float>& values, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) values.push_back(static_cast<float>(contact_radius_ * random.magnitude(-3, 0.6)));
-  };
-  fill(c.d_min_vertex, static_cast<std::size_t>(topology_->vertex_count));
-  fill(c.d_min_edge, topology_->edges.size());
-  fill(c.d_min_triangle, topology_->triangles.size());
-  return c;
+CaseData States::bound(std::size_t frame) const {
+  const std::lock_guard lock(filling_);
+  std::optional<BoundCase>& c = smallest_distances_[frame];
+  if (!c) {
+    const DetectIn in{topology_.get(), groups_, states_[frame].positions, contact_radius_, contact_radius_ * std::max(1.0f, query_radius_cap_)};
+    DetectVertexFacetOut near = authority_.detect_vertex_facet(in).exact;
+    c = BoundCase{topology_, std::move(near.d_min_vertex), authority_.detect_edge_edge(in).exact.d_min_edge, std::move(near.d_min_triangle), bound_relaxation_};
+  }
+  return *c;
 }
 
 CaseData States::sweep(const State& state, Random& random) const {
@@ -193,7 +209,8 @@ CaseData States::step(const State& state) const {
 }
 
 CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
-  if (!has(stage)) throw InputError(folder_ + ": the run has no states for the stage " + std::string(stage_name(stage)) + "; use its generators");
+  if (const std::string why = missing(stage); !why.empty())
+    throw InputError(folder_ + ": the run has no states for the stage " + std::string(stage_name(stage)) + ": " + why + "; use its generators");
   const std::size_t frame = index % states_.size();
   const State& state = states_[frame];
   switch (stage) {
@@ -205,7 +222,11 @@ CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
     case Stage::rest_state: return RestStateCase{scene_, topology_};
     case Stage::initial_guess: return guessed_vertex(state, random);
     case Stage::block: return BlockCase{topology_, state.positions, block_questions(random, *topology_, state.positions, questions)};
-    case Stage::bound: return bound(random);
+    case Stage::bound: return bound(frame);
+    case Stage::activation: return pair_distance(state, random);
+    case Stage::membrane: return triangle(state, random);
+    case Stage::bending: return hinge(state, random);
+    case Stage::spring: return spring(state, random);
     case Stage::sweep: return sweep(state, random);
     case Stage::step: return step(state);
     default: break;

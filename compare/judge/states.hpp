@@ -1,27 +1,29 @@
-// Cases from real states: the frames of a run folder, whole for detection, or pairs of neighbours drawn from them for the pair stages.
+// Cases from real states: the frames of a run folder, whole for detection, or pairs of neighbours and stencils drawn from them for the other stages. What a
+// run folder does not hold, because it is computed (rest data, distances), is asked of an authority.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "compare/judge/cases.hpp"
 #include "compare/judge/random.hpp"
+#include "compare/problem/contestant.hpp"
 
 namespace ogc::compare {
 
 /// Up to 16 frames, evenly spread over the run (first and last included), with the scene's topology, groups, r and cap of r_q.
 class States {
  public:
-  /// Throws InputError where the folder is no run or holds no frame.
-  explicit States(const std::filesystem::path& folder);
-  /// Whether the run has cases for the stage: activation, membrane, bending and spring have no state, closest_face needs triangles.
-  bool has(Stage stage) const {
-    if (stage == Stage::activation || stage == Stage::membrane || stage == Stage::bending || stage == Stage::spring) return false;
-    return stage != Stage::closest_face || !topology_->triangles.empty();
-  }
-  /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError where `has` says no.
+  /// Asks the authority for rest data. Throws InputError where the folder is no run or holds no frame.
+  States(const std::filesystem::path& folder, const Authority& authority);
+  /// Why the run has no cases for the stage; empty where it has.
+  std::string missing(Stage stage) const;
+  /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError that says what is missing.
   CaseData make(Stage stage, std::uint64_t index, Random& random) const;
   const std::string& folder() const { return folder_; }
 
@@ -46,19 +48,35 @@ class States {
   FrictionForceCase contact(const State& state, Random& random) const;
   CaseData moved_vertex(std::size_t frame, Random& random) const;
   CaseData guessed_vertex(const State& state, Random& random) const;
-  CaseData bound(Random& random) const;
+  /// The smallest distances of the frame, asked of the authority once.
+  CaseData bound(std::size_t frame) const;
+  /// The distance of a pair near each other: of 16 draws the first that is in contact, or the nearest.
+  CaseData pair_distance(const State& state, Random& random) const;
+  double distance(const CaseData& pair) const;
+  /// Stencils of the rest data, after a step at the frame's velocities.
+  CaseData triangle(const State& state, Random& random) const;
+  CaseData hinge(const State& state, Random& random) const;
+  CaseData spring(const State& state, Random& random) const;
+  /// x after a step at the frame's velocity.
+  Vec3f moved(const State& state, Index v) const;
+  MeetingMaterial meeting(Index v, Index w) const;
   /// The first sweep of the step that follows the frame.
   CaseData sweep(const State& state, Random& random) const;
   /// The step that follows the frame; motions go on from where they are.
   CaseData step(const State& state) const;
 
   std::string folder_;
+  Authority authority_;
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const Topology> topology_;
-  std::vector<Index> groups_;
+  std::vector<Index> groups_, body_;
+  RestStateOut rest_;
   float contact_radius_ = 0, query_radius_cap_ = 1, bound_relaxation_ = 0.45f;
   double cell_size_ = 1;
   std::vector<State> states_;
+  /// By frame; filled when asked for, by any thread.
+  mutable std::vector<std::optional<BoundCase>> smallest_distances_;
+  mutable std::mutex filling_;
 };
 
 }  // namespace ogc::compare

@@ -1,8 +1,13 @@
 #include "compare/judge/states.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/generators.hpp"
+#include "compare/judge/judge.hpp"
+#include "compare/judge/report.hpp"
 #include "compare/problem/error.hpp"
+#include "reference/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/record/small_run.hpp"
 
@@ -11,35 +16,88 @@ using namespace ogc::tests;
 
 namespace {
 
-std::filesystem::path write_run(const std::filesystem::path& folder) {
-  RunWriter run(folder, recorded_scene(), recorded_provenance(), {});
+std::filesystem::path write_run(const std::filesystem::path& folder, const Scene& scene) {
+  RunWriter run(folder, scene, recorded_provenance(), {});
   for (std::int64_t step = 0; step < 3; ++step) run.add_frame(recorded_frame(step));
   run.finish("finished");
   return folder;
+}
+
+/// Something for every stage: the yarn held, a hinge in the cloth, a spring.
+Scene full_scene() {
+  Scene scene = recorded_scene();
+  scene.bodies[0].fixed = false;
+  scene.bodies[2].fixed = true;
+  scene.springs.push_back({1, 5, 20, 0.5, 0.001});
+  return scene;
 }
 
 }  // namespace
 
 TEST_CASE("frames of a run become cases, whole for detection and pair by pair", "[unit]") {
   const Scratch scratch;
-  const States states(write_run(scratch / "run"));
-  const auto make = [&](Stage stage, std::uint64_t index) { return generate({stage, "states", 1, index, states.folder()}, &states).data; };
+  const States states(write_run(scratch / "run", full_scene()), ogc::reference::authority());
+  const auto make = [&](Stage stage, std::uint64_t index) { return generate({stage, "states", 1, index, states.folder(), {}}, &states).data; };
   for (std::uint64_t i = 0; i < 6; ++i) {
+    const Frame frame = recorded_frame(static_cast<std::int64_t>(i % 3));
     const auto mesh = std::get<MeshCase>(make(Stage::detect_edge_edge, i));
-    REQUIRE(mesh.positions == recorded_frame(static_cast<std::int64_t>(i % 3)).positions);
-    REQUIRE(mesh.rigid_groups == rigid_groups(recorded_scene()));
+    REQUIRE(mesh.positions == frame.positions);
+    REQUIRE(mesh.rigid_groups == rigid_groups(full_scene()));
     REQUIRE(mesh.query_radius >= mesh.contact_radius);
     REQUIRE(std::get<BoundCase>(make(Stage::bound, i)).d_min_vertex.size() == 10);
-    REQUIRE(std::holds_alternative<ClosestFaceCase>(make(Stage::closest_face, i)));
-    REQUIRE(std::holds_alternative<ClosestPointsCase>(make(Stage::closest_points, i)));
-    REQUIRE(std::get<SweepCase>(make(Stage::sweep, i)).previous == recorded_frame(static_cast<std::int64_t>(i % 3)).positions);
-    REQUIRE(to_single(std::get<StepCase>(make(Stage::step, i)).scene->mesh.positions) == recorded_frame(static_cast<std::int64_t>(i % 3)).positions);
-    REQUIRE(std::holds_alternative<TruncateCase>(make(Stage::truncate, i)));
+    REQUIRE(std::get<SweepCase>(make(Stage::sweep, i)).previous == frame.positions);
+    REQUIRE(to_single(std::get<StepCase>(make(Stage::step, i)).scene->mesh.positions) == frame.positions);
+    REQUIRE(std::get<MembraneCase>(make(Stage::membrane, i)).area > 0);
+    REQUIRE(std::get<BendingCase>(make(Stage::bending, i)).stiffness > 0);
+    REQUIRE(std::get<ActivationCase>(make(Stage::activation, i)).contact_radius == mesh.contact_radius);
+    const auto spring = std::get<SpringCase>(make(Stage::spring, i));
+    REQUIRE(spring.rest_length == 0.5f);
+    REQUIRE((spring.start[0] == frame.positions[1] || spring.start[0] == frame.positions[5]));
   }
-  REQUIRE_THROWS_AS(make(Stage::activation, 0), InputError);
+}
+
+TEST_CASE("every stage has cases of a run that has everything, as they are and mutated, and the same ones again", "[property]") {
+  const Scratch scratch;
+  const States states(write_run(scratch / "run", full_scene()), ogc::reference::authority());
+  for (const Stage stage : all_stages) {
+    INFO(stage_name(stage));
+    REQUIRE(states.missing(stage).empty());
+    for (const std::string generator : {"states", "mutated"}) {
+      const CaseName name{stage, generator, 1, 4, states.folder(), {}};
+      const TestCase test = generate(name, &states), again = generate(parse_problem(print_problem(name)), &states);
+      REQUIRE(case_to_json(again, "") == case_to_json(test, ""));
+      REQUIRE(case_to_json(load_case(save_case(scratch / generator, test, "")), "") == case_to_json(test, ""));
+    }
+  }
+}
+
+TEST_CASE("a stage of which a run has nothing says why, in the report and to who asks for a case", "[unit]") {
+  const Scratch scratch;
+  const Authority authority = ogc::reference::authority();
+  const States states(write_run(scratch / "run", recorded_scene()), authority);
+  REQUIRE(states.missing(Stage::spring) == "its scene has no spring");
+  REQUIRE_THAT(states.missing(Stage::sweep), ContainsSubstring("has no triangle"));
+  REQUIRE_THROWS_WITH(generate({Stage::spring, "states", 1, 0, states.folder(), {}}, &states), ContainsSubstring("its scene has no spring"));
+  Contestant contestant;
+  contestant.spring = [&](const SpringIn& in) {
+    ForceOut out;
+    for (const auto& accepted : authority.spring(in).accepted) {
+      const ForceAnswer& right = accepted[0];
+      out.force.push_back({static_cast<float>(right.force.x), static_cast<float>(right.force.y), static_cast<float>(right.force.z)});
+      out.block.emplace_back();
+      std::copy(right.block.begin(), right.block.end(), out.block.back().begin());
+    }
+    return out;
+  };
+  JudgeOptions options;
+  options.cases = 50;
+  options.states = &states;
+  const std::vector<StageReport> reports{judge_stage(Stage::spring, contestant, authority, options)};
+  REQUIRE(reports[0].passed());
+  REQUIRE_THAT(report_table(reports), ContainsSubstring("no states of " + states.folder() + ": its scene has no spring"));
 }
 
 TEST_CASE("a folder that is no run is refused", "[unit]") {
   const Scratch scratch;
-  REQUIRE_THROWS_AS(States(scratch / "nothing"), InputError);
+  REQUIRE_THROWS_AS(States(scratch / "nothing", ogc::reference::authority()), InputError);
 }
