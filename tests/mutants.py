@@ -168,7 +168,7 @@ def compile_all(sources, folder, flags):
         return subprocess.run(["g++", *FLAGS, *flags, f"-I{folder}", f"-I{ROOT}", str(ROOT / source), "-o", str(target)], capture_output=True, text=True)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(one, sources, objects))
-    return "".join(r.stderr for r in results if r.returncode != 0), objects
+    return "".join(r.stderr or f"the compiler ended with {r.returncode}" for r in results if r.returncode != 0), objects
 
 
 def compile_rewritten(kernels, folder, log):

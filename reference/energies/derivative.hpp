@@ -2,6 +2,7 @@
 // question as the innermost directions, the condition of every derivative. No derivative of an energy is written by hand in this room.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,9 +10,11 @@
 
 namespace ogc::reference {
 
+/// `count`: slopes from this direction on are 0. Most factors of an energy do not move, or with few of its inputs, and what is 0 need not be computed.
 template <class T, std::size_t N>
 struct Derivative {
   T value{};
+  std::size_t count = 0;
   std::array<T, N> slope{};
 
   Derivative() = default;
@@ -20,26 +23,34 @@ struct Derivative {
     requires(!std::is_same_v<T, double>)
       : value(constant) {}
   /// The variable of direction `direction`.
-  Derivative(const T& at, std::size_t direction) : value(at) { slope[direction] = T(1.0); }
+  Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {
     a.value = a.value + b.value;
-    for (std::size_t i = 0; i < N; ++i) a.slope[i] = a.slope[i] + b.slope[i];
+    for (std::size_t i = 0; i < b.count; ++i) a.slope[i] = a.slope[i] + b.slope[i];
+    a.count = std::max(a.count, b.count);
     return a;
   }
   friend Derivative operator-(Derivative a, const Derivative& b) {
     a.value = a.value - b.value;
-    for (std::size_t i = 0; i < N; ++i) a.slope[i] = a.slope[i] - b.slope[i];
+    for (std::size_t i = 0; i < b.count; ++i) a.slope[i] = a.slope[i] - b.slope[i];
+    a.count = std::max(a.count, b.count);
     return a;
   }
   friend Derivative operator*(const Derivative& a, const Derivative& b) {
     Derivative c(T(a.value * b.value));
-    for (std::size_t i = 0; i < N; ++i) c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
+    c.count = std::max(a.count, b.count);
+    const std::size_t both = std::min(a.count, b.count);
+    for (std::size_t i = 0; i < both; ++i) c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
+    for (std::size_t i = both; i < a.count; ++i) c.slope[i] = a.slope[i] * b.value;
+    for (std::size_t i = both; i < b.count; ++i) c.slope[i] = a.value * b.slope[i];
     return c;
   }
   friend Derivative operator/(const Derivative& a, const Derivative& b) {
     Derivative c(T(a.value / b.value));
-    for (std::size_t i = 0; i < N; ++i) c.slope[i] = (a.slope[i] - c.value * b.slope[i]) / b.value;
+    c.count = std::max(a.count, b.count);
+    for (std::size_t i = 0; i < b.count; ++i) c.slope[i] = (a.slope[i] - c.value * b.slope[i]) / b.value;
+    for (std::size_t i = b.count; i < a.count; ++i) c.slope[i] = a.slope[i] / b.value;
     return c;
   }
   friend Derivative operator-(const Derivative& a) { return Derivative() - a; }
@@ -56,7 +67,8 @@ double plain(const Derivative<T, N>& x) {
 template <class T, std::size_t N>
 Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>& x) {
   Derivative<T, N> result(value);
-  for (std::size_t i = 0; i < N; ++i) result.slope[i] = slope * x.slope[i];
+  result.count = x.count;
+  for (std::size_t i = 0; i < x.count; ++i) result.slope[i] = slope * x.slope[i];
   return result;
 }
 
@@ -81,7 +93,8 @@ Derivative<T, N> atan2(const Derivative<T, N>& y, const Derivative<T, N>& x) {
   using std::atan2;
   const T squared = x.value * x.value + y.value * y.value;
   Derivative<T, N> angle(T(atan2(y.value, x.value)));
-  for (std::size_t i = 0; i < N; ++i) angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
+  angle.count = std::max(x.count, y.count);
+  for (std::size_t i = 0; i < angle.count; ++i) angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
   return angle;
 }
 

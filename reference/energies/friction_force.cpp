@@ -20,7 +20,8 @@ Input normal_force(const Meeting& meeting) {
 Input length(const Inputs& inputs, const Triple<Input>& slip) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > compare::contact_grey * compare::unit_roundoff * inputs.condition(slip)) return y;
-  for (std::size_t i = 0; i < y.slope.size(); ++i) y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
+  y.count = y.slope.size();
+  for (std::size_t i = 0; i < y.count; ++i) y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
   return y;
 }
 

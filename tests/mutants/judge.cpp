@@ -63,7 +63,8 @@ Authority remembering(const Authority& a, const std::size_t& round) {
   r.block = remembered(a.block, round);
   r.initial_guess = remembered(a.initial_guess, round);
   r.rest_state = remembered(a.rest_state, round);
-  r.sweep = a.sweep;  // its truth follows the answer
+  r.sweep = a.sweep;  // their truth follows the answer
+  r.step = a.step;
   return r;
 }
 
@@ -77,6 +78,7 @@ struct Plan {
 std::string verdict(const Contestant& contestant, const Authority& authority, const Plan& plan) {
   const auto first = [](const StageReport& report) {
     const auto& listed = report.tally.mismatches;
+    if (report.skipped) return std::string(stage_name(report.tally.stage)) + " is not judged";
     return listed.empty() ? std::string() : print_problem(listed[0].name) + ": " + listed[0].message;
   };
   std::string found;

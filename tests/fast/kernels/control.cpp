@@ -1,5 +1,6 @@
 #include "fast/kernels/control.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "tests/catch.hpp"
@@ -114,4 +115,27 @@ TEST_CASE("bits of non-negative floats have their order", "[property]") {
   const float ascending[] = {0, 1e-40f, 1e-20f, 0.5f, 1, 3, 1e30f};
   for (int i = 0; i + 1 < 7; ++i) CHECK(float_bits(ascending[i]) < float_bits(ascending[i + 1]));
   CHECK(float_from_bits(float_bits(0.1f)) == 0.1f);
+}
+
+TEST_CASE("each coordinate that is not a number or infinite is noticed", "[unit]") {
+  CHECK(is_finite(Vec{1, -2, 0}));
+  for (const float odd : {std::nanf(""), INFINITY, -INFINITY}) {
+    CHECK_FALSE(is_finite(Vec{odd, 0, 0}));
+    CHECK_FALSE(is_finite(Vec{0, odd, 0}));
+    CHECK_FALSE(is_finite(Vec{0, 0, odd}));
+  }
+}
+
+TEST_CASE("with a detection due after every iteration each one asks for it, and begins to count anew", "[unit]") {
+  ControlSettings settings;
+  settings.cut_threshold = 5;
+  settings.redetect_every = 1;
+  StepControl c = running();
+  c.cut = 2;
+  EndIteration{&c, settings}(0);
+  CHECK(c.detect == 1);
+  CHECK(c.cut == 0);
+  settings.redetect_every = 0;
+  EndIteration{&c, settings}(0);
+  CHECK(c.detect == 0);
 }
