@@ -5,16 +5,29 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "reference/energies/derivative.hpp"
 
 namespace ogc::reference {
+
+/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows, written out: short loops of changing length cost more than their bodies.
+template <std::size_t N, class Visit>
+[[gnu::always_inline]] inline void for_triangle(Visit visit) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto row = [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>, std::index_sequence<J...>) [[gnu::always_inline]] {
+      (visit(Row, J, Row * (Row + 1) / 2 + J), ...);
+    };
+    (row(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<I + 1>{}), ...);
+  }(std::make_index_sequence<N>{});
+}
 
 template <std::size_t N>
 struct Second {
   double value = 0;
   std::array<double, N> slope{};
   std::array<double, N*(N + 1) / 2> bend{};  ///< row i holds ∂²/∂i∂j for j ≤ i
+  bool linear = true;                        ///< bend is known to hold zeros, as of positions, edges and F: then it is not computed with
 
   Second() = default;
   Second(double constant) : value(constant) {}
@@ -22,12 +35,16 @@ struct Second {
   friend Second operator+(Second a, const Second& b) {
     a.value += b.value;
     for (std::size_t i = 0; i < N; ++i) a.slope[i] += b.slope[i];
+    if (b.linear) return a;
+    a.linear = false;
     for (std::size_t k = 0; k < a.bend.size(); ++k) a.bend[k] += b.bend[k];
     return a;
   }
   friend Second operator-(Second a, const Second& b) {
     a.value -= b.value;
     for (std::size_t i = 0; i < N; ++i) a.slope[i] -= b.slope[i];
+    if (b.linear) return a;
+    a.linear = false;
     for (std::size_t k = 0; k < a.bend.size(); ++k) a.bend[k] -= b.bend[k];
     return a;
   }
@@ -35,16 +52,19 @@ struct Second {
   friend Second operator*(double factor, Second a) {
     a.value *= factor;
     for (double& x : a.slope) x *= factor;
+    if (a.linear) return a;
     for (double& x : a.bend) x *= factor;
     return a;
   }
   friend Second operator*(const Second& a, const Second& b) {
     Second c(a.value * b.value);
-    for (std::size_t i = 0, k = 0; i < N; ++i) {
-      c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
-      for (std::size_t j = 0; j <= i; ++j, ++k)
-        c.bend[k] = a.bend[k] * b.value + a.value * b.bend[k] + (a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]);
-    }
+    c.linear = false;
+    for (std::size_t i = 0; i < N; ++i) c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
+    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k) { c.bend[k] = a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]; });
+    if (!a.linear)
+      for (std::size_t k = 0; k < c.bend.size(); ++k) c.bend[k] += a.bend[k] * b.value;
+    if (!b.linear)
+      for (std::size_t k = 0; k < c.bend.size(); ++k) c.bend[k] += a.value * b.bend[k];
     return c;
   }
   friend Second operator/(const Second& a, const Second& b) {
@@ -54,10 +74,11 @@ struct Second {
   /// f(x) from f, f' and f'' there.
   friend Second composed(double f, double first, double second, const Second& x) {
     Second result(f);
-    for (std::size_t i = 0, k = 0; i < N; ++i) {
-      result.slope[i] = first * x.slope[i];
-      for (std::size_t j = 0; j <= i; ++j, ++k) result.bend[k] = first * x.bend[k] + second * x.slope[i] * x.slope[j];
-    }
+    result.linear = false;
+    for (std::size_t i = 0; i < N; ++i) result.slope[i] = first * x.slope[i];
+    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k) { result.bend[k] = second * x.slope[i] * x.slope[j]; });
+    if (!x.linear)
+      for (std::size_t k = 0; k < result.bend.size(); ++k) result.bend[k] += first * x.bend[k];
     return result;
   }
   /// At 0 all derivatives are taken as 0, as by Derivative.
@@ -71,6 +92,7 @@ struct Second {
   friend Second atan2(const Second& y, const Second& x) {
     const double squared = x.value * x.value + y.value * y.value;
     Second angle(std::atan2(y.value, x.value));
+    angle.linear = false;
     std::array<double, N> stretch;
     for (std::size_t i = 0, k = 0; i < N; ++i) {
       stretch[i] = (x.value * x.slope[i] + y.value * y.slope[i]) / squared;

@@ -10,10 +10,11 @@ namespace {
 
 template <int Size>
 void project_sized(double* matrix, compare::HessianProjection projection) {
-  using Matrix = Eigen::Matrix<double, Size, Size, Eigen::RowMajor>;
+  using Matrix = Eigen::Matrix<double, Size, Size>;  // symmetric: rows are columns
   using Vector = Eigen::Matrix<double, Size, 1>;
   Eigen::Map<Matrix> h(matrix);
-  if (h.isZero(0)) return;
+  // What Cholesky's factorisation tells costs a hundredth of the eigenvalues.
+  if (h.isZero(0) || Eigen::LLT<Matrix>(h).info() == Eigen::Success) return;
   Eigen::SelfAdjointEigenSolver<Matrix> solver(h);
   Vector values = solver.eigenvalues();
   if (values.minCoeff() >= 0) return;

@@ -4,10 +4,22 @@
 #include <algorithm>
 #include <numeric>
 
+#include <tbb/parallel_invoke.h>
+
 namespace ogc::reference {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
+constexpr std::uint32_t worth_a_thread = 2048;
+
+/// Nodes of a tree of `count` and of one of `count + 1` primitives: halves differ by one at most, so two numbers a level are all there is.
+std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
+  if (count + 1 <= leaf_size) return {1, 1};
+  const auto halves = node_counts(count / 2);  // of ⌊count/2⌋ and ⌊count/2⌋ + 1
+  const std::uint32_t even = 1 + 2 * halves[0], odd = 1 + halves[0] + halves[1], next = 1 + 2 * halves[1];
+  const auto kept = [](std::uint32_t of, std::uint32_t nodes) { return of <= leaf_size ? 1 : nodes; };
+  return count % 2 == 0 ? std::array{kept(count, even), kept(count + 1, odd)} : std::array{kept(count, odd), kept(count + 1, next)};
+}
 
 double middle(const Box& box, std::size_t axis) { return box.low[axis] + box.high[axis]; }
 
@@ -52,11 +64,13 @@ bool meet(const Box& a, const Box& b) {
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   if (boxes_.empty()) return;
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(boxes_.size()));
+  const auto count = static_cast<std::uint32_t>(boxes_.size());
+  nodes_.resize(node_counts(count)[0]);
+  build(0, 1, 0, count);
 }
 
-void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+/// The nodes below `node` go to `free` and after it: two children, all below the first, all below the second. Each place is known beforehand.
+void BoxTree::build(std::uint32_t node, std::uint32_t free, std::uint32_t first, std::uint32_t count) {
   Box box;
   for (std::uint32_t k = first; k < first + count; ++k) include(box, boxes_[static_cast<std::size_t>(order_[k])]);
   nodes_[node].box = box;
@@ -71,11 +85,15 @@ void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count
     const double x = middle(boxes_[static_cast<std::size_t>(a)], axis), y = middle(boxes_[static_cast<std::size_t>(b)], axis);
     return x < y || (x == y && a < b);
   });
-  const auto child = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = child;
-  nodes_.resize(nodes_.size() + 2);
-  build(child, first, half);
-  build(child + 1, first + half, count - half);
+  nodes_[node].first = free;
+  const auto left = [&] { build(free, free + 2, first, half); };
+  const auto right = [&] { build(free + 1, free + 1 + node_counts(half)[0], first + half, count - half); };
+  if (count > worth_a_thread) {
+    tbb::parallel_invoke(left, right);
+  } else {
+    left();
+    right();
+  }
 }
 
 }  // namespace ogc::reference

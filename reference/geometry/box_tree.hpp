@@ -54,7 +54,7 @@ class BoxTree {
     Box box;
     std::uint32_t first = 0, count = 0;
   };
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  void build(std::uint32_t node, std::uint32_t free, std::uint32_t first, std::uint32_t count);
 
   std::vector<Box> boxes_;
   std::vector<Index> order_;

@@ -121,8 +121,10 @@ IpcEnergy IpcForces::energy(const State& x, const BarrierSet& set, double stiffn
   return result;
 }
 
-IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection) const {
-  PotentialDerivatives elastic = potential_.derivatives(x, projection);
+IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection, IpcDerivatives room) const {
+  PotentialDerivatives earlier;
+  earlier.stencil = std::move(room.stencil);
+  PotentialDerivatives elastic = potential_.derivatives(x, projection, std::move(earlier));
   IpcDerivatives result{std::move(elastic.stencil), elastic_vertices_, {}, elastic.energy_noise};
   const std::size_t first = result.stencil.size(), second = first + set.terms.size();
   result.stencil.resize(second + frictions_.size());

@@ -45,7 +45,8 @@ class IpcForces {
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
-  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, compare::HessianProjection projection) const;
+  /// `room`: an earlier result whose memory is used again: a fresh one is tens of megabytes that the kernel would have to clear.
+  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, compare::HessianProjection projection, IpcDerivatives room = {}) const;
   /// ∇ Σ b of the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 

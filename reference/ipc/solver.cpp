@@ -160,8 +160,8 @@ void IpcSolver::start_stiffness() {
     stiffness_ = bounds_.lower;
     return;
   }
-  const State energy = timed(IpcStage::derivatives, [&] { return forces_.derivatives(x_, {}, 0, compare::HessianProjection::none).gradient; });
-  stiffness_ = initial_stiffness(energy, forces_.barrier_gradient(x_, set_), bounds_);
+  timed(IpcStage::derivatives, [&] { derivatives_ = forces_.derivatives(x_, {}, 0, compare::HessianProjection::none, std::move(derivatives_)); });
+  stiffness_ = initial_stiffness(derivatives_.gradient, forces_.barrier_gradient(x_, set_), bounds_);
 }
 
 /// All prescribed vertices by the same share of their ways, the others where they are.
@@ -211,8 +211,8 @@ IpcSolver::System& IpcSolver::system() {
 
 std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (options_.iterations) add_row();
-  const IpcDerivatives derivatives = timed(IpcStage::derivatives, [&] { return forces_.derivatives(x_, set_, stiffness_, settings_.projection); });
-  const std::optional<State> p = direction(derivatives);
+  timed(IpcStage::derivatives, [&] { derivatives_ = forces_.derivatives(x_, set_, stiffness_, settings_.projection, std::move(derivatives_)); });
+  const std::optional<State> p = direction();
   if (!p) return Outcome::indefinite;
   ++metrics_.iterations;
   ++iterations_;
@@ -222,7 +222,7 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (done && pulled_home()) return Outcome::converged;
   if (!done) {
     const Bounded bound = bounded(*p);
-    const double share = searched(*p, bound, derivatives);
+    const double share = searched(*p, bound);
     if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(*p);
     if (share < smallest_share) {
       note((descend_ ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) + " of itself" +
@@ -238,24 +238,24 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   return metrics_.iterations >= settings_.ipc_iterations ? std::optional(Outcome::limit) : std::nullopt;
 }
 
-std::optional<State> IpcSolver::direction(const IpcDerivatives& derivatives) {
+std::optional<State> IpcSolver::direction() {
   System& now = system();
   const std::vector<double> diagonal = forces_.diagonal();
   State p(x_.size());
   const std::vector<std::size_t>& unknowns = now.matrix.free_vertices();
   if (descend_) {
-    for (const std::size_t v : unknowns) p[v] = (-1 / diagonal[v]) * derivatives.gradient[v];
+    for (const std::size_t v : unknowns) p[v] = (-1 / diagonal[v]) * derivatives_.gradient[v];
     return p;
   }
   const bool is_new = timed(IpcStage::assembly, [&] {
-    const bool changed = now.matrix.set_stencils(derivatives.vertices);
-    now.matrix.assemble(diagonal, derivatives.stencil);
+    const bool changed = now.matrix.set_stencils(derivatives_.vertices, forces_.potential().elastic_count());
+    now.matrix.assemble(diagonal, derivatives_.stencil);
     return changed;
   });
   std::vector<double> right;
   right.reserve(3 * unknowns.size());
   for (const std::size_t v : unknowns)
-    for (const double g : derivatives.gradient[v]) right.push_back(-g);
+    for (const double g : derivatives_.gradient[v]) right.push_back(-g);
   return timed(IpcStage::factorization, [&]() -> std::optional<State> {
     if (is_new) now.factor.analyze(now.matrix);
     if (!now.factor.factorize(now.matrix)) return {};
@@ -326,9 +326,9 @@ bool IpcSolver::intersects(const State& x) {
 }
 
 /// The share of p that was taken. A full step may also change the energy by less than its rounding: near the minimum no decrease can be seen any more.
-double IpcSolver::searched(const State& p, const Bounded& bound, const IpcDerivatives& derivatives) {
+double IpcSolver::searched(const State& p, const Bounded& bound) {
   const IpcEnergy before = timed(IpcStage::line_search, [&] { return forces_.energy(x_, set_, stiffness_); });
-  const double noise = derivatives.energy_noise + value_noise(before);
+  const double noise = derivatives_.energy_noise + value_noise(before);
   for (double share = bound.share; share > 0; share *= 0.5) {
     if (share < smallest_share) return share;
     State trial = moved(x_, share, p);

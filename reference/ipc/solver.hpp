@@ -80,11 +80,11 @@ class IpcSolver {
   Outcome solve_once();
   /// One iteration; empty where it goes on.
   std::optional<Outcome> iterate();
-  std::optional<State> direction(const IpcDerivatives& derivatives);
+  std::optional<State> direction();
   bool converged(const State& p);
   bool pulled_home();
   Bounded bounded(const State& p);
-  double searched(const State& p, const Bounded& bound, const IpcDerivatives& derivatives);
+  double searched(const State& p, const Bounded& bound);
   bool intersects(const State& x);
   void adapt_stiffness();
   void release_pull();
@@ -115,6 +115,7 @@ class IpcSolver {
 
   State start_, target_, x_;
   BarrierSet set_;                  ///< at x
+  IpcDerivatives derivatives_;      ///< of the last iteration
   double stiffness_ = 0;
   double prescribed_way_ = 0;       ///< Σ ‖t − xᵗ‖² of prescribed vertices [m²]
   std::int64_t iterations_ = 0;     ///< of this solve

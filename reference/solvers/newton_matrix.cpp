@@ -1,6 +1,7 @@
 #include "reference/solvers/newton_matrix.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -25,9 +26,13 @@ BlockMatrix::BlockMatrix(const std::vector<Mobility>& mobility) : number_(mobili
   }
 }
 
-std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVertices> stencils) const {
+bool BlockMatrix::earlier(const Share& a, const Share& b) {
+  return a.block != b.block ? a.block < b.block : a.stencil != b.stencil ? a.stencil < b.stencil : a.row < b.row;
+}
+
+std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVertices> stencils, std::size_t first) const {
   std::vector<Share> shares;
-  for (std::size_t i = 0; i < stencils.size(); ++i) {
+  for (std::size_t i = first; i < stencils.size(); ++i) {
     const StencilVertices& vertex = stencils[i];
     for (std::uint8_t k = 0; k < 4 && vertex[k] >= 0; ++k)
       for (std::uint8_t l = 0; l < 4 && vertex[l] >= 0; ++l) {
@@ -36,21 +41,29 @@ std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVe
           shares.push_back({key(static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)), static_cast<std::uint32_t>(i), k, l});
       }
   }
-  const auto order = [](const Share& a, const Share& b) {
-    return a.block != b.block ? a.block < b.block : a.stencil != b.stencil ? a.stencil < b.stencil : a.row < b.row;
-  };
-  tbb::parallel_sort(shares.begin(), shares.end(), order);
+  tbb::parallel_sort(shares.begin(), shares.end(), earlier);
   return shares;
 }
 
-bool BlockMatrix::set_stencils(std::span<const StencilVertices> stencils) {
-  shares_ = shares_of(stencils);
-  std::vector<std::uint64_t> needed;
-  needed.reserve(shares_.size() + free_.size());
-  for (const Share& share : shares_) needed.push_back(share.block);
-  for (std::size_t i = 0; i < free_.size(); ++i) needed.push_back(key(i, i));
-  std::sort(needed.begin(), needed.end());
-  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+/// Ascending: those of the shares, and the diagonal.
+std::vector<std::uint64_t> BlockMatrix::needed_blocks() const {
+  std::vector<std::uint64_t> shared, diagonal, needed;
+  for (const Share& share : shares_)
+    if (shared.empty() || shared.back() != share.block) shared.push_back(share.block);
+  for (std::size_t i = 0; i < free_.size(); ++i) diagonal.push_back(key(i, i));
+  std::set_union(shared.begin(), shared.end(), diagonal.begin(), diagonal.end(), std::back_inserter(needed));
+  return needed;
+}
+
+bool BlockMatrix::set_stencils(std::span<const StencilVertices> stencils, std::size_t steady) {
+  if (steady != steady_) {
+    steady_shares_ = shares_of(stencils.first(steady), 0);
+    steady_ = steady;
+  }
+  const std::vector<Share> others = shares_of(stencils, steady);
+  shares_.clear();
+  std::merge(steady_shares_.begin(), steady_shares_.end(), others.begin(), others.end(), std::back_inserter(shares_), earlier);
+  std::vector<std::uint64_t> needed = needed_blocks();
   const bool holds = std::includes(blocks_.begin(), blocks_.end(), needed.begin(), needed.end()) &&
                      static_cast<double>(blocks_.size()) <= most_spare * static_cast<double>(needed.size());
   if (!holds) set_pattern(std::move(needed));

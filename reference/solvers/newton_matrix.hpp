@@ -19,8 +19,8 @@ class BlockMatrix {
   /// A row of blocks for each vertex that is free.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of these stencils. Returns whether the pattern changed.
-  bool set_stencils(std::span<const StencilVertices> stencils);
+  /// Finds the blocks of these stencils, of which the first `steady` are the same in every call that gives this number. Returns whether the pattern changed.
+  bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
   /// Sums the stencils' Hessians and, by vertex, what stands on the diagonal (m/h²) [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
@@ -41,7 +41,10 @@ class BlockMatrix {
     std::uint32_t stencil = 0;
     std::uint8_t row = 0, column = 0;
   };
-  std::vector<Share> shares_of(std::span<const StencilVertices> stencils) const;
+  static bool earlier(const Share& a, const Share& b);
+  /// Of the stencils from `first` on, sorted.
+  std::vector<Share> shares_of(std::span<const StencilVertices> stencils, std::size_t first) const;
+  std::vector<std::uint64_t> needed_blocks() const;
   void set_pattern(std::vector<std::uint64_t> blocks);
   void assemble_column(std::size_t column, std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
@@ -49,7 +52,8 @@ class BlockMatrix {
   std::vector<std::int32_t> number_;                    ///< of each vertex among the free ones, or −1
   std::vector<std::uint64_t> blocks_;                   ///< ascending
   std::vector<std::size_t> block_begin_, share_begin_;  ///< by column; by block
-  std::vector<Share> shares_;
+  std::vector<Share> shares_, steady_shares_;
+  std::size_t steady_ = 0;                              ///< stencils that steady_shares_ belong to
   std::vector<std::int32_t> column_begin_, row_index_;
   std::vector<double> values_;
 };

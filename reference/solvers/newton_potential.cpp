@@ -267,29 +267,45 @@ double Potential::total(const PotentialTerms& terms) {
   return sum;
 }
 
-PotentialDerivatives Potential::derivatives(const State& x, HessianProjection projection) const {
-  PotentialDerivatives result;
+PotentialDerivatives Potential::derivatives(const State& x, HessianProjection projection, PotentialDerivatives room) const {
+  PotentialDerivatives result = std::move(room);
+  for (std::vector<double>* sums : {&result.slopes, &result.curvatures}) sums->resize(stencil_count());
   result.stencil.resize(stencil_count());
-  tbb::parallel_for(std::size_t{0}, result.stencil.size(), [&](std::size_t i) { result.stencil[i] = differentiate(i, x, projection); });
+  tbb::parallel_for(std::size_t{0}, result.stencil.size(), [&](std::size_t i) {
+    result.stencil[i] = differentiate(i, x, projection);
+    measure(i, result);
+  });
   sum_gradient(x, result);
   return result;
+}
+
+/// Moduli, for what rounding does.
+void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const {
+  const StencilDerivatives& derivatives = result.stencil[stencil];
+  const auto vertex = vertices(stencil);
+  double slopes = 0, curvatures = 0;
+  for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
+    if (mobility_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
+    for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
+      slopes += std::abs(derivatives.gradient[row]);
+      for (std::size_t column = 0; column < 12; ++column) curvatures += std::abs(derivatives.hessian[12 * row + column]);
+    }
+  }
+  result.slopes[stencil] = slopes;
+  result.curvatures[stencil] = curvatures;
 }
 
 void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const {
   result.gradient.assign(x.size(), {});
   double slopes = 0, curvatures = 0;
   for (std::size_t i = 0; i < result.stencil.size(); ++i) {
-    const StencilDerivatives& stencil = result.stencil[i];
+    slopes += result.slopes[i];
+    curvatures += result.curvatures[i];
     const auto vertex = vertices(i);
     for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
       const auto v = static_cast<std::size_t>(vertex[k]);
       if (mobility_[v] != Mobility::free) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t row = 3 * k + axis;
-        result.gradient[v][axis] += stencil.gradient[row];
-        slopes += std::abs(stencil.gradient[row]);
-        for (std::size_t column = 0; column < 12; ++column) curvatures += std::abs(stencil.hessian[12 * row + column]);
-      }
+      for (std::size_t axis = 0; axis < 3; ++axis) result.gradient[v][axis] += result.stencil[i].gradient[3 * k + axis];
     }
   }
   for (std::size_t v = 0; v < x.size(); ++v) {

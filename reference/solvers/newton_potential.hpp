@@ -30,6 +30,7 @@ struct PotentialTerms {
 /// Derivatives at one state.
 struct PotentialDerivatives {
   std::vector<StencilDerivatives> stencil;
+  std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
   State gradient;  ///< by vertex; 0 where not free [N]
   /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums of |∂²E| and of |∂E|.
   double force_noise = 0, energy_noise = 0;  ///< [N], [J]
@@ -51,9 +52,11 @@ class Potential {
   /// E(to) − E(from), the same stencils in both.
   static double change(const PotentialTerms& from, const PotentialTerms& to);
   static double total(const PotentialTerms& terms);
-  PotentialDerivatives derivatives(const State& x, compare::HessianProjection projection) const;
+  /// `room`: an earlier result whose memory is used again.
+  PotentialDerivatives derivatives(const State& x, compare::HessianProjection projection, PotentialDerivatives room = {}) const;
 
-  std::size_t stencil_count() const { return membranes_.size() + hinges_.size() + springs_.size() + contacts_.size() + frictions_.size(); }
+  std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
+  std::size_t elastic_count() const { return membranes_.size() + hinges_.size() + springs_.size(); }  ///< the first stencils: those that never change
   /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
@@ -79,6 +82,7 @@ class Potential {
   void add_contact(const ContactStencil& stencil, const State& detected);
   double stencil_energy(std::size_t stencil, const State& x) const;
   StencilDerivatives differentiate(std::size_t stencil, const State& x, compare::HessianProjection projection) const;
+  void measure(std::size_t stencil, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;
 
   const compare::Scene& scene_;

@@ -74,9 +74,9 @@ NewtonSolver::Outcome NewtonSolver::solve_once() {
   return Outcome::iteration_limit;
 }
 
-double NewtonSolver::mean_force(const PotentialDerivatives& derivatives) const {
+double NewtonSolver::mean_force() const {
   double sum = 0;
-  for (const Triple<double>& g : derivatives.gradient) sum += length(g);
+  for (const Triple<double>& g : derivatives_.gradient) sum += length(g);
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
 }
 
@@ -87,12 +87,11 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   if (detects) detect_here();
   pattern_stale_ = pattern_stale_ || detects;
   const std::size_t prescribed_cut = move_prescribed();
-  const PotentialDerivatives derivatives =
-      timed(derivation, [&] { return potential_.derivatives(x_, settings_.projection); });
-  const double force = mean_force(derivatives);
+  timed(derivation, [&] { derivatives_ = potential_.derivatives(x_, settings_.projection, std::move(derivatives_)); });
+  const double force = mean_force();
   if (!std::isfinite(force)) return Outcome::not_finite;
   set_residual(force);
-  const bool small = settings_.newton_tolerance > 0 && force <= std::max(settings_.newton_tolerance * reference_force_, derivatives.force_noise);
+  const bool small = settings_.newton_tolerance > 0 && force <= std::max(settings_.newton_tolerance * reference_force_, derivatives_.force_noise);
   if (options_.iterations) rows_.push_back(new_row(detects));
   if (small && (fresh_ || nothing_near())) return Outcome::converged;
   if (judging_ && judgements_ >= most_judgements) return Outcome::converged;
@@ -102,15 +101,15 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
     ++judgements_;
     return {};
   }
-  return advance(derivatives, prescribed_cut);
+  return advance(prescribed_cut);
 }
 
 /// Solves, truncates, searches along the line.
-std::optional<NewtonSolver::Outcome> NewtonSolver::advance(const PotentialDerivatives& derivatives, std::size_t prescribed_cut) {
-  if (!factorized(derivatives)) return Outcome::indefinite;
-  const Direction direction = direction_of(derivatives);
+std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribed_cut) {
+  if (!factorized()) return Outcome::indefinite;
+  const Direction direction = direction_of();
   if (!std::isfinite(direction.largest)) return Outcome::not_finite;
-  const double share = timed(line_search, [&] { return searched(direction, derivatives); });
+  const double share = timed(line_search, [&] { return searched(direction); });
   ++metrics_.iterations;
   ++iterations_since_;
   cut_ = direction.cut + prescribed_cut;
@@ -127,20 +126,20 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(const PotentialDeriva
   return {};
 }
 
-bool NewtonSolver::factorized(const PotentialDerivatives& derivatives) {
+bool NewtonSolver::factorized() {
   timed(assembly, [&] {
-    if (pattern_stale_ && matrix_.set_stencils(potential_.vertices())) timed(factorization, [&] { factor_.analyze(matrix_); });
+    if (pattern_stale_ && matrix_.set_stencils(potential_.vertices(), potential_.elastic_count())) timed(factorization, [&] { factor_.analyze(matrix_); });
     pattern_stale_ = false;
-    matrix_.assemble(potential_.inertias(), derivatives.stencil);
+    matrix_.assemble(potential_.inertias(), derivatives_.stencil);
   });
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-NewtonSolver::Direction NewtonSolver::direction_of(const PotentialDerivatives& derivatives) {
+NewtonSolver::Direction NewtonSolver::direction_of() {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
   std::vector<double> right;
   for (const std::size_t v : free)
-    for (const double g : derivatives.gradient[v]) right.push_back(-g);
+    for (const double g : derivatives_.gradient[v]) right.push_back(-g);
   const std::vector<double> solution = timed(factorization, [&] { return factor_.solve(right); });
   Direction direction{State(x_.size()), State(x_.size()), 0, 0};
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -156,9 +155,9 @@ NewtonSolver::Direction NewtonSolver::direction_of(const PotentialDerivatives& d
 }
 
 /// method.md §7: along δ' first, then along δ scaled to fit all balls. The share of it that was taken, or 0.
-double NewtonSolver::searched(const Direction& direction, const PotentialDerivatives& derivatives) {
+double NewtonSolver::searched(const Direction& direction) {
   const PotentialTerms before = potential_.terms(x_);
-  const double noise = derivatives.energy_noise + value_noise(before);
+  const double noise = derivatives_.energy_noise + value_noise(before);
   if (const double share = backtracked(direction.truncated, 1, before, noise); share > 0) return share;
   double room = 1;
   for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));

@@ -52,15 +52,16 @@ class NewtonSolver : public StepSolver, private ContactStep {
   Outcome solve_once();
   /// One round of the loop; empty where it goes on.
   std::optional<Outcome> iterate();
-  std::optional<Outcome> advance(const PotentialDerivatives& derivatives, std::size_t prescribed_cut);
-  double mean_force(const PotentialDerivatives& derivatives) const;
-  bool factorized(const PotentialDerivatives& derivatives);
-  Direction direction_of(const PotentialDerivatives& derivatives);
-  double searched(const Direction& direction, const PotentialDerivatives& derivatives);
+  std::optional<Outcome> advance(std::size_t prescribed_cut);
+  double mean_force() const;
+  bool factorized();
+  Direction direction_of();
+  double searched(const Direction& direction);
   double backtracked(const State& delta, double share, const PotentialTerms& before, double noise);
 
   BlockMatrix matrix_;
   Factor factor_;
+  PotentialDerivatives derivatives_;  ///< of the last iteration
   bool judge_next_ = false, judging_ = false;  ///< contacts are detected to judge a solve that has converged with those before
   int judgements_ = 0;
   bool pattern_stale_ = true;

@@ -267,6 +267,31 @@ TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alo
   CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.015).epsilon(1e-6));
 }
 
+/// Halvings of the line search ask for more discrete detections than iterations; the guard's broad phases are one for each trial state that lowers the energy.
+TEST_CASE("IPC: with CCD of all pairs no accepted step intersects, the guard never shortens one, and the minimiser is that of partial CCD", "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.ipc_tolerance = 1e-6;
+  scene.settings.ipc_ccd = compare::IpcCcd::full;
+  Stepper full(scene);
+  scene.settings.ipc_ccd = compare::IpcCcd::partial;
+  Stepper partial(scene);
+  int accepted = 0;
+  full.solver.on_accepted = [&](double, double) { ++accepted; };
+  for (int step = 0; step < 15; ++step) {
+    accepted = 0;
+    const compare::StepMetrics row = full.step();
+    REQUIRE(row.status == compare::step_clean);
+    REQUIRE_FALSE(full.intersects());
+    // One broad phase at the start, one for each bound; what is left are guards, and each of them let its step pass.
+    const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
+    CHECK(guards == accepted);
+    REQUIRE(partial.step().status == compare::step_clean);
+    for (std::size_t v = 0; v < full.x.size(); ++v)
+      for (std::size_t axis = 0; axis < 3; ++axis) CHECK(full.x[v][axis] == Approx(partial.x[v][axis]).margin(1e-6));
+    partial.x = full.x, partial.v = full.v;
+  }
+}
+
 TEST_CASE("IPC: threads change no bit, and a run does not depend on those before", "[property]") {
   const Run one = [] {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);

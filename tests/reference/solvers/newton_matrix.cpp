@@ -94,6 +94,27 @@ TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition
   CHECK(condition_number(matrix, factor) == Approx(values.maxCoeff() / values.minCoeff()).epsilon(1e-5));
 }
 
+TEST_CASE("a matrix that keeps the order of its steady stencils has the bits of one that sorts all of them", "[property]") {
+  const Pressed pressed;
+  Potential potential(pressed.scene, pressed.topology);
+  potential.begin_step(pressed.x, pressed.x);
+  BlockMatrix kept(potential.mobility());
+  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups, compare::to_single(pressed.scene.mesh.positions), 6e-3f);
+  REQUIRE(detected.sets.vertex_facet.size() > 3);
+  PotentialDerivatives derivatives;
+  for (const bool touching : {true, false, true}) {
+    potential.set_contacts(touching ? detected.sets : ContactSets{}, pressed.x);
+    derivatives = potential.derivatives(pressed.x, HessianProjection::clamp, std::move(derivatives));
+    BlockMatrix fresh(potential.mobility());
+    fresh.set_stencils(potential.vertices());
+    kept.set_stencils(potential.vertices(), potential.elastic_count());
+    for (BlockMatrix* matrix : {&fresh, &kept}) matrix->assemble(potential.inertias(), derivatives.stencil);
+    const std::vector<double> ones(kept.rows(), 1);
+    CHECK(kept.times(ones) == fresh.times(ones));  // the kept pattern may hold blocks of zeros
+    CHECK(derivatives.stencil.size() == potential.stencil_count());
+  }
+}
+
 TEST_CASE("the gradient of the potential is the slope of its energy along any direction", "[property]") {
   const Pressed pressed;
   Potential potential(pressed.scene, pressed.topology);
