@@ -34,13 +34,18 @@ Strain<T> strain(const Deformation<T>& f) {
   return {0.5 * (dot(f[0], f[0]) - T(1.0)), 0.5 * dot(f[0], f[1]), 0.5 * (dot(f[1], f[1]) - T(1.0))};
 }
 
-/// μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ [J/m²].
+/// μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ [J/m²]. Near rest the first two terms cancel, and their rounding would be more than all of
+/// the energy of a cloth in free fall; ‖F‖² − 2 J = (‖F‖⁴ − 4 J²)/(‖F‖² + 2 J), whose numerator is a sum of squares, loses nothing.
 template <class T, class Lame>
 T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& mu) {
   using std::sqrt;
   const Triple<T> normal = cross(f[0], f[1]);
-  const T grown = sqrt(dot(normal, normal)) - T(1.0);
-  return Lame(0.5) * mu * (dot(f[0], f[0]) + dot(f[1], f[1]) - T(2.0)) - mu * grown + Lame(0.5) * (lambda + mu) * grown * grown;
+  const T squared[] = {dot(f[0], f[0]), dot(f[1], f[1])}, both = dot(f[0], f[1]);
+  const T size = sqrt(dot(normal, normal)), grown = size - T(1.0), size_of_f = squared[0] + squared[1];
+  const T bulk = Lame(0.5) * (lambda + mu) * grown * grown;
+  if (plain(size) == 0) return Lame(0.5) * mu * (size_of_f - T(2.0)) - mu * grown + bulk;  // collapsed: J has no derivatives
+  const T unequal = squared[0] - squared[1];
+  return Lame(0.5) * mu * ((unequal * unequal + T(4.0) * both * both) / (size_of_f + T(2.0) * size)) + bulk;
 }
 
 }  // namespace ogc::reference

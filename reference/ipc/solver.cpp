@@ -265,8 +265,9 @@ std::optional<State> IpcSolver::direction() {
   });
 }
 
-/// Both published rules want a step to be taken at least once.
+/// Both published rules want a step to be taken at least once. Where p is lost in the last bit of the positions no rule can ask for more.
 bool IpcSolver::converged(const State& p) {
+  if (iterations_ > 1 && largest_component(p) <= 0x1p-52 * largest_component(x_)) return true;
   if (settings_.ipc_stopping == compare::IpcStopping::displacement)
     return iterations_ > 1 && largest_component(p) < settings_.ipc_tolerance * scale_.diagonal * settings_.time_step;
   double sum = 0;

@@ -261,3 +261,21 @@ TEST_CASE("activations: each vanishes with its slope at r and pushes apart below
     else CHECK(jump < 1e-9 * k * r);
   }
 }
+
+/// Printed as a difference of terms of the size of μ the energy would be lost below strains of 10⁻⁸.
+TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small strains, not the rounding of its terms", "[property]") {
+  MembraneTerm term;
+  term.model = compare::MembraneModel::stable_neo_hookean;
+  term.gradient = {{{-1, -1}, {1, 0}, {0, 1}}};
+  term.area = 0.5;
+  term.lambda = 7;
+  term.mu = 10;
+  for (const double size : {0x1p-20, 0x1p-30, 0x1p-40}) {
+    const Corners<3> x{Triple<double>{0, 0, 0}, Triple<double>{1 + size, 0, 0}, Triple<double>{size, 1 + 2 * size, 0}};
+    // G to first order: ε, ε/2, 2 ε.
+    const double expected = 0.5 * size * size * (0.5 * 7 * 9 + 10 * (1 + 2 * 0.25 + 4));
+    CHECK(term.energy(x) == Approx(expected).epsilon(4 * size));
+    const StencilDerivatives at = stencil_derivatives<3>(x, HessianProjection::none, [&](const auto& v) { return term.energy(v); });
+    CHECK(at.gradient[3] == Approx(0.5 * size * (7 * 3 + 2 * 10)).epsilon(8 * size + 0x1p-50 / size));
+  }
+}
