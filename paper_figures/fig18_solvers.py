@@ -1,15 +1,18 @@
 """Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene, frames of the first run, and the ratios beside the paper's."""
 
+import json
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.common import baseline_arguments, label, options_of
+from paper_figures import in_time
+from paper_figures.common import baseline_arguments, options_of
+from paper_figures.common import label as solver_of
 from paper_figures.fig18_cloth_on_sphere import CAMERA
 from paper_figures.runs import provenance, run_once, write_table
 from plots import style
-from plots.run_folder import RunError
+from plots.run_folder import Run, RunError
 from plots.scene_figure import draw_frames
 
 # How much slower IPC is on average (CPU), as the paper says in the text beside Fig. 18.
@@ -17,6 +20,30 @@ CLAIMS = {"newton": 9.2, "vbd": 128.0}
 
 
 SCENE = "cloth_on_sphere"
+
+
+class Joined(Run):
+    """Parts of one run (paper_figures.in_time) as one run: steps that a later part made again are the later part's."""
+
+    def __init__(self, folders):
+        super().__init__(folders[0])
+        frames = {path.name: path for path in self.frames}
+        for folder in folders[1:]:
+            part = Run(folder)
+            keep = self.steps["step"] < part.steps["step"][0]
+            self.steps = {name: np.concatenate([values[keep], part.steps[name]]) for name, values in self.steps.items()}
+            frames.update({path.name: path for path in part.frames})
+            self.manifest["status"] = part.status
+        self.frames = [frames[name] for name in sorted(frames)]
+        used = [json.loads((folder / in_time.PROCESSOR_TIME).read_text()) for folder in folders if (folder / in_time.PROCESSOR_TIME).is_file()]
+        if len(used) == len(folders):
+            self.processor_ms = 1e3 * sum(sum(part.values()) for part in used)  # of the program, start and audit included
+
+
+def label(run):
+    """The solver, and how far it came where it was stopped."""
+    last, whole = int(run.column("step")[-1]), int(run.setting("steps"))
+    return solver_of(run) + (f", first {last} of {whole} steps" if last < whole else "")
 
 
 def detections(run):
@@ -56,7 +83,7 @@ def rows(runs):
     for run in runs:
         wall = run.column("wall")
         row = {**provenance(run), "steps": len(wall), "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)), "worst [ms]": float(wall.max()),
-               "iterations a step": float(np.mean(run.column("iterations")))}
+               "processor time [ms]": getattr(run, "processor_ms", np.nan) / len(wall), "iterations a step": float(np.mean(run.column("iterations")))}
         for kind in ("vertex_facet_contacts", "edge_edge_contacts", "broad_phases", "discrete_detections", "continuous_detections"):
             row[f"{kind.replace('_', ' ')} a step"] = float(np.mean(run.column(kind)))
         row["stages [% of the time]"] = "; ".join(f"{name} {100 * np.sum(times) / np.sum(wall):.3g}" for name, times in run.stage_columns().items())
@@ -66,11 +93,12 @@ def rows(runs):
 
 def draw(runs, out):
     for run in runs:
-        run.require_finished()
+        if run.status != "interrupted":
+            run.require_finished()
     plt = style.use()
     figure = plt.figure(figsize=(11, 9))
     grid = figure.add_gridspec(3, 4, height_ratios=[0.9, 1, 1])
-    draw_frames(figure, [grid[0, i] for i in range(4)], runs[0], [round(f * runs[0].column("step")[-1]) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
+    draw_frames(figure, [grid[0, i] for i in range(4)], runs[0], [round(f * runs[0].setting("steps")) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
     linear, logarithmic, counts = figure.add_subplot(grid[1, :2]), figure.add_subplot(grid[1, 2:]), figure.add_subplot(grid[2, :2])
     for run, dash in zip(runs, style.DASHES):
         for axes in (linear, logarithmic):
@@ -90,17 +118,20 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """IPC's run first; each is done once."""
+    """IPC's run first; each is done once, or taken from the parts that there are."""
     folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "end"]
-    solvers = [("ipc", ["--solver", "ipc", "--profile"]), ("newton", ["--solver", "newton", "--profile"]), ("vbd", [])]
-    if arguments.cuda:
-        solvers.append(("vbd_cuda", ["--backend", "cuda"]))
-    return [run_once(arguments.ogc, [*base, *more], folder / name) for name, more in solvers]
+    if arguments.parts:
+        found = [Joined(in_time.parts(folder / name)) for name in in_time.SOLVERS if in_time.parts(folder / name)]
+        if not found:
+            raise RunError(f"{folder} has no parts; make them with: python3 -m paper_figures.in_time {folder}")
+        return found
+    return [run_once(arguments.ogc, [*base, *more], folder / name) for name, more in in_time.SOLVERS.items() if name != "vbd_cuda" or arguments.cuda]
 
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0])
     parser.add_argument("--cuda", action="store_true", help="VBD-OGC on CUDA, too")
+    parser.add_argument("--parts", action="store_true", help="draw what paper_figures.in_time has made in the folder, and run nothing")
     options = parser.parse_args()
     try:
         found = runs_of(options)
