@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -25,7 +26,9 @@ class GeneratorRun {
  public:
   GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant, const Authority& authority,
                const JudgeOptions& options)
-      : stage_(stage), generator_(generator), wanted_(cases), contestant_(contestant), authority_(authority), options_(options), merged_(stage) {}
+      : stage_(stage), generator_(generator), wanted_(cases), contestant_(contestant), authority_(authority), options_(options), merged_(stage) {
+    if (!is_mesh_stage(stage)) batches_ = (cases + options.batch - 1) / options.batch;
+  }
 
   Tally run(std::uint64_t cases_before, std::uint64_t mismatches_before) {
     cases_before_ = cases_before;
@@ -55,12 +58,14 @@ class GeneratorRun {
       std::uint64_t number = 0;
       {
         const std::lock_guard lock(mutex_);
-        if (stopped_) return;
+        if (stopped_ || next_ == batches_) return;
         number = next_++;
       }
       try {
         Tally tally(stage_);
-        ask_narrowing(stage_, batch(number), contestant_, authority_, contestant_turn_, failures_allowed, tally);
+        const std::vector<TestCase> cases = batch(number);
+        ask_narrowing(stage_, cases, contestant_, authority_, contestant_turn_, failures_allowed, tally);
+        tally.questions = cases.size();
         merge(number, std::move(tally));
       } catch (...) {
         const std::lock_guard lock(mutex_);
@@ -86,6 +91,7 @@ class GeneratorRun {
   Stage stage_;
   const Generator& generator_;
   std::uint64_t wanted_;
+  std::uint64_t batches_ = std::numeric_limits<std::uint64_t>::max();  ///< of a mesh stage not known beforehand
   const Contestant& contestant_;
   const Authority& authority_;
   const JudgeOptions& options_;
@@ -170,6 +176,7 @@ std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Cont
     const auto start = std::chrono::steady_clock::now();
     report.skipped = !can_judge(stage, contestant, authority);
     if (!report.skipped) ask_narrowing(stage, mine, contestant, authority, turn, failures_allowed, report.tally);
+    report.tally.questions = mine.size();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     reports.push_back(std::move(report));
   }

@@ -26,14 +26,14 @@ std::string cell(const std::string& text, const std::string& kind = "") {
 
 std::string row_html(const StageReport& report, const ReportRow& row, bool loose) {
   std::string html = report.passed() || report.skipped ? "<tr>" : "<tr class=\"wrong\">";
-  for (std::size_t c = 0; c < row.size(); ++c) html += cell(row[c], c == 5 ? "words" : c == 10 && loose ? "loose" : "");
+  for (std::size_t c = 0; c < row.size(); ++c) html += cell(row[c], c == 6 ? "words" : c == 11 && loose ? "loose" : "");
   return html + "</tr>\n";
 }
 
 std::string main_table(std::span<const StageReport> reports) {
   std::string html = "<table>\n<tr>";
   const ReportRow columns = report_columns();
-  for (std::size_t c = 0; c < columns.size(); ++c) html += (c == 5 ? "<th class=\"words\">" : "<th>") + escaped(columns[c]) + "</th>";
+  for (std::size_t c = 0; c < columns.size(); ++c) html += (c == 6 ? "<th class=\"words\">" : "<th>") + escaped(columns[c]) + "</th>";
   html += "</tr>\n";
   for (const StageReport& report : reports) {
     const auto infos = metrics(report.tally.stage);
@@ -77,11 +77,11 @@ std::string metrics_html(const Tally& tally) {
 }
 
 std::string generators_html(const Tally& tally) {
-  std::string html = "<details><summary>generators</summary><table>\n<tr><th>generator</th><th>cases</th><th>decisions</th><th>grey</th><th>near</th>"
+  std::string html = "<details><summary>generators</summary><table>\n<tr><th>generator</th><th>cases</th><th>decisions</th><th>grey</th><th>not exact</th><th>near</th>"
                      "<th>mismatches</th></tr>\n";
   for (const auto& [name, row] : tally.generators)
     html += "<tr>" + cell(name) + cell(std::to_string(row.cases)) + cell(std::to_string(row.decisions)) + cell(std::to_string(row.grey)) +
-            cell(std::to_string(row.near)) + cell(std::to_string(row.mismatches)) + "</tr>\n";
+            cell(std::to_string(row.not_exact)) + cell(std::to_string(row.near)) + cell(std::to_string(row.mismatches)) + "</tr>\n";
   return html + "</table></details>\n";
 }
 
@@ -97,7 +97,7 @@ std::string mismatches_html(const Tally& tally) {
 std::string report_page(std::span<const StageReport> reports, const std::string& heading) {
   std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(heading) + "</title><style>";
   html += std::string(style) + "</style></head><body>\n<h1>" + escaped(heading) + "</h1>\n" + main_table(reports);
-  html += "<p>Grey share: decisions of the generic generators that lie within 16 u of a boundary. Near share: cases within 2<sup>10</sup> ulp of one. "
+  html += "<p>" + escaped(report_total(reports)) + "</p>\n<p>Grey share: decisions of the generic generators that lie within 16 u of a boundary. Not exact: grey decisions of all generators that are answered otherwise than exactly. Near share: cases within 2<sup>10</sup> ulp of one. "
           "Room: how many times what is accepted exceeds the largest error; marked where loose, above 50. Histograms count errors by powers of two of "
           "their unit, on a logarithmic scale; the dashed line is what is accepted.</p>\n";
   for (const StageReport& report : reports) {

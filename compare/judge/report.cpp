@@ -37,7 +37,7 @@ std::string print_rows(const std::vector<ReportRow>& rows) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string gap(widths[c] - width(row[c]), ' ');
-      const bool left = c == 0 || c == 5;
+      const bool left = c == 0 || c == 6;
       line += (c == 0 ? "" : "  ") + (left ? row[c] + gap : gap + row[c]);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
@@ -63,7 +63,7 @@ std::string verdict(const StageReport& report) {
 }
 
 ReportRow report_columns() {
-  return {"stage", "cases", "mismatches", "grey share", "near share", "error [unit]", "median", "99.9 %", "maximum", "accepted", "room", "cases/s"};
+  return {"stage", "cases", "mismatches", "grey share", "not exact", "near share", "error [unit]", "median", "99.9 %", "maximum", "accepted", "room", "cases/s"};
 }
 
 std::vector<ReportRow> report_rows(const StageReport& report) {
@@ -77,17 +77,18 @@ std::vector<ReportRow> report_rows(const StageReport& report) {
       row[1] = std::to_string(tally.total().cases);
       row[2] = report.skipped ? "skipped" : std::to_string(tally.mismatched);
       row[3] = print("%.2g", tally.grey_share());
-      row[4] = stage_info(tally.stage).has_boundary ? print("%.2g", tally.near_share()) : "–";
-      row[11] = print("%.3g", speed(report));
+      row[4] = std::to_string(tally.total().not_exact);
+      row[5] = stage_info(tally.stage).has_boundary ? print("%.2g", tally.near_share()) : "–";
+      row[12] = print("%.3g", speed(report));
     }
     if (infos.empty()) return {row};  // all answers are discrete
     const MetricTally& metric = tally.metrics[i];
-    row[5] = std::string(infos[i].name) + " [" + std::string(infos[i].unit) + "]";
-    row[6] = print("%.3g", metric.errors.quantile(0.5));
-    row[7] = print("%.3g", metric.errors.quantile(0.999));
-    row[8] = print("%.3g", metric.errors.maximum());
-    row[9] = print("%g", infos[i].tolerance);
-    row[10] = metric.errors.count() == 0 ? "" : print("%.3g", metric.room(infos[i]));
+    row[6] = std::string(infos[i].name) + " [" + std::string(infos[i].unit) + "]";
+    row[7] = print("%.3g", metric.errors.quantile(0.5));
+    row[8] = print("%.3g", metric.errors.quantile(0.999));
+    row[9] = print("%.3g", metric.errors.maximum());
+    row[10] = print("%g", infos[i].tolerance);
+    row[11] = metric.errors.count() == 0 ? "" : print("%.3g", metric.room(infos[i]));
     rows.push_back(row);
   }
   return rows;
@@ -97,8 +98,8 @@ Json report_json(const StageReport& report) {
   const Tally& tally = report.tally;
   const GeneratorTally total = tally.total();
   const Json near_share = stage_info(tally.stage).has_boundary ? Json(tally.near_share()) : Json();
-  Json json{{"stage", stage_name(tally.stage)}, {"verdict", verdict(report)},           {"cases", total.cases},
-            {"mismatches", tally.mismatched},   {"grey", total.grey},                   {"decisions", total.decisions},
+  Json json{{"stage", stage_name(tally.stage)}, {"verdict", verdict(report)},           {"cases", total.cases}, {"questions", tally.questions},
+            {"mismatches", tally.mismatched},   {"grey", total.grey},                   {"decisions", total.decisions}, {"grey_not_exact", total.not_exact},
             {"grey_share_generic", tally.grey_share()}, {"near", total.near}, {"near_share", near_share},
             {"seconds", report.seconds}, {"cases_per_second", speed(report)},
             {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
@@ -113,18 +114,31 @@ Json report_json(const StageReport& report) {
                                {"worst", metric.errors.count() ? print_problem(metric.worst) : ""}});
   }
   for (const auto& [name, row] : tally.generators)
-    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"near", row.near},
+    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"not_exact", row.not_exact}, {"near", row.near},
                                   {"mismatches", row.mismatches}});
   json["listed"] = Json::array();
   for (const Mismatch& item : tally.mismatches) json["listed"].push_back({{"problem", print_problem(item.name)}, {"message", item.message}});
   return json;
 }
 
+std::string report_total(std::span<const StageReport> reports) {
+  GeneratorTally sum;
+  for (const StageReport& report : reports) {
+    const GeneratorTally total = report.tally.total();
+    sum.cases += total.cases;
+    sum.near += total.near;
+    sum.mismatches += report.tally.mismatched;
+  }
+  const double share = sum.cases > 0 ? static_cast<double>(sum.near) / static_cast<double>(sum.cases) : 0;
+  return "all stages: " + std::to_string(sum.cases) + " cases, " + std::to_string(sum.mismatches) + " mismatches, " + print("%.3g", 100 * share) +
+         " % of all cases within 2^10 ulp of a decision boundary";
+}
+
 std::string report_table(std::span<const StageReport> reports) {
   std::vector<ReportRow> rows{report_columns()};
   for (const StageReport& report : reports)
     for (const ReportRow& row : report_rows(report)) rows.push_back(row);
-  std::string text = print_rows(rows);
+  std::string text = print_rows(rows) + "\n" + report_total(reports) + "\n";
   for (const StageReport& report : reports) {
     if (report.skipped) continue;
     text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";

@@ -17,16 +17,19 @@ namespace ogc::compare {
 /// generator's counts.
 nlohmann::ordered_json report_json(const StageReport& report);
 
-/// The columns of report_table, and one row a metric: stage, cases, mismatches, grey share, share near a boundary, error and its unit, median, 99.9 %, maximum
+/// The columns of report_table, and one row a metric: stage, cases, mismatches, grey share, grey decisions answered otherwise than exactly, share near a boundary, error and its unit, median, 99.9 %, maximum
 /// and tolerance in that unit, their ratio, cases per second. What belongs to a stage stands in its first row.
-using ReportRow = std::array<std::string, 12>;
+using ReportRow = std::array<std::string, 13>;
 ReportRow report_columns();
 std::vector<ReportRow> report_rows(const StageReport& report);
 
 /// "passed", "skipped", or what went wrong.
 std::string verdict(const StageReport& report);
 
-/// All rows, then verdict, loose tolerances and worst cases of each stage.
+/// One line over all stages: cases, mismatches, the share of all cases near a boundary.
+std::string report_total(std::span<const StageReport> reports);
+
+/// All rows, that line, then verdict, loose tolerances and worst cases of each stage.
 std::string report_table(std::span<const StageReport> reports);
 
 /// The listed mismatches, problem string and message, at most `limit` a generator, then the count of all others.

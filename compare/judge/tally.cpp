@@ -27,6 +27,7 @@ void accumulate(GeneratorTally& sum, const GeneratorTally& row) {
   sum.grey += row.grey;
   sum.near += row.near;
   sum.mismatches += row.mismatches;
+  sum.not_exact += row.not_exact;
 }
 
 constexpr std::array<MetricInfo, 3> face_metrics{{{"distance", "u max(d, Σ|δ|)", closest_face_distance_tolerance},
@@ -168,6 +169,7 @@ void Tally::add(const Tally& other) {
     if (++kept[item.name.generator] <= listed) mismatches.push_back(item);
   for (const auto& [name, row] : other.generators) accumulate(generators[name], row);
   mismatched += other.mismatched;
+  questions += other.questions;
   failures += other.failures;
   contestant_seconds += other.contestant_seconds;
   authority_seconds += other.authority_seconds;

@@ -63,6 +63,7 @@ struct Mismatch {
 
 struct GeneratorTally {
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
+  std::uint64_t not_exact = 0;  ///< grey decisions of a discrete answer that was accepted and is not the exact one
 };
 
 /// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge (detect_edge_edge) or question (block),
@@ -80,6 +81,8 @@ class Tally {
     if (const auto excess = note_error(metric, value)) mismatch(*excess + where());
   }
   void mismatch(std::string message);
+  /// Grey decisions are answered otherwise than exactly, and accepted.
+  void answered_not_exactly(std::uint64_t count = 1) { row_->not_exact += count; }
   void add(const Tally& other);
 
   Stage stage;
@@ -87,6 +90,7 @@ class Tally {
   std::map<std::string, GeneratorTally> generators;
   std::vector<Mismatch> mismatches;       ///< the first of each generator, at most `listed`
   std::uint64_t mismatched = 0;           ///< all of them
+  std::uint64_t questions = 0;            ///< generated cases: of a mesh stage meshes, sweeps or steps
   std::uint64_t failures = 0;             ///< of them, cases to which the contestant gave no answer (ContestantFailure)
   double contestant_seconds = 0, authority_seconds = 0;
   static constexpr std::uint64_t listed = 20;

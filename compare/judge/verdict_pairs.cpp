@@ -38,6 +38,7 @@ void judge_face(std::size_t i, const ClosestFaceTruth& truth, const ClosestFaceO
     tally.mismatch("feature: " + std::to_string(feature) + ", exact " + std::to_string(static_cast<unsigned>(truth.exact.feature[i])));
     return;
   }
+  if (out.feature[i] != truth.exact.feature[i]) tally.answered_not_exactly();
   const double scale = std::max(truth.distance[i], size);
   tally.error(0, in_units(std::abs(out.distance[i] - truth.distance[i]), scale), [&] { return text("%.9g, exact %.17g", out.distance[i], truth.distance[i]); });
   double worst = 0;
@@ -64,6 +65,7 @@ void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestP
     tally.mismatch("features: code " + std::to_string(answer) + ", exact " + std::to_string(exact) + " (first + 3 second + 9 nearly parallel)");
     return;
   }
+  if (answer != exact) tally.answered_not_exactly();
   for (const float t : out.parameters[i]) {
     if (t >= 0 && t <= 1) continue;
     tally.mismatch(text("parameters: (%.9g, %.9g) is not within [0, 1]", out.parameters[i][0], out.parameters[i][1]));

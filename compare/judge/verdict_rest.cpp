@@ -129,7 +129,11 @@ void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& 
     return;
   }
   for (std::size_t i = 0; i < questions.size(); ++i) {
-    if (out.inside[i] <= 1 && (out.inside[i] == truth.inside[i] || truth.grey[i])) continue;
+    if (out.inside[i] == truth.inside[i]) continue;
+    if (out.inside[i] <= 1 && truth.grey[i]) {
+      tally.answered_not_exactly();
+      continue;
+    }
     tally.mismatch("question " + std::to_string(i) + ", " + print(questions[i]) + ": " + std::to_string(out.inside[i]) + ", exact " +
                    std::to_string(truth.inside[i]));
   }

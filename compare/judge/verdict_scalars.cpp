@@ -71,6 +71,7 @@ void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& trut
       tally.mismatch("exceeded: " + std::to_string(out.exceeded[i]) + ", exact " + std::to_string(truth.exceeded[i]));
       continue;
     }
+    if (out.exceeded[i] != truth.exceeded[i]) tally.answered_not_exactly();
     judge_position(in.previous[i], in.position[i], in.bound[i], truth.position[i], out.position[i], out.exceeded[i], 0, tally);
   }
 }
@@ -112,6 +113,7 @@ void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGue
       tally.mismatch("cut: " + std::to_string(out.cut[i]) + ", exact " + std::to_string(cut.exceeded[i]));
       continue;
     }
+    if (out.cut[i] != cut.exceeded[i]) tally.answered_not_exactly();
     judge_position(c.previous, y, c.bound, cut.position[i], out.position[i], out.cut[i], 1, tally);
   }
 }

@@ -85,7 +85,7 @@ class SetVerdict {
     bool listed = false;
     for (const auto& decision : grey_) {
       if (!lists(decision, contact)) continue;
-      if (decision.absence_accepted || answered(decision) > 0) return;
+      if (decision.absence_accepted || answered(decision) > 0) return tally_.answered_not_exactly();
       listed = true;
     }
     tally_.mismatch("contacts: " + print(contact) + " is missing" + (listed ? ", and nothing that the grey zone allows stands for it (covering)" : ""));
@@ -93,7 +93,8 @@ class SetVerdict {
 
   void judge_extra(const Contact& contact) {
     const bool excused = std::any_of(grey_.begin(), grey_.end(), [&](const auto& decision) { return lists(decision, contact); });
-    if (!excused) tally_.mismatch("contacts: " + print(contact) + " is no contact");
+    if (excused) tally_.answered_not_exactly();
+    else tally_.mismatch("contacts: " + print(contact) + " is no contact");
   }
 
   void judge_decision(const GreyDecision<Contact>& decision) {

@@ -53,6 +53,7 @@ class StepVerdict {
     const GeneratorTally total = own.total();
     decisions_ += total.decisions;
     grey_ += total.grey;
+    tally_.answered_not_exactly(total.not_exact);
     for (const Mismatch& item : own.mismatches) tally_.mismatch(prefix + " (stage " + std::string(stage_name(stage)) + "): " + item.message);
   }
 
