@@ -210,6 +210,20 @@ Shape near_switch(Random& random) { return inside(random, any_sides(random), 0.5
 /// d → 0, through 2⁻²³ r.
 Shape near_touching(Random& random) { return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1)); }
 
+/// Points, edges and radii of any bits; a pair that the contract leaves out by its shape, of two edges or with a triangle, is not among them.
+Shape of_bits(Random& random) {
+  Shape shape;
+  shape.sides = random.one_in(2) ? ContactSides::point_point : ContactSides::point_edge;
+  shape.x = points_of_bits(random);
+  shape.detected = shape.x;
+  shape.radius = random.pattern();
+  shape.size = shape.radius;
+  shape.turned = false;
+  return shape;
+}
+
+CaseData contact_bits(Random& random) { return placed(random, of_bits(random), {}).contact; }
+
 CaseData contact_uniform(Random& random) { return contact_case(random, inside(random, any_sides(random), any_share(random))); }
 CaseData contact_lattice(Random& random) { return contact_case(random, on_grid(random)); }
 CaseData contact_feature(Random& random) { return contact_case(random, near_feature(random)); }
@@ -285,6 +299,14 @@ CaseData friction_lattice(Random& random) {
   return question;
 }
 
+/// The motion of any bits as well.
+CaseData friction_bits(Random& random) {
+  FrictionForceCase question = placed(random, of_bits(random), points_of_bits(random));
+  question.friction = static_cast<float>(random.between(0.01, 1.5));
+  question.slip_limit = random.pattern();
+  return question;
+}
+
 /// ‖u‖ → 0.
 CaseData friction_still(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)), random.rung(), random.one_in(2) ? 0 : random.between(-1, 1));
@@ -306,7 +328,8 @@ CaseData friction_variants(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 10> contact_table{{{"uniform", 30, true, contact_uniform},
+constexpr std::array<Generator, 11> contact_table{{{"uniform", 30, true, contact_uniform},
+                                                  {"bits", 10, false, contact_bits},
                                                   {"lattice", 15, false, contact_lattice},
                                                   {"ladder.feature", 14, false, contact_feature},
                                                   {"ladder.thin", 8, false, contact_thin},
@@ -316,7 +339,8 @@ constexpr std::array<Generator, 10> contact_table{{{"uniform", 30, true, contact
                                                   {"ladder.touching", 7, false, contact_touching},
                                                   {"ladder.mollifier", 5, false, contact_mollifier},
                                                   {"ladder.variants", 25, false, contact_variants}}};
-constexpr std::array<Generator, 9> friction_table{{{"uniform", 30, true, friction_uniform},
+constexpr std::array<Generator, 10> friction_table{{{"uniform", 30, true, friction_uniform},
+                                                   {"bits", 10, false, friction_bits},
                                                    {"lattice", 12, false, friction_lattice},
                                                    {"ladder.feature", 14, false, friction_feature},
                                                    {"ladder.parallel", 8, false, friction_parallel},

@@ -75,6 +75,20 @@ CaseData membrane_lattice(Random& random) {
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
 }
 
+/// Corners of any bits: stretched up to 10⁹ times, and needles.
+CaseData membrane_bits(Random& random) {
+  MembraneCase question;
+  set_rest(question, rest_corners(random, false));
+  set_material(random, question);
+  const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
+  const bool moved = random.one_in(2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    question.corner[k] = placement::single(now[k]);
+    question.start[k] = moved ? placement::single(before[k]) : question.corner[k];
+  }
+  return question;
+}
+
 /// F → I: every term of the strain cancels.
 CaseData membrane_rest(Random& random) {
   const double xx = 1 + random.rung(), xy = random.rung(), yy = 1 + random.rung();
@@ -123,15 +137,17 @@ CaseData membrane_by_vertex(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 12> membrane_table{{{"uniform", 40, true, membrane_uniform},
+constexpr std::array<Generator, 14> membrane_table{{{"uniform", 40, true, membrane_uniform},
                                                    {"corner", 20, true, membrane_corner},
+                                                   {"bits", 10, false, membrane_bits},
+                                                   {"neo_hookean_bits", 10, false, neo_hookean<membrane_bits>},
                                                    {"lattice", 15, false, membrane_lattice},
-                                                   {"ladder.rest", 20, false, membrane_rest},
-                                                   {"ladder.collapse", 10, false, membrane_collapse},
-                                                   {"ladder.sign", 15, false, membrane_sign},
+                                                   {"ladder.rest", 25, false, membrane_rest},
+                                                   {"ladder.collapse", 15, false, membrane_collapse},
+                                                   {"ladder.sign", 20, false, membrane_sign},
                                                    {"neo_hookean", 30, true, neo_hookean<membrane_corner>},
                                                    {"lattice.neo_hookean", 10, false, neo_hookean<membrane_lattice>},
-                                                   {"ladder.neo_hookean_rest", 20, false, neo_hookean<membrane_rest>},
+                                                   {"ladder.neo_hookean_rest", 25, false, neo_hookean<membrane_rest>},
                                                    {"ladder.neo_hookean_collapse", 20, false, neo_hookean<membrane_collapse>},
                                                    {"per_vertex", 15, true, membrane_by_vertex<membrane_corner>},
                                                    {"ladder.per_vertex", 15, false, membrane_by_vertex<membrane_collapse>}}};
@@ -185,6 +201,18 @@ CaseData bending_uniform(Random& random) {
   const HingeShape shape = hinge_shape(random);
   const double angle = random.between(-3, 3);
   return bending_case(random, with_angle(shape, angle), with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
+}
+
+/// Vertices of any bits: needles of up to 10¹² to 1, and hinges of every angle.
+CaseData bending_bits(Random& random) {
+  BendingCase question = std::get<BendingCase>(bending_uniform(random));
+  const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
+  const bool moved = random.one_in(2);
+  for (std::size_t k = 0; k < 4; ++k) {
+    question.vertex[k] = placement::single(now[k]);
+    question.start[k] = moved ? placement::single(before[k]) : question.vertex[k];
+  }
+  return question;
 }
 
 /// Right angles and flat hinges without a rounding.
@@ -268,7 +296,8 @@ CaseData bending_by_vertex(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 11> bending_table{{{"uniform", 40, true, bending_uniform},
+constexpr std::array<Generator, 12> bending_table{{{"uniform", 40, true, bending_uniform},
+                                                  {"bits", 10, false, bending_bits},
                                                   {"lattice", 15, false, bending_lattice},
                                                   {"ladder.flat", 20, false, bending_flat},
                                                   {"ladder.fold", 15, false, bending_fold},

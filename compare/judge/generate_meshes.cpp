@@ -73,6 +73,22 @@ CaseData lattice(Random& random) {
   return finish(random, builder, {0, random.one_in(2) ? 0 : 0.5 * (1 + random.below(4))});
 }
 
+/// A soup whose coordinates and radii are of any bits: needles, edges of 10⁻⁶ beside such of 10⁶.
+CaseData bits(Random& random) {
+  MeshBuilder builder = soup_of(random, 3 + random.below(8));
+  MeshCase mesh;
+  mesh.topology = std::make_shared<Topology>(build_topology(static_cast<Index>(builder.points.size()), builder.triangles, builder.loose_edges));
+  mesh.rigid_groups.assign(builder.points.size(), -1);
+  const auto number = [&] { return static_cast<float>(random.sign()) * random.pattern(); };
+  for (std::size_t i = 0; i < builder.points.size(); ++i) {
+    const float x = number(), y = number();
+    mesh.positions.push_back({x, y, number()});
+  }
+  mesh.contact_radius = random.pattern();
+  mesh.query_radius = random.one_in(4) ? mesh.contact_radius : mesh.contact_radius * static_cast<float>(random.between(1, 4));
+  return mesh;
+}
+
 /// Two flat parallel sheets, in register, shifted by half a cell, or turned.
 CaseData sheets(Random& random) {
   MeshBuilder builder;
@@ -187,10 +203,11 @@ CaseData boundary(Random& random) {
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-constexpr std::array<Generator, 14> table{{{"soup", 20, true, soup},
+constexpr std::array<Generator, 15> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
                                            {"large", 10, true, large, 1000000},
+                                           {"bits", 10, false, bits},
                                            {"lattice", 15, false, lattice},
                                            {"ladder.sheets", 8, false, sheets},
                                            {"ladder.fold", 7, false, fold},

@@ -45,6 +45,18 @@ CaseData lattice(Random& random) {
   return spring_case(random, size * random.below(5), size * random.below(5), size * random.below(5), false);
 }
 
+/// Coordinates and material of any bits.
+CaseData bits(Random& random) {
+  const std::array<Vec3, 4> points = points_of_bits(random);
+  SpringCase question;
+  question.vertex = {single(points[0]), single(points[1])};
+  question.start = {single(points[2]), single(points[3])};
+  question.stiffness = random.pattern();
+  question.rest_length = random.pattern();
+  question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
+  return question;
+}
+
 /// l → l₀, where the force vanishes and the block's part across the spring sets in; lᵗ → l.
 CaseData at_rest(Random& random) {
   const double length = some_length(random);
@@ -63,7 +75,8 @@ CaseData stitch(Random& random) {
   return spring_case(random, size * random.rung(), size * random.rung(), 0);
 }
 
-constexpr std::array<Generator, 5> table{{{"uniform", 40, true, uniform},
+constexpr std::array<Generator, 6> table{{{"uniform", 40, true, uniform},
+                                          {"bits", 15, false, bits},
                                           {"lattice", 15, false, lattice},
                                           {"ladder.rest", 20, false, at_rest},
                                           {"ladder.zero", 15, false, at_zero},

@@ -6,6 +6,7 @@
 
 #include "compare/judge/any_models.hpp"
 #include "compare/judge/generators.hpp"
+#include "compare/judge/mesh_builder.hpp"
 #include "compare/judge/placement.hpp"
 
 namespace ogc::compare {
@@ -231,6 +232,20 @@ CaseData lattice(Random& random) {
   return builder.finish();
 }
 
+/// Strips of one to three triangles, alone or one thrown at the other.
+CaseData few(Random& random) {
+  StepBuilder builder(random);
+  const double speed = builder.speed(random.magnitude(-2, 0.7)), gap = random.between(0.2, 1.5);
+  const int layers = 1 + random.below(2);
+  for (int layer = 0; layer < layers; ++layer) {
+    Mesh strip = triangle_strip(1 + random.below(3));
+    for (Vec3& p : strip.positions) p = scaled(sum(p, {2, 2, 2 + layer * gap}), builder.spacing);
+    builder.add(strip, {0, 0.3 * speed, layer == 0 ? speed : -speed}, layer > 0 && random.one_in(3));
+  }
+  builder.jitter(random.between(0.01, 0.09));
+  return builder.finish();
+}
+
 /// Other models than the default ones.
 CaseData models(Random& random) {
   StepCase test = std::get<StepCase>(random.one_in(2) ? onto(random) : handle(random));
@@ -240,10 +255,11 @@ CaseData models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 9> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 10> table{{{"fall", 12, true, fall},
                                           {"onto", 13, true, onto},
                                           {"collide", 13, true, collide},
                                           {"handle", 12, true, handle},
+                                          {"few", 5, true, few},
                                           {"ladder.count", 20, false, count_at_threshold},
                                           {"ladder.cap", 10, false, radius_at_cap},
                                           {"ladder.rest", 15, false, at_rest},

@@ -9,6 +9,7 @@
 #include "compare/judge/any_models.hpp"
 #include "compare/judge/colours.hpp"
 #include "compare/judge/generators.hpp"
+#include "compare/judge/mesh_builder.hpp"
 #include "compare/judge/placement.hpp"
 
 namespace ogc::compare {
@@ -47,7 +48,17 @@ Material material(Random& random) {
   return m;
 }
 
-/// nx × ny cells at rest in a plane; `place` maps them to X_prev. Returns the number of the body's first vertex.
+/// A mesh at rest; `place` maps it to X_prev. Returns the number of the body's first vertex.
+template <class Place>
+Index add_body(Cloth& cloth, const Body& body, const Mesh& mesh, Place place) {
+  Body named = body;
+  named.name += std::to_string(cloth.scene.bodies.size());
+  const std::size_t number = append_body(cloth.scene, named, mesh);
+  for (const Vec3& p : mesh.positions) cloth.shape.push_back(place(p));
+  return cloth.scene.bodies[number].first_vertex;
+}
+
+/// Likewise, of nx × ny cells in a plane.
 template <class Place>
 Index add_sheet(Cloth& cloth, const Body& body, int nx, int ny, Place place) {
   Mesh mesh;
@@ -60,11 +71,7 @@ Index add_sheet(Cloth& cloth, const Body& body, int nx, int ny, Place place) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  Body named = body;
-  named.name += std::to_string(cloth.scene.bodies.size());
-  const std::size_t number = append_body(cloth.scene, named, mesh);
-  for (const Vec3& p : mesh.positions) cloth.shape.push_back(place(p));
-  return cloth.scene.bodies[number].first_vertex;
+  return add_body(cloth, body, mesh, place);
 }
 
 Body body(Random& random, bool fixed = false) {
@@ -209,6 +216,17 @@ Cloth flat_sheets(Random& random, double gap, double turn = 0) {
   return cloth;
 }
 
+/// The least scenes: strips of one to three triangles, alone or one above the other.
+CaseData few(Random& random) {
+  Cloth cloth;
+  cloth.radius = random.between(0.2, 0.9);
+  const double gap = cloth.radius * random.between(0.5, 1.2);
+  const int layers = 1 + random.below(2);
+  for (int layer = 0; layer < layers; ++layer)
+    add_body(cloth, body(random), triangle_strip(1 + random.below(3)), [=](const Vec3& p) { return sum(p, {0, 0, layer * gap}); });
+  return finish(random, std::move(cloth), generic(random));
+}
+
 CaseData lattice(Random& random) {
   Cloth cloth = flat_sheets(random, 0.25 * (1 + random.below(4)));
   Motion motion;
@@ -309,11 +327,12 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 17> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 18> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
                                            {"alone", 5, true, alone},
+                                           {"few", 3, false, few},
                                            {"lattice", 10, false, lattice},
                                            {"ladder.rest", 6, false, at_rest},
                                            {"ladder.radius", 7, false, at_radius},
@@ -321,7 +340,7 @@ constexpr std::array<Generator, 17> table{{{"sheets", 16, true, sheets},
                                            {"ladder.slip", 6, false, slip},
                                            {"ladder.crossing", 6, false, crossing},
                                            {"ladder.collapse", 5, false, collapse},
-                                           {"ladder.bound", 5, false, at_bound},
+                                           {"ladder.bound", 6, false, at_bound},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},

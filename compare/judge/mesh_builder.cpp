@@ -108,4 +108,11 @@ MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan) {
   return mesh;
 }
 
+Mesh triangle_strip(int count) {
+  Mesh mesh;
+  for (int i = 0; i < count + 2; ++i) mesh.positions.push_back({0.5 * i, static_cast<double>(i % 2), 0});
+  for (Index i = 0; i < count; ++i) mesh.triangles.push_back(i % 2 == 0 ? Triangle{i, i + 2, i + 1} : Triangle{i, i + 1, i + 2});
+  return mesh;
+}
+
 }  // namespace ogc::compare

@@ -36,5 +36,7 @@ struct MeshPlan {
 /// Jitter, one symmetry of the cube (with a rotation in half of the plans that have jitter, in all fine ones), a scale of 1, 2^±10, 2^±18 or 1000, and r_q = r × 1 … 4.
 MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan);
 
+/// A zigzag strip of `count` triangles in the plane z = 0, count + 2 vertices, edges of about 1.
+Mesh triangle_strip(int count);
 
 }  // namespace ogc::compare

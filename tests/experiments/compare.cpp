@@ -1,6 +1,8 @@
 // The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare` says so.
+#include <chrono>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -71,6 +73,25 @@ TEST_CASE("a report does not depend on the number of threads", "[agreement]") {
       REQUIRE(one.tally.metrics[i].worst == three.tally.metrics[i].worst);
     }
   }
+}
+
+TEST_CASE("threads without work begin no batches beyond the last", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant slow = tests::exact_contestant(authority);
+  slow.truncate = [right = slow.truncate](const TruncateIn& in) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return right(in);
+  };
+  JudgeOptions options;
+  options.cases = 100;
+  options.batch = 40;
+  options.threads = 6;
+  options.generator = "uniform";
+  int batches = 0;
+  options.progress = [&](std::uint64_t, std::uint64_t) { ++batches; };
+  const StageReport report = judge_stage(Stage::truncate, slow, authority, options);
+  CHECK(batches == 3);
+  CHECK(report.tally.questions == 100);
 }
 
 TEST_CASE("the fast path on the CPU agrees with the reference in every stage", "[agreement]") {

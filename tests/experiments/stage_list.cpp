@@ -2,6 +2,7 @@
 #include "experiments/stage_list.hpp"
 
 #include <filesystem>
+#include <map>
 
 #include "compare/files/bytes.hpp"
 #include "compare/judge/judge.hpp"
@@ -64,6 +65,23 @@ TEST_CASE("the table of stages in README.md is the one that ogc compare --list -
   const tests::ProgramResult printed = tests::run_ogc("compare --list --markdown");
   CHECK(printed.status == 0);
   CHECK(printed.out == table);
+}
+
+TEST_CASE("every stage has at least three planted faults, and the table in compare/README.md names all of them", "[unit]") {
+  std::map<Stage, int> by_stage;
+  int number = 0;
+  const std::string table = read("compare/README.md");
+  for (const tests::Fault& fault : tests::faults()) {
+    ++by_stage[fault.stage];
+    const std::string row = "| " + std::to_string(++number) + " | " + std::string(stage_name(fault.stage)) + " | " + fault.name.substr(fault.name.find(": ") + 2) + " | ";
+    INFO(row);
+    CHECK(table.find(row) != std::string::npos);
+  }
+  CHECK(table.find("| " + std::to_string(number + 1) + " | ") == std::string::npos);
+  for (const StageInfo& info : stage_table()) {
+    INFO(stage_name(info.stage));
+    CHECK(by_stage[info.stage] >= 3);
+  }
 }
 
 TEST_CASE("the list of stages names generators and parameters of each", "[unit]") {

@@ -1,4 +1,5 @@
 #include "compare/judge/page.hpp"
+#include "compare/judge/report.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -48,4 +49,12 @@ TEST_CASE("the page has a row for each metric, a histogram for each that was mea
   REQUIRE(count(page, "<svg ") == 2);
   REQUIRE(count(page, "stage=closest_face gen=uniform seed=1 index=2") >= 2);
   REQUIRE(count(table, "<td>0.4</td>") == 1);  // near share
+  REQUIRE(count(page, report_total(two_reports())) == 1);
+}
+
+TEST_CASE("the line over all stages shares out what lies near a boundary over the cases of all of them", "[unit]") {
+  auto reports = two_reports();
+  reports[1].tally.begin({Stage::bound, "soup", 1, 1, "", {}});
+  reports[1].tally.count(30, 30, 0);
+  REQUIRE(report_total(reports) == "all stages: 40 cases, 1 mismatches, 10 % of all cases within 2^10 ulp of a decision boundary");
 }

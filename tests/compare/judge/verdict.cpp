@@ -12,17 +12,20 @@ namespace {
 
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
+std::string first_message(const Tally& tally) { return tally.mismatches.empty() ? "" : tally.mismatches[0].message; }
+
 /// A point 1 above the corner (0, 0, 0) of a right triangle, which is on both of its edges' planes: the exact answer is the corner.
 struct FaceFixture {
   std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
   ClosestFaceIn in{{{0, 0, 1}}, {{Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}}}};
   ClosestFaceTruth truth{{{TriangleFeature::corner_0}, {{1, 0, 0}}, {1}, {1}}, {0b0001001}, {0}, {1}, {{1, 0, 0}}, {1}};
   ClosestFaceOut out = truth.exact;
-  std::string verdict() const {
+  Tally tally() const {
     Tally tally(Stage::closest_face);
     judge_closest_face(cases, in, truth, out, tally);
-    return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
+    return tally;
   }
+  std::string verdict() const { return first_message(tally()); }
 };
 
 /// Four vertices over a triangle; contacts are whatever a test says they are.
@@ -44,11 +47,12 @@ struct SetFixture {
     truth.pairs = 1;
     out = truth.exact;
   }
-  std::string verdict() const {
+  Tally tally() const {
     Tally tally(Stage::detect_vertex_facet);
     judge_detect_vertex_facet({{Stage::detect_vertex_facet, "few", 0, 0, "", {}}, mesh}, truth, out, tally);
-    return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
+    return tally;
   }
+  std::string verdict() const { return first_message(tally()); }
 };
 
 TruncateOut moved(const Vec3f& position, bool exceeded) { return {{position}, {static_cast<std::uint8_t>(exceeded)}}; }
@@ -57,7 +61,7 @@ std::string truncate_verdict(const TruncateIn& in, const TruncateTruth& truth, c
   const std::vector<TestCase> cases{{{Stage::truncate, "uniform", 0, 0, "", {}}, TruncateCase{}}};
   Tally tally(Stage::truncate);
   judge_truncate(cases, in, truth, out, tally);
-  return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
+  return first_message(tally);
 }
 
 }  // namespace
@@ -128,6 +132,22 @@ TEST_CASE("a grey decision accepts either side, but neither nothing nor both", "
   test.truth.grey = {{{test.face, test.edge}, true}};
   test.out.contacts = {};
   REQUIRE(test.verdict().empty());
+}
+
+TEST_CASE("grey decisions that are answered otherwise than exactly are counted, wrong answers are not", "[unit]") {
+  FaceFixture face;
+  CHECK(face.tally().total().not_exact == 0);
+  face.out.feature[0] = TriangleFeature::edge_01;
+  CHECK(face.tally().total().not_exact == 1);
+  face.out.feature[0] = TriangleFeature::edge_20;
+  CHECK(face.tally().total().not_exact == 0);
+  SetFixture set;
+  set.truth.grey = {{{set.face, set.edge}, true}};
+  CHECK(set.tally().total().not_exact == 0);
+  set.out.contacts = {};
+  CHECK(set.tally().total().not_exact == 1);
+  set.out.contacts = {set.edge};  // one is missing, another is there
+  CHECK(set.tally().total().not_exact == 2);
 }
 
 TEST_CASE("contacts are compared in canonical order", "[unit]") {
