@@ -1,6 +1,6 @@
 // Judges mutants (tests/mutants.py). The truth about every case is found once, with the kernels as they are, and kept; each mutant whose number comes in on
-// standard input is then switched on and judged on the same cases in a process of its own, which it may crash or hang. Those that the judge lets through meet
-// the kernels' own tests.
+// standard input is then switched on and judged on the same cases in a process of its own, which it may crash or hang, in those parts (the corpus, a stage)
+// that reach it: it changes nothing in the others. What the judge lets through meets the kernels' own tests.
 //
 // Usage: mutant_judge CASES SEED SECONDS CORPUS STAGE …
 // First line out: "tests" and the numbers that the kernels' tests reach; second line: "right" and those that the cases reach. Then a line for each mutant: empty where it
@@ -10,9 +10,12 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,42 +30,54 @@ namespace {
 
 using namespace ogc::compare;
 
-/// Answers from memory, in the order in which the questions came first: the judge on one thread asks the same ones again.
+/// The corpus (0), and from 1 on the stages of the plan.
+using Part = std::size_t;
+
+/// What is judged just now.
+struct Moment {
+  std::size_t round = 0;  ///< 0: the kernels as they are
+  Part part = 0;
+  friend bool operator==(const Moment&, const Moment&) = default;
+};
+
+/// Answers from memory, in the order in which the part's questions came first: the judge on one thread asks the same ones again.
 template <class Truth, class In>
-std::function<Truth(const In&)> remembered(std::function<Truth(const In&)> authority, const std::size_t& round) {
+std::function<Truth(const In&)> remembered(std::function<Truth(const In&)> authority, const Moment& now) {
   if (!authority) return authority;
   struct Memory {
-    std::vector<Truth> truths;
-    std::size_t next = 0, round = 0;
+    std::map<Part, std::vector<Truth>> truths;
+    std::size_t next = 0;
+    Moment moment;
   };
   auto memory = std::make_shared<Memory>();
-  return [authority, memory, &round](const In& in) {
-    if (memory->round != round) {
-      memory->round = round;
+  return [authority, memory, &now](const In& in) {
+    if (memory->moment != now) {
+      memory->moment = now;
       memory->next = 0;
     }
-    if (memory->next == memory->truths.size()) memory->truths.push_back(authority(in));
-    return memory->truths[memory->next++];
+    auto& truths = memory->truths[now.part];
+    if (memory->next == truths.size()) truths.push_back(authority(in));
+    return truths[memory->next++];
   };
 }
 
-Authority remembering(const Authority& a, const std::size_t& round) {
+Authority remembering(const Authority& a, const Moment& now) {
   Authority r;
-  r.closest_face = remembered(a.closest_face, round);
-  r.closest_points = remembered(a.closest_points, round);
-  r.detect_vertex_facet = remembered(a.detect_vertex_facet, round);
-  r.detect_edge_edge = remembered(a.detect_edge_edge, round);
-  r.bound = remembered(a.bound, round);
-  r.activation = remembered(a.activation, round);
-  r.truncate = remembered(a.truncate, round);
-  r.membrane = remembered(a.membrane, round);
-  r.bending = remembered(a.bending, round);
-  r.spring = remembered(a.spring, round);
-  r.contact_force = remembered(a.contact_force, round);
-  r.friction_force = remembered(a.friction_force, round);
-  r.block = remembered(a.block, round);
-  r.initial_guess = remembered(a.initial_guess, round);
-  r.rest_state = remembered(a.rest_state, round);
+  r.closest_face = remembered(a.closest_face, now);
+  r.closest_points = remembered(a.closest_points, now);
+  r.detect_vertex_facet = remembered(a.detect_vertex_facet, now);
+  r.detect_edge_edge = remembered(a.detect_edge_edge, now);
+  r.bound = remembered(a.bound, now);
+  r.activation = remembered(a.activation, now);
+  r.truncate = remembered(a.truncate, now);
+  r.membrane = remembered(a.membrane, now);
+  r.bending = remembered(a.bending, now);
+  r.spring = remembered(a.spring, now);
+  r.contact_force = remembered(a.contact_force, now);
+  r.friction_force = remembered(a.friction_force, now);
+  r.block = remembered(a.block, now);
+  r.initial_guess = remembered(a.initial_guess, now);
+  r.rest_state = remembered(a.rest_state, now);
   r.sweep = a.sweep;  // their truth follows the answer
   r.step = a.step;
   return r;
@@ -74,23 +89,22 @@ struct Plan {
   std::vector<TestCase> corpus;
 };
 
-/// "" where nothing is wrong, else the first stage and message.
-std::string verdict(const Contestant& contestant, const Authority& authority, const Plan& plan) {
+/// "" where nothing is wrong in the part, else the first stage and message.
+std::string verdict(Part part, const Contestant& contestant, const Authority& authority, const Plan& plan) {
   const auto first = [](const StageReport& report) {
     const auto& listed = report.tally.mismatches;
     if (report.skipped) return std::string(stage_name(report.tally.stage)) + " is not judged";
     return listed.empty() ? std::string() : print_problem(listed[0].name) + ": " + listed[0].message;
   };
-  std::string found;
-  for (const StageReport& report : judge_cases(plan.corpus, contestant, authority))
-    if (found.empty()) found = first(report);
-  for (const Stage stage : plan.stages) {
-    if (!found.empty()) return found;
+  if (part > 0) {
+    const Stage stage = plan.stages[part - 1];
     JudgeOptions options = plan.options;
     if (is_mesh_stage(stage)) options.cases /= 4;
-    found = first(judge_stage(stage, contestant, authority, options));
+    return first(judge_stage(stage, contestant, authority, options));
   }
-  return found;
+  for (const StageReport& report : judge_cases(plan.corpus, contestant, authority))
+    if (const std::string found = first(report); !found.empty()) return found;
+  return {};
 }
 
 /// What `work` says, in a process of its own, or how that ended.
@@ -117,18 +131,75 @@ std::string apart(unsigned seconds, Work work) {
   return found;
 }
 
-std::string numbers_reached() {
-  std::string numbers;
+/// The mutants that `work` reaches.
+template <class Work>
+std::set<int> reached_by(Work work) {
+  std::fill(std::begin(ogc_mutant::reached), std::end(ogc_mutant::reached), false);
+  ogc_mutant::recording = true;
+  work();
+  ogc_mutant::recording = false;
+  std::set<int> numbers;
   for (std::size_t id = 0; id < std::size(ogc_mutant::reached); ++id)
-    if (ogc_mutant::reached[id]) numbers += ' ' + std::to_string(id);
+    if (ogc_mutant::reached[id]) numbers.insert(static_cast<int>(id));
   return numbers;
 }
 
-/// " 1 5 …": the mutants that the kernels' tests reach; the tests pass, or the text says that they do not.
-std::string reached_by_tests() {
-  ogc_mutant::recording = true;
-  return ogc::tests::failing_kernel_tests() == 0 ? numbers_reached() : " the kernels' own tests fail";
+/// " 1 5 …"
+std::string printed(const std::set<int>& numbers) {
+  std::string text;
+  for (const int number : numbers) text += ' ' + std::to_string(number);
+  return text;
 }
+
+/// The mutants that the kernels' tests reach; the tests pass, or the text says that they do not.
+std::string reached_by_tests() {
+  int failing = 0;
+  const std::set<int> numbers = reached_by([&] { failing = ogc::tests::failing_kernel_tests(); });
+  return failing == 0 ? printed(numbers) : " the kernels' own tests fail";
+}
+
+/// The judge with its memory, and which parts reach which mutant.
+class MutantJudge {
+ public:
+  explicit MutantJudge(Plan plan)
+      : plan_(std::move(plan)), authority_(remembering(ogc::reference::authority(), now_)), contestant_(ogc::tests::mutant_contestant()) {}
+
+  /// Judges the kernels as they are: "right" or what is wrong, then the mutants that the cases reach.
+  std::string judge_original() {
+    std::string wrong;
+    std::set<int> all;
+    for (now_.part = 0; now_.part <= plan_.stages.size(); ++now_.part) {
+      reached_.push_back(reached_by([&] { wrong += verdict(now_.part, contestant_, authority_, plan_); }));
+      all.insert(reached_.back().begin(), reached_.back().end());
+    }
+    return (wrong.empty() ? "right" : wrong) + printed(all);
+  }
+
+  /// What is found of one mutant, in one line.
+  std::string judge_mutant(int id, unsigned seconds) {
+    ++now_.round;
+    ogc_mutant::active = id;
+    std::string found = apart(seconds, [&] { return first_found(id); });
+    if (found.empty()) found = apart(seconds, [] { return std::string(ogc::tests::failing_kernel_tests() > 0 ? "test" : ""); });
+    ogc_mutant::active = 0;
+    std::replace(found.begin(), found.end(), '\n', ' ');
+    return found;
+  }
+
+ private:
+  std::string first_found(int id) {
+    std::string found;
+    for (now_.part = 0; now_.part < reached_.size() && found.empty(); ++now_.part)
+      if (reached_[now_.part].contains(id)) found = verdict(now_.part, contestant_, authority_, plan_);
+    return found;
+  }
+
+  Plan plan_;
+  Moment now_;
+  Authority authority_;
+  Contestant contestant_;
+  std::vector<std::set<int>> reached_;  ///< by part
+};
 
 }  // namespace
 
@@ -143,24 +214,10 @@ int main(int count, char** words) {
   plan.options.batch = 1000;
   for (int i = 5; i < count; ++i) plan.stages.push_back(find_stage(words[i]).value());
   for (const CaseName& name : load_batch(words[4])) plan.corpus.push_back(generate(name));
-  std::size_t round = 0;
-  const Authority authority = remembering(ogc::reference::authority(), round);
-  const Contestant contestant = ogc::tests::mutant_contestant();
+  MutantJudge judge(std::move(plan));
   const auto seconds = static_cast<unsigned>(std::stoul(words[3]));
   std::cout << "tests" << apart(10 * seconds, reached_by_tests) << std::endl;
-  ogc_mutant::recording = true;
-  const std::string wrong = verdict(contestant, authority, plan);
-  ogc_mutant::recording = false;
-  std::cout << (wrong.empty() ? "right" : wrong) << numbers_reached() << std::endl;
-  for (std::string number; std::getline(std::cin, number);) {
-    ++round;
-    ogc_mutant::active = std::stoi(number);
-    std::string found = apart(seconds, [&] { return verdict(contestant, authority, plan); });
-    if (found.empty()) found = apart(seconds, [] { return std::string(ogc::tests::failing_kernel_tests() > 0 ? "test" : ""); });
-    ogc_mutant::active = 0;
-    for (char& c : found)
-      if (c == '\n') c = ' ';
-    std::cout << found << std::endl;
-  }
+  std::cout << judge.judge_original() << std::endl;
+  for (std::string number; std::getline(std::cin, number);) std::cout << judge.judge_mutant(std::stoi(number), seconds) << std::endl;
   return 0;
 }

@@ -41,6 +41,13 @@ TEST_CASE("from round 2 on a vertex in a contact stays and does not count", "[un
   CHECK(line.control.cut == 1);
 }
 
+TEST_CASE("in a frame that stopped no vertex moves and none is counted", "[unit]") {
+  Line line;
+  GuessVertex{line.target, line.previous, line.bound, line.offsets, line.position, &line.control}(1);
+  CHECK(line.position[1].x == 0);
+  CHECK(line.control.cut == 0);
+}
+
 TEST_CASE("a step begins at its start with targets by mobility and the largest move", "[unit]") {
   const Vec start[3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, velocity[3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
   const int number[3] = {-1, 0, -2};

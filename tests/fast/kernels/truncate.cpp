@@ -70,6 +70,17 @@ TEST_CASE("truncate: a coordinate far too small for two doubles does not pass be
   }
 }
 
+TEST_CASE("truncate: a difference that does not fit into a double is beyond the bound, along each coordinate", "[unit]") {
+  const float large = 0x1p20f, speck = 0x1p-100f;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec previous{0, 0, 0}, tie{0, 0, 0}, beyond{0, 0, 0};
+    (axis == 0 ? previous.x : axis == 1 ? previous.y : previous.z) = large;
+    (axis == 0 ? beyond.x : axis == 1 ? beyond.y : beyond.z) = -speck;
+    CHECK(is_exactly_within(previous, tie, large));
+    CHECK_FALSE(is_exactly_within(previous, beyond, large));
+  }
+}
+
 TEST_CASE("truncate: a position that is not finite goes back to the previous one", "[unit]") {
   for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
     const Truncated cut = truncate({1, 2, 3}, {0, bad, 0}, 1);
