@@ -96,24 +96,34 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
+/// One end of the overlap of two nearly parallel edges: q's end or, where that lies beyond p, p's; on p, and as seen along the line of q. Measured from q's own
+/// end where it is that: taken from p's, a difference would be rounded at the size of p, 10⁷ roundings of an edge that is 10⁻⁷ as long.
+OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
+  const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
+  const double along = dot(u, e).value, ee = squared(e), ff = squared(f);
+  if (!(along > 0)) return {0, divide(dot(difference<Rounded>(p.a, q.a), f).value, ff)};
+  if (!(along < ee)) return {1, divide(dot(difference<Rounded>(p.b, q.a), f).value, ff)};
+  return {divide(along, ee), sub(end, divide(divide(dot(cross(e, u), cross(e, f)).value, ee), ff))};
+}
+
+OGC_HD inline double clamped_parameter(double s) { return smaller(larger(s, 0.0), 1.0); }
+
 /// Middle of the overlap on the first edge, and its projection on the closed second edge.
-OGC_HD inline EdgeParameters overlap_parameters(const Real& e, const Real& f, const Real& w) {
-  const double from = segment_parameter(w, e), to = segment_parameter(w + f, e);
-  const double middle = mul(0.5, add(from, to));
-  return {middle, segment_parameter(Rounded{middle} * e - w, f)};
+OGC_HD inline EdgeParameters overlap_parameters(const Ends& p, const Ends& q) {
+  const EdgeParameters from = overlap_end(p, q, 0), to = overlap_end(p, q, 1);
+  return {mul(0.5, add(from.first, to.first)), clamped_parameter(mul(0.5, add(from.second, to.second)))};
 }
 
 OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
+  if (on.nearly_parallel) return overlap_parameters(p, q);
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
-  if (on.nearly_parallel) return overlap_parameters(e, f, w);
   const double at_first = on.first == EdgeFeature::end_1 ? 1 : 0, at_second = on.second == EdgeFeature::end_1 ? 1 : 0;
   if (on.first != EdgeFeature::interior && on.second != EdgeFeature::interior) return {at_first, at_second};
   if (on.first != EdgeFeature::interior) return {at_first, segment_parameter(Rounded{at_first} * e - w, f)};
   if (on.second != EdgeFeature::interior) return {segment_parameter(w + Rounded{at_second} * f, e), at_second};
   const Real n = cross(e, f);
   const double nn = squared(n);
-  const auto clamped = [](double s) { return smaller(larger(s, 0.0), 1.0); };
-  return {clamped(divide(dot(cross(w, f), n).value, nn)), clamped(divide(dot(cross(w, e), n).value, nn))};
+  return {clamped_parameter(divide(dot(cross(w, f), n).value, nn)), clamped_parameter(divide(dot(cross(w, e), n).value, nn))};
 }
 
 OGC_HD inline double points_distance(const Ends& p, const Ends& q, EdgeParameters at) {
