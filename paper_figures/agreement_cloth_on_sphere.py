@@ -44,8 +44,7 @@ def draw(pairs, out):
     axes.set(yscale="log", xlabel="step", ylabel="distance of corresponding vertices [m]", title=f"Two runs of {pairs[0][0].manifest['scene']['name']}")
     axes.axhline(pairs[0][0].setting("contact_radius"), color="black", linewidth=0.8, linestyle=":", label="contact radius")
     axes.legend(fontsize=7)
-    figure.savefig(out)
-    plt.close(figure)
+    style.save(figure, out)
     for number, (first, second) in enumerate(pairs):
         table = np.column_stack(differences(first, second))
         np.savetxt(out.with_name(f"{out.stem}_{number}.csv"), table, delimiter=",", comments="", fmt=["%d", "%.9g", "%.9g"],

@@ -87,9 +87,7 @@ def draw(runs, out):
     axes[2].set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
     for a in axes:
         a.legend()
-    figure.savefig(out)
-    figure.savefig(Path(out).with_suffix(".pdf"))
-    plt.close(figure)
+    style.save(figure, out)
     return lines
 
 

@@ -83,8 +83,7 @@ def draw(runs, step, scale, claims, out):
     first = runs[0][1].manifest
     paper = ", ".join(f"{c['quantity'].replace('_', ' ')} {c['value']:g}" for c in claims)
     figure.suptitle(f"{SCENE} ({scale}), step {step}; commit {first['commit'][:10]}; paper: {paper}", fontsize=9)
-    figure.savefig(out)
-    plt.close(figure)
+    style.save(figure, out)
 
 
 def main(folder, ogc, scale="small", backends=("cpu",)):

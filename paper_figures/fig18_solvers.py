@@ -112,9 +112,7 @@ def draw(runs, out):
     words = figure.add_subplot(grid[2, 2:])
     words.axis("off")
     words.text(0, 1, "\n\n".join(summary(runs)), va="top", wrap=True, fontsize=8.5)
-    figure.savefig(out)
-    figure.savefig(Path(out).with_suffix(".pdf"))
-    plt.close(figure)
+    style.save(figure, out)
 
 
 def runs_of(arguments):

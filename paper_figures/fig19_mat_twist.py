@@ -35,8 +35,7 @@ def draw(ogc, windows, out):
         axes.axhline(value, color="black", linestyle=":", linewidth=0.8, label=f"paper, {solver}: {value:g} ms (average, 16 cores)")
     axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="Twisted mat, CPU")
     axes.legend()
-    figure.savefig(out)
-    plt.close(figure)
+    style.save(figure, out)
 
 
 if __name__ == "__main__":

@@ -53,9 +53,7 @@ def draw(runs, out):
     height.set(xlabel="time [s]", ylabel="height [m]", title="Mean height of the cloth")
     for axes in (energy, height):
         axes.legend()
-    figure.savefig(out)
-    figure.savefig(Path(out).with_suffix(".pdf"))
-    plt.close(figure)
+    style.save(figure, out)
     return lines
 
 

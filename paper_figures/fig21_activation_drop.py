@@ -124,8 +124,7 @@ def draw(runs, newton, vbd, curves, rows, step, scale, out):
     figure.suptitle(f"{SCENE} ({scale}): the two states are at most {ipc['largest_distance_from_ogc [mm]']} mm apart; condition number of ipc_log {ratio:.3g} × "
                     f"that of ogc (paper: 5 ×)\nVBD iterations to 10⁻³: {ogc['vbd_iterations_to_1e-3 [1]']} and {ipc['vbd_iterations_to_1e-3 [1]']} "
                     f"(paper: 2 ×); commit {runs['ogc'].manifest['commit'][:10]}", fontsize=8)
-    figure.savefig(out)
-    plt.close(figure)
+    style.save(figure, out)
 
 
 def main(folder, ogc, scale="small"):

@@ -224,38 +224,58 @@ def lines_of(layer):
     return [points[line] for line in layer["lines"]]
 
 
-def draw_layer(axes, layer, colour, alpha, line_width=1.0, line_colour=None):
+def not_drawn_yet(lines, drawn):
+    """The parts of `lines` whose segments are not in `drawn`, which they enter: where two boundaries share an edge, its dashes must not fill each other's gaps."""
+    result = []
+    for line in lines:
+        part = [line[0]]
+        for a, b in zip(line, line[1:]):
+            segment = frozenset((tuple(a), tuple(b)))
+            if segment in drawn:
+                result, part = [*result, part], [b]
+            else:
+                drawn.add(segment)
+                part.append(b)
+        result.append(part)
+    return [np.array(part) for part in result if len(part) > 1]
+
+
+def draw_layer(axes, layer, colour, alpha, line_width=1.0, line_colour=None, drawn=None):
+    """`drawn`: segments of lines that are there already, and are left out."""
     points = np.array(layer["points"], dtype=float).reshape(-1, 3)
     if layer["triangles"]:
         axes.add_collection3d(Poly3DCollection(points[np.array(layer["triangles"])], facecolors=colour, edgecolors="none", alpha=alpha))
     if not layer["lines"]:
         return
     style_of_line = "-" if layer["closed"] else (0, (4, 3))
-    axes.add_collection3d(Line3DCollection(lines_of(layer), colors=line_colour or colour, linewidths=line_width, linestyles=[style_of_line]))
+    lines = lines_of(layer) if drawn is None else not_drawn_yet(lines_of(layer), drawn)
+    if lines:
+        axes.add_collection3d(Line3DCollection(lines, colors=line_colour or colour, linewidths=line_width, linestyles=[style_of_line]))
     if all(len(line) == 1 for line in layer["lines"]):
         axes.scatter(*points.T, color="black", s=18)
 
 
-def space(axes, title, points, elevation=22):
+def space(axes, title, points, elevation=22, azimuth=-62):
     low, high = points.min(axis=0), points.max(axis=0)
     middle, half = (low + high) / 2, (high - low).max() / 2
     axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), zlim=(middle[2] - half, middle[2] + half))
-    axes.set_box_aspect((1, 1, 1), zoom=1.3)
-    axes.view_init(elev=elevation, azim=-62)
+    axes.set_box_aspect((1, 1, 1), zoom=1.15)
+    axes.view_init(elev=elevation, azim=azimuth)
     axes.axis("off")
     axes.set_title(wrapped(title), fontsize=9)
 
 
-def draw_blocks(axes, panel, letter):
+def draw_blocks(axes, panel, letter, azimuth):
     for layer in layers(panel, "surface"):
         only_edges = not layer["triangles"]
         draw_layer(axes, layer, "#F4C2CE", 0.55, 2 if only_edges else 0.6, "black" if only_edges else "#A06070")
-    for layer in layers(panel, "block"):
-        draw_layer(axes, layer, "#7CC97C", 0.28, 0.9, "#1B5E1B")
+    drawn = set()
+    for layer in sorted(layers(panel, "block"), key=lambda layer: not layer["closed"]):
+        draw_layer(axes, layer, "#7CC97C", 0.28, 0.9, "#1B5E1B", drawn)
     for layer in layers(panel, "face"):
         draw_layer(axes, layer, "#1F8F1F", 0.9, 2.5, "#0B5F0B")
     shown = [layer for name in ("surface", "block") for layer in layers(panel, name)]
-    space(axes, f"({letter}) {panel['caption']}", np.concatenate([np.array(layer["points"], dtype=float).reshape(-1, 3) for layer in shown]))
+    space(axes, f"({letter}) {panel['caption']}", np.concatenate([np.array(layer["points"], dtype=float).reshape(-1, 3) for layer in shown]), azimuth=azimuth)
 
 
 def fill_region(axes, points):
@@ -267,7 +287,7 @@ def fill_region(axes, points):
     axes.add_collection3d(Poly3DCollection(quads, facecolors="#4CAF50", edgecolors="none", alpha=0.75))
 
 
-def draw_sphere(axes, panel, elevation):
+def draw_sphere(axes, panel, elevation, azimuth):
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 40), np.linspace(0, np.pi, 20))
     axes.plot_wireframe(np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v), color="#C8C8C8", linewidth=0.3)
     for layer in layers(panel, "indicatrix"):
@@ -292,24 +312,24 @@ def draw_sphere(axes, panel, elevation):
     caption = "normals $N_a$ (green)" if layers(panel, "gauss_map") else "no normals"
     if corners and corners[0]["values"]:
         caption = f"indicatrix (orange), signed area {corners[0]['values'][0]:.3f} sr;\n{caption}"
-    space(axes, "", np.array([[-1.05] * 3, [1.05] * 3]), elevation)
+    space(axes, "", np.array([[-1.05] * 3, [1.05] * 3]), elevation, azimuth)
     axes.set_title(caption, fontsize=9)
 
 
-def draw_space(figure, panels, spheres, elevation=22):
+def draw_space(figure, panels, spheres, elevation=22, azimuth=-62):
     """Blocks above, and with `spheres` the unit spheres of the same faces below, seen from `elevation` degrees above the horizon."""
     rows = 2 if spheres else 1
     for column, panel in enumerate(panels):
-        draw_blocks(figure.add_subplot(rows, len(panels), 1 + column, projection="3d"), panel, "abcd"[column])
+        draw_blocks(figure.add_subplot(rows, len(panels), 1 + column, projection="3d"), panel, "abcd"[column], azimuth)
         if spheres:
-            draw_sphere(figure.add_subplot(rows, len(panels), 1 + len(panels) + column, projection="3d"), panel, elevation)
+            draw_sphere(figure.add_subplot(rows, len(panels), 1 + len(panels) + column, projection="3d"), panel, elevation, azimuth)
 
 
 DRAWERS = {
     "fig03": (draw_face_sets, (10, 7.5)),
     "fig04": (draw_offsets, (11, 3.6)),
     "fig05": (lambda f, p: draw_space(f, p, True, 55), (10, 7)),
-    "fig06": (lambda f, p: draw_space(f, p, True), (8, 7)),
+    "fig06": (lambda f, p: draw_space(f, p, True, azimuth=118), (8, 7)),
     "fig07": (lambda f, p: draw_space(f, p, False), (13, 3.8)),
     "fig08": (lambda f, p: draw_space(f, p, True), (8, 7)),
     "fig09": (draw_one_iteration, (9, 8.4)),
@@ -327,9 +347,7 @@ def draw(path):
     drawer(figure, data["panels"])
     figure.suptitle(TITLES[data["figure"]])
     out = Path(path).with_suffix(".png")
-    figure.savefig(out)
-    figure.savefig(out.with_suffix(".pdf"))
-    plt.close(figure)
+    style.save(figure, out)
     return out
 
 

@@ -111,8 +111,6 @@ def draw(run, frames, camera, claims, out, profiled=None):
     figure.suptitle(headline(run), fontsize=9)
     out = Path(out)
     try:
-        figure.savefig(out)
-        figure.savefig(out.with_suffix(".pdf"))
+        style.save(figure, out)
     except OSError as error:
         raise RunError(f"{out} can't be written: {error}") from error
-    plt.close(figure)

@@ -1,5 +1,7 @@
 """The house style of all figures: colours that survive colour-blindness and grey print, units on all axes, vector text."""
 
+from pathlib import Path
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -19,3 +21,10 @@ def use():
         "figure.constrained_layout.use": True, "figure.dpi": 100, "savefig.dpi": 160, "pdf.fonttype": 42, "svg.fonttype": "none",
     })
     return plt
+
+
+def save(figure, out):
+    """Writes `figure` as PNG and, beside it, as PDF, and closes it."""
+    figure.savefig(out)
+    figure.savefig(Path(out).with_suffix(".pdf"))
+    plt.close(figure)
