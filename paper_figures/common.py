@@ -6,7 +6,7 @@ from pathlib import Path
 
 from paper_figures.runs import run_once
 from plots.run_folder import Run, RunError
-from plots.scene_figure import draw, load_claims
+from plots.scene_figure import draw, draw_movie, load_claims
 
 CLAIMS = Path(__file__).parent / "claims"
 
@@ -50,6 +50,7 @@ def main(scene, frames, camera):
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
+    parser.add_argument("--movie", help="MP4 to write instead of the figure")
     parser.add_argument("--profiled", help="run folder of the same scene, made with --profile, for the times by stage")
     arguments = parser.parse_args()
     try:
@@ -57,6 +58,9 @@ def main(scene, frames, camera):
         found = run.manifest["scene"]["name"]
         if found != scene:
             raise RunError(f"{arguments.run} is a run of '{found}', not of '{scene}'")
+        if arguments.movie:
+            draw_movie(run, camera, arguments.movie)
+            sys.exit()
         last = int(run.column("step")[-1])
         claims = load_claims(CLAIMS / f"{scene}.json", run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")

@@ -79,6 +79,13 @@ class Table:
     source: str
 
 
+def table_name(path):
+    """(figure, scale) of `figNN_SCALE.csv`, or of `figNN.csv` in the folder FIGURE-SCALE-BACKEND of a figure's runs."""
+    name, _, scale = path.stem.rpartition("_")
+    folder = path.parent.name.split("-")
+    return (name, scale) if name else (scale, folder[1] if len(folder) == 3 else "")
+
+
 class Evidence:
     """All usable runs and tables below `folder`: accepted results, or run folders."""
 
@@ -91,8 +98,8 @@ class Evidence:
                 self.runs.append(RunEvidence(path, rows, path.relative_to(folder).as_posix()))
         self.runs.sort(key=lambda run: run.manifest.get("ended", ""))
         self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
-        for path in sorted([*folder.rglob("fig*_*.csv"), *folder.rglob("table*_*.csv")]):
-            name, _, scale = path.stem.rpartition("_")
+        for path in sorted([*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")]):
+            name, scale = table_name(path)
             with path.open(newline="") as file:
                 self.tables.append(Table(name, scale, tuple(csv.DictReader(file)), path.relative_to(folder).as_posix()))
 

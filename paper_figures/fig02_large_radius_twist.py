@@ -8,7 +8,7 @@ import numpy as np
 from paper_figures.common import baseline_arguments, ipc_windows, label, options_of
 from paper_figures.runs import run_once
 from plots import render, style
-from plots.run_folder import RunError
+from plots.run_folder import RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE = "large_radius_twist"
@@ -87,6 +87,7 @@ def draw(runs, out):
     axes[2].set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
     for a in axes:
         a.legend()
+    figure.suptitle(f"{SCENE} ({runs[0].manifest['scale']}); {commits_in_words(runs)}", fontsize=9)
     style.save(figure, out)
     return lines
 

@@ -2,7 +2,7 @@
 
 from paper_figures.common import main
 
-CAMERA = ((0.6, 1.0, 1.85), (0, 0, 0), (0, 1, 0))
+CAMERA = ((0.7, 1.15, 2.15), (0, 0, 0), (0, 1, 0))
 
 if __name__ == "__main__":
     main("twist", frames=(0, 3200, 6400, 9600), camera=CAMERA)

@@ -14,7 +14,7 @@ import numpy as np
 
 from paper_figures.runs import iterations, last_frame, provenance, run_once, write_table
 from plots import style
-from plots.run_folder import RunError
+from plots.run_folder import RunError, commits_in_words
 
 SCENE = "three_cloths_on_sphere"
 STEPS = {"smoke": 24, "small": 40, "paper": 50}
@@ -80,9 +80,8 @@ def draw(runs, step, scale, claims, out):
     left.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title="Over iterations (dots: contacts detected anew)")
     right.set(xscale="log", xlabel="time since the step began [ms]", title="Over time")
     left.legend(fontsize=6.5)
-    first = runs[0][1].manifest
     paper = ", ".join(f"{c['quantity'].replace('_', ' ')} {c['value']:g}" for c in claims)
-    figure.suptitle(f"{SCENE} ({scale}), step {step}; commit {first['commit'][:10]}; paper: {paper}", fontsize=9)
+    figure.suptitle(f"{SCENE} ({scale}), step {step}; {commits_in_words([run for _, run in runs])}\npaper: {paper}", fontsize=8)
     style.save(figure, out)
 
 

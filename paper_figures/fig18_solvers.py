@@ -12,7 +12,7 @@ from paper_figures.common import label as solver_of
 from paper_figures.fig18_cloth_on_sphere import CAMERA
 from paper_figures.runs import provenance, run_once, write_table
 from plots import style
-from plots.run_folder import Run, RunError
+from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import draw_frames
 
 # How much slower IPC is on average (CPU), as the paper says in the text beside Fig. 18.
@@ -112,6 +112,7 @@ def draw(runs, out):
     words = figure.add_subplot(grid[2, 2:])
     words.axis("off")
     words.text(0, 1, "\n\n".join(summary(runs)), va="top", wrap=True, fontsize=8.5)
+    figure.suptitle(f"{SCENE} ({runs[0].manifest['scale']}); {commits_in_words(runs)}", fontsize=9)
     style.save(figure, out)
 
 
@@ -134,7 +135,7 @@ if __name__ == "__main__":
     try:
         found = runs_of(options)
         write_table(Path(options.folder) / "fig18.csv", rows(found))
-        draw(found, Path(options.folder) / "fig18.png")
+        draw(found, Path(options.folder) / "fig18_solvers.png")
         print("\n".join(summary(found)))
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")

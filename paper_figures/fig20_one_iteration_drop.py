@@ -8,7 +8,7 @@ import numpy as np
 from paper_figures.common import baseline_arguments, label, options_of
 from paper_figures.runs import run_once
 from plots import render, style
-from plots.run_folder import RunError
+from plots.run_folder import RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE = "one_iteration_drop"
@@ -53,6 +53,7 @@ def draw(runs, out):
     height.set(xlabel="time [s]", ylabel="height [m]", title="Mean height of the cloth")
     for axes in (energy, height):
         axes.legend()
+    figure.suptitle(f"{SCENE} ({runs[0].manifest['scale']}); {commits_in_words(runs)}", fontsize=9)
     style.save(figure, out)
     return lines
 

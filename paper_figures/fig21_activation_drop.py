@@ -16,7 +16,7 @@ import numpy as np
 
 from paper_figures.runs import iterations, provenance, run_once, write_table
 from plots import render, style
-from plots.run_folder import Run, RunError
+from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE = "activation_drop"
@@ -123,7 +123,7 @@ def draw(runs, newton, vbd, curves, rows, step, scale, out):
     ratio = float(ipc["condition_number_at_end [1]"]) / float(ogc["condition_number_at_end [1]"])
     figure.suptitle(f"{SCENE} ({scale}): the two states are at most {ipc['largest_distance_from_ogc [mm]']} mm apart; condition number of ipc_log {ratio:.3g} × "
                     f"that of ogc (paper: 5 ×)\nVBD iterations to 10⁻³: {ogc['vbd_iterations_to_1e-3 [1]']} and {ipc['vbd_iterations_to_1e-3 [1]']} "
-                    f"(paper: 2 ×); commit {runs['ogc'].manifest['commit'][:10]}", fontsize=8)
+                    f"(paper: 2 ×); {commits_in_words([*runs.values(), *newton.values(), *vbd.values()])}", fontsize=8)
     style.save(figure, out)
 
 

@@ -2,7 +2,8 @@
 runs the steps, or `in_order` where Snakemake can't be had. Paths are relative to the folder of the runs.
 
 Keys of a YAML file: `title`; then `illustration: figNN`, or `scene` with `script` (a module of paper_figures) and `run` (options of `ogc run`; without it the
-script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point); `backends` where not both make sense.
+script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes`
+where the script makes one of its run; `backends` where not both make sense.
 """
 
 import argparse
@@ -23,7 +24,7 @@ PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "backends"}
+KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "backends"}
 
 
 class RecipeError(Exception):
@@ -61,6 +62,14 @@ class Recipe:
         """The last file that the recipe makes."""
         return f"{self.folder(scale, backend)}/{self.name}.{'csv' if 'vary' in self.body else 'png'}"
 
+    def movie(self, scale, backend):
+        """The movie that the recipe makes besides, or None."""
+        return f"{self.folder(scale, backend)}/{self.name}.mp4" if self.body.get("movie") else None
+
+    def outputs(self, scale, backend):
+        """Every file that the workflow is asked for."""
+        return [path for path in (self.picture(scale, backend), self.movie(scale, backend)) if path]
+
 
 def load(folder=HERE):
     """name -> Recipe. Throws RecipeError where a file has a key that nobody reads."""
@@ -88,7 +97,8 @@ def choose(names, recipes, backend):
         if backend not in found[0].backends:
             raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave --backend out")
         chosen += [r for r in found if r not in chosen]
-    return chosen
+    needed = [recipes[name] for r in chosen for name in r.body.get("of", [])]
+    return sorted([*chosen, *(r for r in needed if r not in chosen)], key=lambda r: "of" in r.body)  # what draws other figures' runs comes after them
 
 
 def steps(recipe, scale, backend, ogc, python=sys.executable):
@@ -105,10 +115,14 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     if "vary" in recipe.body:
         return _sweep(recipe, scale, backend, ogc, python)
     if "run" in recipe.body:
-        run = f"{here}/run"
+        run, movie = f"{here}/run", recipe.movie(scale, backend)
         command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
-        return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True),
-                Step(recipe.name, picture, (f"{run}/run.json", *script, *plots), (*drawing, run, "--out", picture))]
+        inputs = (f"{run}/run.json", *script, *plots)
+        return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True), Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
+                *([Step(f"{recipe.name}_movie", movie, inputs, (*drawing, run, "--movie", movie))] if movie else [])]
+    if "of" in recipe.body:
+        drawn = [f"{name}-{scale}-{backend}/run" for name in recipe.body["of"]]
+        return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots), (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
     return [Step(recipe.name, picture, (PROGRAM, *script, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
 
@@ -146,6 +160,14 @@ def seconds_of(recipe, scale, backend, runs):
     return sum(json.loads(log.read_text())["seconds"] for log in logs) if all(log.is_file() for log in logs) else None
 
 
+def durations(chosen, scale, backend, runs, machine):
+    """Rows of results/MACHINE/durations.csv: what the finished ones of the `chosen` figures took here."""
+    for recipe in chosen:
+        took, drawn = seconds_of(recipe, scale, backend, runs), "illustration" in recipe.body
+        if took is not None:
+            yield {"figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "seconds": f"{took:.1f}", "machine": machine}
+
+
 def measured_times():
     """(figure, scale, backend) -> (seconds, machine) of results/*/durations.csv."""
     result = {}
@@ -174,13 +196,12 @@ def table(recipes, scale, backend, runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Lists the figures (used by experiments/reproduce), or prints what those of a folder took.")
+    parser = argparse.ArgumentParser(description="Lists the figures (used by experiments/reproduce).")
     parser.add_argument("--scale", default="small", choices=SCALES)
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=ROOT / "runs", type=Path)
     parser.add_argument("--check-names", nargs="*", help="only say whether there are such figures")
     parser.add_argument("--pictures", nargs="*", help="the file that each figure ends in")
-    parser.add_argument("--durations", metavar="MACHINE", help="CSV of the times that figures took here, for results/MACHINE/durations.csv")
     arguments = parser.parse_args()
     try:
         recipes = load()
@@ -188,13 +209,6 @@ def main():
             choose(arguments.check_names, recipes, arguments.backend)
         elif arguments.pictures is not None:
             print("\n".join(str(arguments.runs / r.picture(arguments.scale, arguments.backend)) for r in choose(arguments.pictures, recipes, arguments.backend)))
-        elif arguments.durations:
-            print("figure,scale,backend,seconds,machine")
-            for recipe, scale, backend in itertools.product(recipes.values(), SCALES, ("cpu", "cuda")):
-                took = seconds_of(recipe, scale, backend, arguments.runs)
-                drawn = "illustration" in recipe.body
-                if took is not None and not (drawn and (scale, backend) != ("smoke", "cpu")):
-                    print(f"{recipe.name},{'-,-' if drawn else f'{scale},{backend}'},{took:.1f},{arguments.durations}")
         else:
             print("\n".join(table(recipes, arguments.scale, arguments.backend, arguments.runs)))
     except RecipeError as error:

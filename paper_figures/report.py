@@ -5,6 +5,7 @@ It is made of claims, accepted results and recipes, and never edited: the verdic
 
 import argparse
 import base64
+import csv
 import html
 import io
 import re
@@ -20,7 +21,7 @@ DEVIATIONS = recipes.ROOT / "compare/deviations.md"
 STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 78em; margin: 1.5em auto; padding: 0 1em; color: #111; }
 table { border-collapse: collapse; margin: .6em 0 1.4em; } td, th { border-bottom: 1px solid #ccc; padding: .25em .6em; text-align: left; vertical-align: top; }
-img { max-width: 100%; } h2 { margin-top: 2em; } code { background: #f2f2f2; } .number { text-align: right; min-width: 6em; } td small { color: #444; }
+img, video { max-width: 100%; } h2 { margin-top: 2em; } code { background: #f2f2f2; } .number { text-align: right; min-width: 6em; } td small { color: #444; }
 .verdict { white-space: nowrap; font-weight: bold; } .reproduced { color: #005a87; } .refuted { color: #a33d00; } .not-comparable, .not-yet-run { color: #555; font-weight: normal; }
 """
 PAPER_ORDER = [f"fig{number:02d}" for number in range(1, 23)]
@@ -36,6 +37,13 @@ def page(title, body):
 
 def embedded(data, words):
     return f'<img alt="{escape(words)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
+
+
+def shown(path, words):
+    """A picture or a movie as HTML."""
+    if path.suffix != ".mp4":
+        return embedded(path.read_bytes(), words)
+    return f'<video controls title="{escape(words)}" src="data:video/mp4;base64,{base64.b64encode(path.read_bytes()).decode()}"></video>'
 
 
 def claim_row(judgement):
@@ -63,7 +71,19 @@ def numbered(text):
 
 
 def pictures_of(figure, folder=RESULTS):
-    return [path for path in sorted(folder.rglob("*.png")) if numbered(path.stem) == figure]
+    """Accepted pictures of a figure, and its movies after them."""
+    return [path for suffix in ("png", "mp4") for path in sorted(folder.rglob(f"*.{suffix}")) if numbered(path.stem) == figure]
+
+
+def origin_of(path):
+    """What the provenance beside an accepted file says about it, in words."""
+    table = path.parent / "provenance.csv"
+    if table.is_file():
+        with table.open(newline="") as file:
+            for row in csv.DictReader(file):
+                if row["file"] == path.name:
+                    return f"{escape(row['device'])}, commit {escape(row['commit'][:10])}, made by <code>{escape(row['redo'])}</code>"
+    return "see the README beside it for machine and commit"
 
 
 def commands_of(evidence, scene):
@@ -78,8 +98,8 @@ def figure_section(figure, book, judgements, evidence):
     claims = [j for j in judgements if j.claim["figures"][0] == figure]
     scenes = sorted({j.claim["scene"] for j in claims} | {recipe.scene for recipe in mine} - {""})
     title = mine[0].title if mine else "no recipe yet"
-    images = "".join(f"<figure>{embedded(path.read_bytes(), f'{figure}, ours')}<figcaption><small>{escape(path.relative_to(RESULTS).as_posix())}: "
-                     f"see the README beside it for machine and commit</small></figcaption></figure>" for path in pictures_of(figure))
+    images = "".join(f"<figure>{shown(path, f'{figure}, ours')}<figcaption><small>{escape(path.relative_to(RESULTS).as_posix())}: {origin_of(path)}</small></figcaption></figure>"
+                     for path in pictures_of(figure))
     redo = "".join(f"<li><code>experiments/reproduce {escape(r.name)}{'' if 'illustration' in r.body else ' --scale paper'}</code> (parameters: "
                    f"<code>paper_figures/{escape(r.name)}.yaml</code>: {escape(shlex.join(map(str, r.body.get('run', r.body.get('options', [])))) or 'those of the scene')})</li>" for r in mine)
     links = ", ".join(f'<a href="{scene}.html">{scene}</a>' for scene in scenes)
@@ -135,7 +155,7 @@ def scene_page(scene, judgements, evidence):
         settings = ", ".join(f"{escape(name)} {escape(value['value'])}" for name, value in m["settings"].items())
         audit = {True: f"exact audit of {m['audited_states']} states: no intersection", False: "exact audit FAILED"}.get(m.get("guarantee_kept"), "not audited")
         parts.append(f"<h2>{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>{escape(m['device'])}, commit {escape(m['commit'][:10])}, {len(run.column('step'))} steps, {audit}</p>"
-                     f"{embedded(curves(run), 'curves of ' + run.source)}<details><summary>Settings</summary><p>{settings}</p></details>")
+                     f"{embedded(curves(run), 'curves of ' + run.source) if len(run.column('step')) > 1 else ''}<details><summary>Settings</summary><p>{settings}</p></details>")
     return page(scene, "\n".join(parts if len(parts) > 2 else [*parts, "<p>No accepted run yet.</p>"]))
 
 

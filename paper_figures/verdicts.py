@@ -148,42 +148,12 @@ def as_table(judgements):
     return out.getvalue()
 
 
-def check(runs):
-    """Words about the runs below `runs`, and whether they meet the accepted results: a claim that was reproduced must be so again, and a run of the commit, machine
-    and parameters of an accepted one must end with its bits."""
-    new, kept = Evidence(runs), Evidence()
-    accepted = {j.claim["id"]: j.verdict for j in judge_all(kept)}
-    lines, met = [], True
-    for judgement in judge_all(new):
-        if judgement.measured:
-            before = accepted[judgement.claim["id"]]
-            lost = before == "reproduced" and judgement.verdict == "refuted"
-            met = met and not lost
-            lines.append(f"{judgement.claim['id']}: {judgement.verdict}, {judgement.measured.value:.4g} (paper {judgement.claim['value']:g}, band {band_in_words(judgement.claim)}); "
-                         f"accepted: {before}{' – LOST' if lost else ''}")
-    for run, old in ((run, old) for run in new.runs for old in kept.runs if _same_question(run.manifest, old.manifest)):
-        same = run.manifest["final_hash"] == old.manifest["final_hash"]
-        met = met and same
-        lines.append(f"{run.source}: {'the bits' if same else 'NOT the bits'} of {old.source}")
-    return lines or [f"{len(new.runs)} runs, none of which an accepted result or a claim (they are about the paper's size) is about"], met
-
-
-def _same_question(run, other):
-    keys = ("scene", "settings", "scale", "solver", "backend", "device", "commit", "compiler")
-    return all(run.get(key) == other.get(key) for key in keys)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true", help="keep the table in results/verdicts.csv")
     parser.add_argument("--runs", help="judge the run folders below this folder instead of the accepted results")
-    parser.add_argument("--check", metavar="FOLDER", help="hold the run folders below this folder against claims and accepted results; exit status 1 where one is not met")
     arguments = parser.parse_args()
     try:
-        if arguments.check:
-            lines, met = check(arguments.check)
-            print("\n".join(lines))
-            sys.exit(0 if met else 1)
         judgements = judge_all(Evidence(arguments.runs) if arguments.runs else None)
     except EvidenceError as error:
         sys.exit(f"verdicts: {error}")

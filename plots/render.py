@@ -1,4 +1,4 @@
-"""Renders meshes off-screen. Needs PyVista; `available()` says whether and why not."""
+"""Renders meshes off-screen. Needs PyVista, and for movies imageio; `available()` says whether and why not."""
 
 import numpy as np
 
@@ -35,3 +35,18 @@ def picture(bodies, camera, size=(640, 480)):
     image = plotter.screenshot(return_img=True)
     plotter.close()
     return image
+
+
+def write_movie(scenes, camera, out, frames_per_second, size=(640, 480)):
+    """MP4 (H.264) with a picture of each element of `scenes`, which is what `picture` takes as bodies. Returns what `available` does."""
+    usable, reason = available()
+    try:
+        import imageio
+        import imageio_ffmpeg  # noqa: F401  (the encoder, which imageio finds by itself)
+    except ImportError as error:
+        return False, f"a package for movies can't be imported ({error}); install plots/requirements.txt"
+    if usable:
+        with imageio.get_writer(out, fps=frames_per_second, codec="libx264", quality=5, macro_block_size=16, ffmpeg_log_level="error") as writer:
+            for bodies in scenes:
+                writer.append_data(picture(bodies, camera, size))
+    return usable, reason

@@ -84,6 +84,14 @@ class Run:
             raise RunError(f"{self.folder}: the audit failed; see run.json")
 
 
+def commits_in_words(runs):
+    """The commit of the program that made `runs`; where there are several, which run is whose, because such a picture compares programs, too."""
+    commits = [run.manifest["commit"][:10] + (" (dirty)" if run.manifest.get("dirty") else "") for run in runs]
+    if len(set(commits)) == 1:
+        return f"commit {commits[0]}"
+    return "MIXED, not one program's runs: " + ", ".join(f"{run.folder.name} of commit {commit}" for run, commit in zip(runs, commits))
+
+
 def _read_steps(path):
     if not path.is_file():
         raise RunError(f"{path} is missing")

@@ -1,4 +1,4 @@
-"""The figure of one run: time a step, detections, contacts, smallest distance, and rendered frames."""
+"""The figure of one run: time a step, detections, contacts, smallest distance, and rendered frames; and its movie."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,7 @@ import h5py  # noqa: F401  (a missing reader should be reported before anything 
 import numpy as np
 
 from plots import render, style
-from plots.run_folder import RunError
+from plots.run_folder import RunError, commits_in_words
 
 
 def load_claims(path, backend):
@@ -86,12 +86,22 @@ def draw_frames(figure, grid, run, steps, camera):
             axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
 
 
+def draw_movie(run, camera, out, most=160, frames_per_second=24):
+    """MP4 of a finished run's stored frames, of every second, third … where there are more than `most`. Throws RunError like `draw`."""
+    run.require_finished()
+    every = -(-len(run.frames) // most)
+    shown = (run.frame(path) for path in run.frames[::every])
+    usable, reason = render.write_movie((bodies_of(run, frame) for frame in shown), camera, out, frames_per_second)
+    if not usable:
+        raise RunError(f"{out} can't be made: {reason}")
+
+
 def headline(run):
     wall = run.column("wall")[1:] if len(run.column("wall")) > 1 else run.column("wall")
     m = run.manifest
     kept = {True: "exact audit: no intersection", False: "exact audit: FAILED"}.get(m.get("guarantee_kept"), "not audited")
     return (f"{m['scene']['name']}, {m['backend']} ({m['device']}), {len(run.column('step'))} steps: median {np.median(wall):.3g} ms, "
-            f"worst {wall.max():.3g} ms a step; {kept}; commit {m['commit'][:10]}{' (dirty)' if m.get('dirty') else ''}")
+            f"worst {wall.max():.3g} ms a step; {kept}; {commits_in_words([run])}")
 
 
 def draw(run, frames, camera, claims, out, profiled=None):

@@ -32,7 +32,7 @@ class Page(HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.ids, self.links, self.pictures, self.marked, self.shown, self.words, self.foreign = set(), [], [], {}, {}, [], []
+        self.ids, self.links, self.pictures, self.movies, self.marked, self.shown, self.words, self.foreign = set(), [], [], [], {}, {}, [], []
         self.row = self.cell = self.head = None
         self.feed(text)
 
@@ -43,6 +43,8 @@ class Page(HTMLParser):
             self.links.append(attributes["href"])
         elif tag == "img":
             self.pictures.append(attributes["src"])
+        elif tag == "video":
+            self.movies.append(attributes["src"])
         elif tag in ("script", "link", "iframe"):
             self.foreign.append(tag)
         if "data-verdict" in attributes:
@@ -71,6 +73,11 @@ def png(source):
             return False
 
 
+def mp4(source):
+    kind, _, data = source.partition(",")
+    return kind == "data:video/mp4;base64" and base64.b64decode(data)[4:8] == b"ftyp"
+
+
 def faults(folder):
     """Sentences about what is wrong with the report in `folder`; none where all is well."""
     pages = {path.name: Page(path.read_text()) for path in sorted(Path(folder).glob("*.html"))}
@@ -84,6 +91,7 @@ def faults(folder):
         found += [f"{name}: {row} shows '{page.shown.get(row)}', not '{expected.get(row)}'" for row, verdict in page.marked.items() if not page.shown.get(row) == verdict == expected.get(row)]
         found += [f"{name}: the link {link} leads nowhere" for link in page.links if not resolves(link, name, pages)]
         found += [f"{name}: picture {number} can't be read" for number, source in enumerate(page.pictures) if not png(source)]
+        found += [f"{name}: movie {number} can't be read" for number, source in enumerate(page.movies) if not mp4(source)]
         found += [f"{name}: holds a {tag}" for tag in page.foreign]
     return found
 
@@ -101,7 +109,8 @@ def check_faults_are_found(folder):
     plants = [(lambda t: re.sub(r"^(.*?)\d+ of", r"\g<1>0 of", t, count=1, flags=re.S), "does not count"), (lambda t: t.replace('data-verdict="refuted"', 'data-verdict="reproduced"', 1), "not those"),
               (lambda t: t.replace(">refuted</td>", ">reproduced</td>", 1), "shows 'reproduced'"), (lambda t: t.replace('href="twist.html"', 'href="twists.html"', 1), "leads nowhere"),
               (lambda t: t.replace('src="data:image/png;base64,iVBOR', 'src="data:image/png;base64,AAAAA', 1), "can't be read"),
-              (lambda t: t.replace('src="data:image/png', 'src="http://example.org/a.png" title="', 1), "can't be read"), (lambda t: t.replace("<body>", "<body><script></script>", 1), "holds a script")]
+              (lambda t: t.replace('src="data:image/png', 'src="http://example.org/a.png" title="', 1), "can't be read"), (lambda t: t.replace("<body>", "<body><script></script>", 1), "holds a script"),
+              (lambda t: t.replace("<body>", '<body><video src="data:video/mp4;base64,AAAAAAAAAAAAAAAA"></video>', 1), "movie 0 can't be read")]
     for plant, words in plants:
         planted = plant(good)
         assert planted != good, f"could not plant: {words}"

@@ -1,4 +1,4 @@
-"""Draws the figure of a finished run through the figure script, and checks that it refuses an unfinished one in words.
+"""Draws the figure and the movie of a finished run through the figure script, and checks that it refuses in words what it can't draw.
 
 Usage: draw_figure.py SOURCE_DIR RUN_FOLDER SCENE_MODULE. Exit status 77: skipped, a Python package is missing (the reason is printed).
 """
@@ -18,8 +18,8 @@ except ImportError as error:
     sys.exit(77)
 
 
-def run_script(source, module, folder, out):
-    command = [sys.executable, "-m", f"paper_figures.{module}", str(folder), "--out", str(out)]
+def run_script(source, module, folder, out, option="--out"):
+    command = [sys.executable, "-m", f"paper_figures.{module}", str(folder), option, str(out)]
     return subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)
 
 
@@ -33,22 +33,52 @@ def check_drawn(source, module, folder, scratch):
     assert out.with_suffix(".pdf").stat().st_size > 10_000
 
 
+def check_movie(source, module, folder, scratch):
+    """A movie where the packages for it are there; words where they are not."""
+    out = scratch / "movie.mp4"
+    done = run_script(source, module, folder, out, "--movie")
+    if done.returncode == 0:
+        assert out.read_bytes()[4:8] == b"ftyp" and out.stat().st_size > 2_000, "no movie"
+    else:
+        assert "can't be imported" in done.stderr, done.stderr
+
+
 def check_refused(source, module, folder, scratch):
-    copy = scratch / "copy"
+    """Each thing that is wrong with a run is said in words, with status 1, no traceback and no picture."""
+    copy, out = scratch / "copy", scratch / "none.png"
     shutil.copytree(folder, copy)
-    manifest = json.loads((copy / "run.json").read_text())
-    manifest["status"] = "running"
-    (copy / "run.json").write_text(json.dumps(manifest))
-    done = run_script(source, module, copy, scratch / "none.png")
-    assert done.returncode != 0 and "not finished" in done.stderr, done.stderr
-    (copy / "steps.csv").unlink()
-    done = run_script(source, module, copy, scratch / "none.png")
-    assert done.returncode != 0 and "steps.csv is missing" in done.stderr, done.stderr
+    good, rows = json.loads((copy / "run.json").read_text()), (copy / "steps.csv").read_text()
+    faults = [({"status": "running"}, rows, "not finished"), ({"guarantee_kept": False}, rows, "the audit failed"), ({"scene": {**good["scene"], "name": "knot"}}, rows, "is a run of 'knot'"),
+              ({}, rows.replace("edge_edge_contacts", "pairs", 1), "has no column 'edge_edge_contacts'; it has: step"), ({}, rows.splitlines()[0] + "\n", "holds no step yet"), ({}, None, "steps.csv is missing")]
+    for changes, table, words in faults:
+        (copy / "run.json").write_text(json.dumps({**good, **changes}))
+        (copy / "steps.csv").write_text(table) if table else (copy / "steps.csv").unlink()
+        check_words(run_script(source, module, copy, out), words, out)
+    check_words(run_script(source, module, scratch / "nowhere", out), "is no run folder: it has no run.json. Make one with: ogc run", out)
+
+
+def check_words(done, words, out):
+    assert done.returncode == 1 and words in done.stderr and "Traceback" not in done.stderr, (words, done.stderr)
+    assert not out.exists(), words
+
+
+def check_mixture(source, folder):
+    """Runs of one commit are said to be so; of several, which is whose."""
+    sys.path.insert(0, str(source))
+    from plots.run_folder import Run, commits_in_words
+
+    first, second = Run(folder), Run(folder)
+    assert commits_in_words([first, second]) == f"commit {first.manifest['commit'][:10]}" + (" (dirty)" if first.manifest.get("dirty") else "")
+    second.manifest["commit"] = "0" * 40
+    said = commits_in_words([first, second])
+    assert said.startswith("MIXED, not one program's runs: ") and "of commit 0000000000" in said, said
 
 
 if __name__ == "__main__":
     source_dir, run_folder, scene_module = sys.argv[1:4]
     with tempfile.TemporaryDirectory() as name:
         check_drawn(source_dir, scene_module, run_folder, Path(name))
+        check_movie(source_dir, scene_module, run_folder, Path(name))
         check_refused(source_dir, scene_module, run_folder, Path(name))
+        check_mixture(source_dir, run_folder)
     print("drawn, and refused where it should be")

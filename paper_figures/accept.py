@@ -1,0 +1,155 @@
+"""Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
+and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
+
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
+"""
+
+import argparse
+import csv
+import gzip
+import hashlib
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from paper_figures import recipes
+from paper_figures.evidence import RESULTS
+
+COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
+# A file above this is no small data; the folder as a whole stays under 30 MiB.
+LARGEST = 2 * 2**20
+
+
+class AcceptError(Exception):
+    """Why a figure's files can't become accepted results; the message says which, and what to do."""
+
+
+def relative(text):
+    """A command without the folders of absolute paths: they say nothing on another machine."""
+    return re.sub(r"(?<![^\s=])/\S*/", "", text)
+
+
+def manifests(folder):
+    """(run folder's name below the figure's, manifest) of each run of a figure."""
+    return [("_".join(path.parent.relative_to(folder).parts), json.loads(path.read_text())) for path in sorted(folder.rglob("run.json"))]
+
+
+def check(name, manifest):
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did."""
+    if manifest.get("dirty") is not False:
+        raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
+    if manifest.get("guarantee_kept") is False:
+        raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted result")
+    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
+        raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run experiments/reproduce again, it goes on where it was")
+
+
+def program(ogc):
+    """Commit and compiler of the program, as it says itself."""
+    said = subprocess.run([ogc, "--version"], capture_output=True, text=True, check=True).stdout
+    words = dict(line.split(" ", 1) for line in said.splitlines() if line.startswith(("commit ", "compiler ")))
+    if "dirty" in words["commit"] or words["commit"] == "unknown":
+        raise AcceptError(f"{ogc} was built from uncommitted changes: commit, build, and run again")
+    return words
+
+
+def origin(recipe, folder, ogc):
+    """Commit, compiler, device and end of the figure's runs, or of the program where it has none."""
+    runs = manifests(folder) if "illustration" not in recipe.body else []
+    for name, manifest in runs:
+        check(f"{folder.name}/{name}", manifest)
+    if not runs:
+        return {**program(ogc), "device": "exact reference", "ended": ""}
+    commits = sorted({manifest["commit"] for _, manifest in runs})
+    if len(commits) > 1:
+        raise AcceptError(f"{folder} mixes runs of commits {', '.join(commit[:10] for commit in commits)}: remove it and run again")
+    last = max((manifest for _, manifest in runs), key=lambda manifest: manifest["ended"])
+    return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
+
+
+def pieces(recipe, scale, backend, runs):
+    """(name in results, bytes) of what is kept of a figure."""
+    folder, picture = runs / recipe.folder(scale, backend), runs / recipe.picture(scale, backend)
+    if not picture.is_file():
+        raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
+    if "illustration" in recipe.body:
+        return [(picture.name, picture.read_bytes()), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
+    found = [(f"{recipe.name}_{scale}{Path(path).suffix}", (runs / path).read_bytes()) for path in recipe.outputs(scale, backend)]
+    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("fig*.csv"))]
+    if "vary" not in recipe.body:  # a sweep's table is its data
+        paths = sorted(folder.rglob("run.json"))
+        for path in paths:  # one run lies beside its picture, several in a folder
+            found += run_files(path, f"{recipe.name}_{scale}" + (f"/{path.parent.name}" if len(paths) > 1 else ""))
+    return found
+
+
+def run_files(path, stem):
+    """Manifest, rows and iterations of the run whose manifest is `path`."""
+    manifest = json.loads(path.read_text())
+    manifest["command"] = relative(manifest["command"])
+    rows = [(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in ("steps.csv", "iterations.csv") if path.with_name(name).is_file()]
+    return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
+
+
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS):
+    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted."""
+    folder, kept, rows = Path(results) / machine, [], []
+    for recipe in chosen:
+        words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
+        for name, data in pieces(recipe, scale, backend, Path(runs)):
+            if len(data) > LARGEST:
+                raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
+            drawn = "illustration" in recipe.body
+            redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
+            rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "redo": redo, **words,
+                         "sha256": hashlib.sha256(data).hexdigest()[:16]})
+            kept.append((folder / name, data))
+    for path, data in kept:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+    merge(folder / "provenance.csv", COLUMNS, rows, ("file",))
+    merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"), list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
+    return rows
+
+
+def composed(recipe, chosen, scale, backend, runs, ogc):
+    """Origin of a picture of other figures' runs: theirs, if it is one."""
+    found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen if other.name in recipe.body["of"]]
+    if len({words["commit"] for words in found}) > 1:
+        raise AcceptError(f"{recipe.name} mixes runs of several commits: run experiments/reproduce {' '.join(recipe.body['of'])} anew")
+    return max(found, key=lambda words: words["ended"])
+
+
+def merge(path, columns, rows, key):
+    """Rows of a table replaced by those of the same key; sorted, so that a new acceptance changes its own lines alone."""
+    old = {}
+    if path.is_file():
+        with path.open(newline="") as file:
+            old = {tuple(row[name] for name in key): row for row in csv.DictReader(file)}
+    old.update({tuple(row[name] for name in key): row for row in rows})
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(old[name] for name in sorted(old))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("machine", help="folder below paper_figures/results, named after the machine")
+    parser.add_argument("figures", nargs="*")
+    parser.add_argument("--scale", default="small", choices=recipes.SCALES)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
+    parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    options = parser.parse_args()
+    try:
+        rows = accept(recipes.choose(options.figures, recipes.load(), options.backend), options.scale, options.backend, options.runs, options.machine, str(options.ogc))
+    except (AcceptError, recipes.RecipeError) as error:
+        sys.exit(f"accept: {error}")
+    print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m paper_figures.verdicts --write, and look at what changed")
+
+
+if __name__ == "__main__":
+    main()

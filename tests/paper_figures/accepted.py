@@ -1,0 +1,212 @@
+"""Accepting results and checking new runs against them: what is no evidence is refused in words, a change that the bands don't allow is found, and what lies in results/ has its provenance.
+
+Usage: accepted.py SOURCE_DIR. Exit status 77: skipped, PyYAML is missing.
+"""
+
+import csv
+import gzip
+import hashlib
+import json
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE))
+try:
+    import yaml  # noqa: F401
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+from paper_figures import accept, check, recipes  # noqa: E402
+from paper_figures.evidence import RESULTS, Evidence, RunEvidence  # noqa: E402
+
+SPHERE = "h200/sphere_cuda"
+LIMIT = 30 * 2**20
+
+
+def run_evidence(stem):
+    return RunEvidence(RESULTS / f"{stem}_run.json", RESULTS / f"{stem}_steps.csv", stem)
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.runs = Path(self.scratch.name) / "runs"
+        self.results = Path(self.scratch.name) / "results"
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def make_run(self, folder, rows=lambda text: text, **changes):
+        """A copy of an accepted run as a run folder, changed."""
+        folder = self.runs / folder
+        folder.mkdir(parents=True)
+        manifest = json.loads((RESULTS / f"{SPHERE}_run.json").read_text())
+        (folder / "run.json").write_text(json.dumps({**manifest, **changes}))
+        (folder / "steps.csv").write_text(rows((RESULTS / f"{SPHERE}_steps.csv").read_text()))
+        return folder
+
+
+def scaled(column, factor):
+    """A function that multiplies a column of steps.csv."""
+    def change(text):
+        head, *rows = list(csv.reader(text.splitlines()))
+        at = next(i for i, name in enumerate(head) if name.partition("[")[0].strip() == column)
+        lines = [",".join(row[:at] + [repr(float(row[at]) * factor)] + row[at + 1:]) for row in rows]
+        return "\n".join([",".join(head), *lines]) + "\n"
+    return change
+
+
+class Checking(Scratch):
+    def said(self, **options):
+        self.make_run("fig18-paper-cuda/run", **options)
+        lines, met = check.check(self.runs)
+        return met, next(line for line in lines if line.startswith("fig18-paper-cuda/run"))
+
+    def test_the_same_program_must_give_the_same_bits(self):
+        self.assertEqual(self.said(), (True, "fig18-paper-cuda/run/run.json: the bits of h200/sphere_cuda_profile_run.json"))
+
+    def test_other_bits_of_the_same_program_are_found(self):
+        met, words = self.said(final_hash="0" * 16)
+        self.assertFalse(met)
+        self.assertRegex(words, "NOT the bits of the accepted run")
+
+    def test_another_program_is_held_to_the_bands(self):
+        met, words = self.said(commit="f" * 40, final_hash="0" * 16)
+        self.assertTrue(met, words)
+        self.assertIn("within the bands of", words)
+
+    def test_a_mean_outside_its_band_is_named(self):
+        for column, band in check.bands().items():
+            for factor, good in ((1 + 0.9 * band, True), (1 + 1.1 * band, False), (1 - 1.1 * band, False)):
+                with self.subTest(column=column, factor=factor):
+                    met, words = self.said(commit="f" * 40, rows=scaled(column, factor))
+                    shutil.rmtree(self.runs)
+                    self.assertEqual(met, good, words)
+                    self.assertEqual(f"mean {column}" in words, not good, words)
+
+    def test_a_failed_audit_an_unfinished_run_and_missing_steps_are_not_met(self):
+        for changes, words in (({"guarantee_kept": False, "status": "failed: intersection"}, "its audit FAILED"), ({"status": "running"}, "not finished"),
+                               ({"commit": "f" * 40, "rows": lambda text: "\n".join(text.splitlines()[:50]) + "\n"}, "49 steps, not 100")):
+            met, said = self.said(**changes)
+            shutil.rmtree(self.runs)
+            self.assertFalse(met)
+            self.assertIn(words, said)
+
+    def test_runs_that_no_accepted_result_is_about_are_said_to_be_so(self):
+        self.make_run("other/run", scale="smoke", scene={"name": "nothing", "bodies": []})
+        lines, met = check.check(self.runs)
+        self.assertTrue(met)
+        self.assertRegex(lines[0], "1 runs, none of which an accepted result")
+
+    def test_illustrations_are_the_same_data(self):
+        (self.runs / "illustrations").mkdir(parents=True)
+        (self.results / "m").mkdir(parents=True)
+        (self.results / "m/fig07.json.gz").write_bytes(gzip.compress(b"{}"))
+        for data, good in ((b"{}", True), (b"{ }", False)):
+            (self.runs / "illustrations/fig07.json").write_bytes(data)
+            self.assertEqual([met for _, met in check.compare_illustrations(self.runs, self.results)], [good])
+
+    def test_a_claim_at_a_smaller_scale_is_held_to_its_band_moved_to_the_accepted_number(self):
+        claim = {"id": "s.c", "scene": "s", "value": 5, "band": [4.5, 5.5], "measure": {"table": "fig99", "column": "n", "where": {"kind": "a"}}, "run": {"scale": "paper"}}
+        for ours, good in ((1.59, True), (1.7, True), (1.8, False), (1.4, False)):
+            for folder, number in ((self.results, 1.59), (self.runs / "fig99-small-cpu", ours)):
+                folder.mkdir(parents=True, exist_ok=True)
+                name = "fig99_small.csv" if folder == self.results else "fig99.csv"
+                (folder / name).write_text(f"kind,n,commit,device\na,{number},c,d\n")
+            found = list(check.compare_smaller(claim, Evidence(self.runs), Evidence(self.results)))
+            self.assertEqual([met for _, met in found], [good], found)
+
+    def test_the_bands_are_what_the_accepted_pairs_say(self):
+        document = json.loads(check.BANDS.read_text())
+        self.assertEqual(document["factor"], 3)
+        for name, entry in document["columns"].items():
+            means = [[sum(run_evidence(stem).column(name)) for stem in pair] for pair in document["pairs"]]
+            self.assertAlmostEqual(entry["spread"], max(abs(b / a - 1) for a, b in means), delta=5e-5, msg=name)
+
+
+class Accepting(Scratch):
+    BOOK = recipes.load()
+
+    def accept(self, *names):
+        return accept.accept([self.BOOK[name] for name in names], "paper", "cuda", self.runs, "machine", "no program", self.results)
+
+    def finished(self, **changes):
+        folder = self.make_run("fig18-paper-cuda/run", **changes)
+        (folder.parent / "fig18.png").write_bytes(b"picture")
+
+    def test_data_picture_and_provenance_are_kept(self):
+        self.finished(command="/somewhere/build/default/ogc run cloth_on_sphere --from-state=/else/where/frame.h5 --out fig18-paper-cuda/run")
+        self.accept("fig18")
+        kept = self.results / "machine"
+        self.assertEqual({path.name for path in kept.iterdir()}, {"fig18_paper.png", "fig18_paper_run.json", "fig18_paper_steps.csv", "provenance.csv", "durations.csv"})
+        manifest = json.loads((kept / "fig18_paper_run.json").read_text())
+        self.assertEqual(manifest["command"], "ogc run cloth_on_sphere --from-state=frame.h5 --out fig18-paper-cuda/run")
+        with (kept / "provenance.csv").open(newline="") as file:
+            rows = {row["file"]: row for row in csv.DictReader(file)}
+        self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
+
+    def test_what_is_no_evidence_is_refused_in_words_and_nothing_is_written(self):
+        for changes, words in (({"dirty": True}, "uncommitted changes"), ({"guarantee_kept": False}, "failed its audit"), ({"status": "running"}, "not finished")):
+            self.finished(**changes)
+            with self.assertRaisesRegex(accept.AcceptError, words):
+                self.accept("fig18")
+            shutil.rmtree(self.runs)
+        self.assertFalse(self.results.exists())
+
+    def test_a_mixture_of_commits_and_a_missing_picture_are_refused(self):
+        for number, commit in enumerate("ab"):
+            self.make_run(f"fig17-paper-cuda/run_{number}", commit=commit * 40)
+        with self.assertRaisesRegex(accept.AcceptError, "mixes runs of commits aaaaaaaaaa, bbbbbbbbbb: remove it"):
+            self.accept("fig17")
+        with self.assertRaisesRegex(accept.AcceptError, "fig12.png is missing: make it with experiments/reproduce fig12"):
+            self.make_run("fig12-paper-cuda/run")
+            self.accept("fig12")
+
+    def test_rows_of_other_figures_stay(self):
+        table = self.results / "t.csv"
+        self.results.mkdir()
+        accept.merge(table, ("file", "n"), [{"file": "b", "n": 1}, {"file": "a", "n": 1}], ("file",))
+        accept.merge(table, ("file", "n"), [{"file": "b", "n": 2}], ("file",))
+        self.assertEqual(table.read_text(), "file,n\na,1\nb,2\n")
+
+
+class Kept(unittest.TestCase):
+    """The accepted results that are there."""
+
+    def test_every_file_of_a_provenance_is_there_unchanged(self):
+        for path in RESULTS.glob("*/provenance.csv"):
+            with path.open(newline="") as file:
+                for row in csv.DictReader(file):
+                    data = (path.parent / row["file"]).read_bytes()
+                    self.assertEqual(hashlib.sha256(data).hexdigest()[:16], row["sha256"], row["file"])
+                    self.assertNotIn("dirty", row["commit"])
+
+    def test_every_file_of_the_two_cores_has_a_provenance(self):
+        folder = RESULTS / "two_cores"
+        with (folder / "provenance.csv").open(newline="") as file:
+            known = {row["file"] for row in csv.DictReader(file)}
+        there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+        self.assertEqual(there - known, {"README.md", "provenance.csv", "durations.csv"})
+
+    def test_all_of_them_are_small(self):
+        self.assertLess(sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()), LIMIT)
+
+    def test_no_manifest_names_a_folder_of_the_machine(self):
+        for path in RESULTS.rglob("*run.json"):
+            self.assertNotRegex(json.loads(path.read_text())["command"], r"(^|\s|=)/", path)
+
+
+class Figures(unittest.TestCase):
+    def test_a_script_makes_the_picture_that_the_workflow_waits_for(self):
+        for recipe in recipes.load().values():
+            if "script" in recipe.body and "run" not in recipe.body and "of" not in recipe.body:
+                text = (SOURCE / f"paper_figures/{recipe.body['script']}.py").read_text()
+                self.assertIn(f'"{recipe.name}.png"', text, recipe.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
