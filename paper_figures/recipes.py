@@ -60,7 +60,7 @@ class Recipe:
 
     def picture(self, scale, backend):
         """The last file that the recipe makes."""
-        return f"{self.folder(scale, backend)}/{self.name}.{'csv' if 'vary' in self.body else 'png'}"
+        return f"{self.folder(scale, backend)}/{self.name}.png"
 
     def movie(self, scale, backend):
         """The movie that the recipe makes besides, or None."""
@@ -113,7 +113,7 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
                 Step(recipe.name, picture, (data, str(HERE / "illustrations.py"), *plots), (*drawing, here, recipe.name))]
     if "vary" in recipe.body:
-        return _sweep(recipe, scale, backend, ogc, python)
+        return _sweep(recipe, scale, backend, ogc, python, plots)
     if "run" in recipe.body:
         run, movie = f"{here}/run", recipe.movie(scale, backend)
         command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
@@ -127,7 +127,7 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     return [Step(recipe.name, picture, (PROGRAM, *script, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
 
 
-def _sweep(recipe, scale, backend, ogc, python):
+def _sweep(recipe, scale, backend, ogc, python, plots):
     here, vary = recipe.folder(scale, backend), recipe.body["vary"]
     points = []
     for values in itertools.product(*vary.values()):
@@ -135,7 +135,7 @@ def _sweep(recipe, scale, backend, ogc, python):
         options = [word for key, value in zip(vary, values) for word in ("--vary", f"{key}={value}")]
         command = (ogc, "ablate", recipe.scene, "--scale", scale, "--backend", backend, "--audit", "end", *options, "--out", f"{here}/{name}")
         points.append(Step(f"{recipe.name}_{len(points) + 1:02d}", f"{here}/{name}/{name}/run.json", (PROGRAM,), command, int(backend == "cuda")))
-    gather = Step(recipe.name, recipe.picture(scale, backend), tuple(point.output for point in points),
+    gather = Step(recipe.name, recipe.picture(scale, backend), (*(point.output for point in points), str(HERE / "sweep.py"), *plots),
                   (python, "-m", "paper_figures.sweep", here, recipe.picture(scale, backend)))
     return [*points, gather]
 

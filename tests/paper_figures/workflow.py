@@ -1,6 +1,6 @@
 """The workflow with a stand-in for `ogc`: what is finished is not run again, a changed parameter or program is, a job that fails says so in words; also without Snakemake.
 
-Usage: workflow.py SOURCE_DIR. Exit status 77: skipped, PyYAML is missing; without Snakemake its part is left out, and the test says so.
+Usage: workflow.py SOURCE_DIR. Exit status 77: skipped, PyYAML or matplotlib is missing; without Snakemake its part is left out, and the test says so.
 """
 
 import importlib.util
@@ -16,11 +16,10 @@ from pathlib import Path
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
-    import yaml  # noqa: F401
+    from paper_figures import in_order, job, recipes, sweep
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures import in_order, job, recipes, sweep  # noqa: E402
 
 OGC = """#!/bin/sh
 echo "stand-in: $*"
