@@ -77,7 +77,7 @@ def pieces(recipe, scale, backend, runs):
     if "illustration" in recipe.body:
         return [(picture.name, picture.read_bytes()), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
     found = [(f"{recipe.name}_{scale}{Path(path).suffix}", (runs / path).read_bytes()) for path in recipe.outputs(scale, backend)]
-    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv"))]
+    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = sorted(folder.rglob("run.json"))
         for path in paths:  # one run lies beside its picture, several in a folder

@@ -3,7 +3,7 @@ runs the steps, or `in_order` where Snakemake can't be had. Paths are relative t
 
 Keys of a YAML file: `title`; then `illustration: figNN`, or `scene` with `script` (a module of paper_figures) and `run` (options of `ogc run`; without it the
 script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes`
-where the script makes one of its run; `backends` where not both make sense.
+where the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense.
 """
 
 import argparse
@@ -24,7 +24,7 @@ PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "backends"}
+KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends"}
 
 
 class RecipeError(Exception):
@@ -60,7 +60,7 @@ class Recipe:
 
     def picture(self, scale, backend):
         """The last file that the recipe makes."""
-        return f"{self.folder(scale, backend)}/{self.name}.png"
+        return f"{self.folder(scale, backend)}/{self.name}" + (f"_{scale}.csv" if "rows" in self.body else ".png")
 
     def movie(self, scale, backend):
         """The movie that the recipe makes besides, or None."""
@@ -114,6 +114,8 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
                 Step(recipe.name, picture, (data, str(HERE / "illustrations.py"), *plots), (*drawing, here, recipe.name))]
     if "vary" in recipe.body:
         return _sweep(recipe, scale, backend, ogc, python, plots)
+    if "rows" in recipe.body:
+        return _table(recipe, scale, backend, ogc, python)
     if "run" in recipe.body:
         run, movie = f"{here}/run", recipe.movie(scale, backend)
         command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
@@ -138,6 +140,17 @@ def _sweep(recipe, scale, backend, ogc, python, plots):
     gather = Step(recipe.name, recipe.picture(scale, backend), (*(point.output for point in points), str(HERE / "sweep.py"), *plots),
                   (python, "-m", "paper_figures.sweep", here, recipe.picture(scale, backend)))
     return [*points, gather]
+
+
+def _table(recipe, scale, backend, ogc, python):
+    """A row's last run is its output, because experiments/table1 goes on where it was cut off."""
+    here, script = recipe.folder(scale, backend), str(ROOT / "experiments/table1")
+    window = () if scale == "paper" else ("--window", "20")
+    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100.json", (PROGRAM, script), (script, ogc, here, row, "--scale", scale, "--backend", backend, *window),
+                 int(backend == "cuda"),
+                 all_cores=True) for row in recipe.body["rows"]]
+    gather = Step(recipe.name, recipe.picture(scale, backend), (*(row.output for row in rows), str(HERE / "table1.py")), (python, "-m", "paper_figures.table1", here))
+    return [*rows, gather]
 
 
 def program_stamp(runs, ogc):
