@@ -146,9 +146,9 @@ def _table(recipe, scale, backend, ogc, python):
     """A row's last run is its output, because experiments/table1 goes on where it was cut off."""
     here, script = recipe.folder(scale, backend), str(ROOT / "experiments/table1")
     window = () if scale == "paper" else ("--window", "20")
-    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100.json", (PROGRAM, script), (script, ogc, here, row, "--scale", scale, "--backend", backend, *window),
-                 int(backend == "cuda"),
-                 all_cores=True) for row in recipe.body["rows"]]
+    options = ("--scale", scale, "--backend", backend, *window)
+    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100.json", (PROGRAM, script), (script, ogc, here, row, *options), int(backend == "cuda"), all_cores=True)
+            for row in recipe.body["rows"]]
     gather = Step(recipe.name, recipe.picture(scale, backend), (*(row.output for row in rows), str(HERE / "table1.py")), (python, "-m", "paper_figures.table1", here))
     return [*rows, gather]
 
