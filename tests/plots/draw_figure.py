@@ -43,6 +43,23 @@ def check_movie(source, module, folder, scratch):
         assert "can't be imported" in done.stderr, done.stderr
 
 
+def check_teaser(source, folder, scratch):
+    """The teaser of one run; of a scene that it knows no camera of, words."""
+    out, other = scratch / "teaser.png", scratch / "other"
+    command = [sys.executable, "-m", "paper_figures.fig01_teaser", str(out)]
+    done = subprocess.run([*command, str(folder)], cwd=source, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        assert "PyVista can't be imported" in done.stderr, done.stderr
+        return
+    assert matplotlib.image.imread(out)[..., :3].std() > 0.02, "the teaser is nearly uniform"
+    out.unlink()
+    shutil.copytree(folder, other)
+    manifest = json.loads((other / "run.json").read_text())
+    manifest["scene"]["name"] = "unknown"
+    (other / "run.json").write_text(json.dumps(manifest))
+    check_words(subprocess.run([*command, str(other)], cwd=source, capture_output=True, text=True, check=False), "of which the teaser knows no camera", out)
+
+
 def check_refused(source, module, folder, scratch):
     """Each thing that is wrong with a run is said in words, with status 1, no traceback and no picture."""
     copy, out = scratch / "copy", scratch / "none.png"
@@ -79,6 +96,7 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         check_drawn(source_dir, scene_module, run_folder, Path(name))
         check_movie(source_dir, scene_module, run_folder, Path(name))
+        check_teaser(source_dir, run_folder, Path(name))
         check_refused(source_dir, scene_module, run_folder, Path(name))
         check_mixture(source_dir, run_folder)
     print("drawn, and refused where it should be")
