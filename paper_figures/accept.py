@@ -81,8 +81,13 @@ def pieces(recipe, scale, backend, runs):
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = sorted(folder.rglob("run.json"))
         for path in paths:  # one run lies beside its picture, several in a folder
-            found += run_files(path, f"{recipe.name}_{scale}" + (f"/{path.parent.name}" if len(paths) > 1 else ""))
+            found += run_files(path, f"{recipe.name}_{scale}" + ("/" + run_name(path, folder) if len(paths) > 1 else ""))
     return found
+
+
+def run_name(path, folder):
+    """The folders from the figure's to the run's, but for those that every run lies in."""
+    return "_".join(part for part in path.parent.relative_to(folder).parts if part != "runs")
 
 
 def run_files(path, stem):
@@ -106,6 +111,9 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS):
             rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "redo": redo, **words,
                          "sha256": hashlib.sha256(data).hexdigest()[:16]})
             kept.append((folder / name, data))
+    twice = {path.name for path, _ in kept if sum(other == path for other, _ in kept) > 1}
+    if twice:
+        raise AcceptError(f"two files would both be called {', '.join(sorted(twice))}")
     for path, data in kept:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)

@@ -18,8 +18,8 @@ from paper_figures.verdicts import STATES, band_in_words, judge_all, within
 BANDS = RESULTS / "bands.json"
 QUESTION = ("settings", "scale", "solver", "backend", "scene")
 SAME_BITS = ("device", "commit", "compiler")
-# Words of a measure that is a time, or a share of it.
-TIMES = ('"wall"', "[ms]", "time", "stage_")
+# Words of a measure that is a time, or a share of it, or a size of the scene.
+NOT_COMPARED = ('"wall"', "[ms]", "time", "stage_", '"scene"')
 
 
 def bands(path=BANDS):
@@ -97,8 +97,16 @@ def compare_claims(new, kept):
             lost = before == "reproduced" and judgement.verdict == "refuted"
             yield (f"{judgement.claim['id']}: {judgement.verdict}, {judgement.measured.value:.4g} (paper {judgement.claim['value']:g}, band {band_in_words(judgement.claim)}); "
                    f"accepted: {before}{' – LOST' if lost else ''}"), not lost
-        elif isinstance(judgement.claim.get("band"), list) and not any(word in json.dumps(judgement.claim["measure"]) for word in TIMES):
+        elif movable(judgement.claim):
             yield from compare_smaller(judgement.claim, new, kept)
+
+
+def movable(claim):
+    """Whether the claim's band says something at another scale: not of times, nor of sizes, which are part of the question, nor where the printed number is an end of it."""
+    band, value = claim.get("band"), claim["value"]
+    if not isinstance(band, list) or None in band or not value or any(word in json.dumps(claim["measure"]) for word in NOT_COMPARED):
+        return False
+    return band[0] == value == band[1] or value not in band
 
 
 def compare_smaller(claim, new, kept):
@@ -111,8 +119,8 @@ def compare_smaller(claim, new, kept):
         except EvidenceError as error:  # an accepted table older than the column
             yield f"{claim['id']} at {scale}: not compared: {error}", True
             continue
-        if found and before and claim["value"]:
-            moved = [None if end is None else end * before.value / claim["value"] for end in claim["band"]]
+        if found and before:
+            moved = [end * before.value / claim["value"] for end in claim["band"]]
             good = within(found.value, before.value, moved) or found.value == before.value
             yield f"{claim['id']} at {scale}: {found.value:.4g}, accepted {before.value:.4g}, the claim's band moved there {band_in_words({'band': moved})}{'' if good else ' – LOST'}", good
 

@@ -13,6 +13,7 @@ import itertools
 import json
 import sys
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 
 import yaml
@@ -168,9 +169,19 @@ def program_stamp(runs, ogc):
 
 
 def seconds_of(recipe, scale, backend, runs):
-    """What the steps of a finished figure took here [s], or None."""
+    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that found them done was quick."""
     logs = [runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc")]
-    return sum(json.loads(log.read_text())["seconds"] for log in logs) if all(log.is_file() for log in logs) else None
+    if not all(log.is_file() for log in logs):
+        return None
+    return max(sum(json.loads(log.read_text())["seconds"] for log in logs), sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json"))))
+
+
+def seconds_of_run(path):
+    """From a run's start to its end [s]; 0 where it has not ended."""
+    manifest = json.loads(path.read_text())
+    if "ended" not in manifest:
+        return 0.0
+    return (datetime.fromisoformat(manifest["ended"]) - datetime.fromisoformat(manifest["started"])).total_seconds()
 
 
 def durations(chosen, scale, backend, runs, machine):

@@ -164,6 +164,7 @@ def write(out, evidence=None):
     evidence, book, out = evidence or Evidence(), recipes.load(), Path(out)
     judgements = verdicts.judge_all(evidence)
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book) or any(j.claim["figures"][0] == f for j in judgements)]
+    figures += [name for name, recipe in book.items() if "vary" in recipe.body]
     contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
     sections = [figure_section(figure, book, judgements, evidence) for figure in figures]
     body = (f'<p id="counts">{verdicts.headline(judgements)}</p><h1>Offset Geometric Contact: what the paper says, and what we measured</h1>'

@@ -120,6 +120,13 @@ class Checking(Scratch):
             found = list(check.compare_smaller(claim, Evidence(self.runs), Evidence(self.results)))
             self.assertEqual([met for _, met in found], [good], found)
 
+    def test_a_band_that_says_nothing_at_another_scale_is_not_moved(self):
+        claim = {"value": 5, "band": [4, 6], "measure": {"table": "fig99", "column": "n"}}
+        self.assertTrue(check.movable(claim))
+        self.assertTrue(check.movable({**claim, "band": [5, 5]}))
+        for changes in ({"band": [0, 5]}, {"band": [1, None]}, {"band": "stored"}, {"value": 0}, {"measure": {"steps": "wall", "statistic": "mean"}}, {"measure": {"scene": "vertices"}}):
+            self.assertFalse(check.movable({**claim, **changes}), changes)
+
     def test_the_bands_are_what_the_accepted_pairs_say(self):
         document = json.loads(check.BANDS.read_text())
         self.assertEqual(document["factor"], 3)
@@ -165,6 +172,13 @@ class Accepting(Scratch):
         with self.assertRaisesRegex(accept.AcceptError, "fig12.png is missing: make it with experiments/reproduce fig12"):
             self.make_run("fig12-paper-cuda/run")
             self.accept("fig12")
+
+    def test_runs_of_the_same_name_in_different_folders_stay_apart(self):
+        for name in ("twist/whole", "knot/whole"):
+            folder = self.make_run(f"table1-paper-cuda/{name}")
+        (folder.parent.parent / "table1_paper.csv").write_text("scene\n")
+        self.accept("table1")
+        self.assertEqual({path.name for path in (self.results / "machine/table1_paper").glob("*run.json")}, {"twist_whole_run.json", "knot_whole_run.json"})
 
     def test_rows_of_other_figures_stay(self):
         table = self.results / "t.csv"

@@ -4,6 +4,7 @@ Usage: report.py SOURCE_DIR [--browser CHROMIUM SCREENSHOT.png]: with a browser 
 """
 
 import base64
+import functools
 import re
 import subprocess
 import sys
@@ -60,6 +61,7 @@ class Page(HTMLParser):
                 self.shown[self.row] = data
 
 
+@functools.cache  # the pages are read once for each planted fault
 def png(source):
     kind, _, data = source.partition(",")
     if kind != "data:image/png;base64":
