@@ -46,7 +46,7 @@ def draw(rows, out):
             axes.plot([float(row[KEYS[0]]) for row in points], [float(row[name]) for row in points], color=style.COLOURS[first.index(a)], linestyle=style.DASHES[second.index(b)],
                       marker=".", label=f"γ_p = {a}, γ_e = {b}")
         axes.set(xlabel="iterations a step", ylabel=label, ylim=(0, None))
-    grid[0].legend(fontsize=6, ncols=2)
+    grid[-1].legend(fontsize=7, ncols=2, loc="lower center")
     lost = sum(row["guarantee_kept"] != "yes" for row in rows)
     figure.suptitle(f"{len(rows)} runs, {lost} of which lost the guarantee at their end", fontsize=9)
     style.save(figure, out)
