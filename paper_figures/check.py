@@ -8,6 +8,7 @@
 
 import gzip
 import json
+import math
 import statistics
 import sys
 from pathlib import Path
@@ -119,9 +120,11 @@ def compare_smaller(claim, new, kept):
         except EvidenceError as error:  # an accepted table older than the column
             yield f"{claim['id']} at {scale}: not compared: {error}", True
             continue
-        if found and before:
+        if found and before and math.isnan(before.value):
+            yield f"{claim['id']} at {scale}: {found.value:.4g}; the accepted run never reached it", True
+        elif found and before:
             moved = [end * before.value / claim["value"] for end in claim["band"]]
-            good = within(found.value, before.value, moved) or found.value == before.value
+            good = within(found.value, before.value, moved)
             yield f"{claim['id']} at {scale}: {found.value:.4g}, accepted {before.value:.4g}, the claim's band moved there {band_in_words({'band': moved})}{'' if good else ' – LOST'}", good
 
 

@@ -112,8 +112,8 @@ class Checking(Scratch):
 
     def test_a_claim_at_a_smaller_scale_is_held_to_its_band_moved_to_the_accepted_number(self):
         claim = {"id": "s.c", "scene": "s", "value": 5, "band": [4.5, 5.5], "measure": {"table": "fig99", "column": "n", "where": {"kind": "a"}}, "run": {"scale": "paper"}}
-        for ours, good in ((1.59, True), (1.7, True), (1.8, False), (1.4, False)):
-            for folder, number in ((self.results, 1.59), (self.runs / "fig99-small-cpu", ours)):
+        for accepted, ours, good in ((1.59, 1.59, True), (1.59, 1.7, True), (1.59, 1.8, False), (1.59, 1.4, False), (1.59, "nan", False), ("nan", "nan", True), ("nan", 3, True)):
+            for folder, number in ((self.results, accepted), (self.runs / "fig99-small-cpu", ours)):
                 folder.mkdir(parents=True, exist_ok=True)
                 name = "fig99_small.csv" if folder == self.results else "fig99.csv"
                 (folder / name).write_text(f"kind,n,commit,device\na,{number},c,d\n")
