@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "compare/files/bytes.hpp"
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/rest_cases.hpp"
 #include "compare/problem/error.hpp"
@@ -155,6 +157,28 @@ TEST_CASE("at least half of a stage's cases lie close to a decision boundary", "
     INFO(stage_name(stage));
     REQUIRE(near >= all / 2);
   }
+}
+
+TEST_CASE("each degeneracy has the ladders that compare/README.md names", "[unit]") {
+  const std::string readme = read_bytes(OGC_SOURCE_DIR "/compare/README.md");
+  const auto table = readme.substr(readme.find("<!-- ladders -->"), readme.find("<!-- end of the ladders -->") - readme.find("<!-- ladders -->"));
+  REQUIRE(std::count(table.begin(), table.end(), '\n') > 10);
+  // `stage` `ladder.x` `ladder.y`, `stage` …
+  std::optional<Stage> stage;
+  int named = 0;
+  for (std::size_t begin = table.find('`'); begin != std::string::npos;) {
+    const std::size_t end = table.find('`', begin + 1);
+    const std::string word = table.substr(begin + 1, end - begin - 1);
+    INFO(word);
+    if (find_stage(word)) stage = find_stage(word);
+    else if (word.starts_with("ladder.") || word == "lattice") {
+      REQUIRE(stage);
+      CHECK_NOTHROW(find_generator(*stage, word));
+      ++named;
+    }
+    begin = table.find('`', end + 1);
+  }
+  CHECK(named > 30);
 }
 
 TEST_CASE("the zero-area ladder gives triangles without area, exactly", "[property]") {

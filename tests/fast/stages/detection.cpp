@@ -170,7 +170,7 @@ TEST_CASE("detection: the same bits in each run, rebuilt or not, and the rows of
   CHECK(found == expected);
 }
 
-TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets", "[property]") {
+TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets, smallest distances and bounds", "[property]") {
   const TestMesh surface = layers(8);
   std::vector<int> number(surface.positions.size()), place(surface.triangles.size());
   std::iota(number.begin(), number.end(), 0), std::iota(place.begin(), place.end(), 0);
@@ -199,6 +199,11 @@ TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets
   for (const auto& c : a.edge_edge) expected_edges.insert(std::minmax(renamed(c.first), renamed(c.second)));
   for (const auto& c : b.edge_edge) found_edges.insert({c.first, c.second});
   CHECK(found_edges == expected_edges);
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    CHECK(b.d_min_vertex[static_cast<std::size_t>(number[v])] == a.d_min_vertex[v]);
+    CHECK(b.bound[static_cast<std::size_t>(number[v])] == a.bound[v]);
+  }
+  for (std::size_t t = 0; t < place.size(); ++t) CHECK(b.d_min_triangle[static_cast<std::size_t>(place[t])] == a.d_min_triangle[t]);
 }
 
 TEST_CASE("detection: scaling by powers of two scales distances and keeps the sets", "[property]") {
