@@ -5,7 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from paper_figures import in_time
 from paper_figures.common import baseline_arguments, ipc_windows, label, options_of
+from paper_figures.fig18_solvers import Joined
 from paper_figures.runs import run_once
 from plots import render, style
 from plots.run_folder import RunError, commits_in_words
@@ -63,13 +65,14 @@ def draw(runs, out):
     grid = figure.add_gridspec(2, 6, height_ratios=[1.2, 1])
     usable, reason = render.available()
     axes = [figure.add_subplot(grid[1, 2 * i:2 * i + 2]) for i in range(3)]
+    both_at = min(int(run.column("step")[-1]) for run in runs[:2])  # the last step that both came to
     for i, run in enumerate(runs[:2]):
         picture = figure.add_subplot(grid[0, 3 * i:3 * i + 3])
         picture.axis("off")
-        last = run.frame(run.frames[-1])
-        picture.set_title(f"{label(run)}, t = {last.time:.3g} s")
+        shown = run.frame_at_step(both_at)
+        picture.set_title(f"{label(run)}, t = {shown.time:.3g} s")
         if usable:
-            picture.imshow(render.picture(bodies_of(run, last), CAMERA))
+            picture.imshow(render.picture(bodies_of(run, shown), CAMERA))
         else:
             picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
     lines = []
@@ -80,8 +83,13 @@ def draw(runs, out):
         axes[1].fill_between(time, stretched[:, 0], stretched[:, 2], alpha=0.3)
         axes[1].plot(time, stretched[:, 1], dash, label=f"{label(run)}: median, 1 % to 99 %")
         axes[2].plot(run.column("step") * h, run.column("kinetic_energy"), dash, label=label(run))
-        lines.append(f"{label(run)}: at t = {time[-1]:.3g} s roughness {rough[-1]:.3g} edges, stretch {stretched[-1][0]:.3g} … {stretched[-1][2]:.3g}, "
-                     f"kinetic energy {run.column('kinetic_energy')[-1]:.3g} J, {np.mean(run.column('wall')):.4g} ms a step")
+        steps = run.column("step")
+        for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
+            energy = run.column("kinetic_energy")[np.searchsorted(steps, round(time[at] / h))]
+            lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch {stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
+                         f"kinetic energy {energy:.3g} J")
+        lines.append(f"{label(run)}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and {np.mean(run.column('iterations')):.3g} iterations a step, "
+                     f"{np.mean(run.column('vertex_facet_contacts') + run.column('edge_edge_contacts')):.4g} pairs")
     axes[0].set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
     axes[1].set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges")
     axes[2].set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
@@ -93,8 +101,10 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """OGC's run, and IPC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
+    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
     folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "frame"]
+    if arguments.parts:
+        return [Joined(in_time.parts(folder / name)) for name in ("ipc", "vbd")]
     ogc = run_once(arguments.ogc, base, folder / "vbd")
     if arguments.scale != "paper":
         return [run_once(arguments.ogc, [*base, "--solver", "ipc", "--profile"], folder / "ipc"), ogc]
@@ -103,7 +113,9 @@ def runs_of(arguments):
 
 
 if __name__ == "__main__":
-    options = baseline_arguments(__doc__.splitlines()[0]).parse_args()
+    parser = baseline_arguments(__doc__.splitlines()[0])
+    parser.add_argument("--parts", action="store_true", help="draw what paper_figures.in_time --scene large_radius_twist has made in the folder, and run nothing")
+    options = parser.parse_args()
     try:
         print("\n".join(draw(runs_of(options), Path(options.folder) / "fig02.png")))
     except RunError as error:

@@ -1,5 +1,6 @@
-"""Runs of Fig. 18 where a command may last so long only: each solver runs for so many seconds, is asked to stop, and goes on from its last frame when this is
-called again. Needs Python's own library alone, so that a bare machine with the program can do it; paper_figures.fig18_solvers FOLDER --parts draws the result.
+"""Runs of Fig. 2 and 18 where a command may last so long only: each solver runs for so many seconds, is asked to stop, and goes on from its last frame when this
+is called again. Needs Python's own library alone, so that a bare machine with the program can do it; `python3 -m paper_figures.fig18_solvers FOLDER --parts` and
+`python3 -m paper_figures.fig02_large_radius_twist FOLDER --parts` draw the results.
 
 A part that continues starts from positions rounded to single precision, so its last bits differ from those of one long run.
 """
@@ -12,8 +13,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+# Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball it would never slow down. A step that has not converged
+# after 30 iterations (OGC's force jumps at block boundaries) ends as it is, as a step of VBD does.
+NEWTON = ["newton_tolerance=0", "newton_step_tolerance=1e-3", "redetect_fraction=0", "newton_iterations=30"]
 # IPC's run first: it is the baseline.
-SOLVERS = {"ipc": ["--solver", "ipc", "--profile"], "newton": ["--solver", "newton", "--profile"], "vbd": [], "vbd_cuda": ["--backend", "cuda"]}
+SOLVERS = {"ipc": ["--solver", "ipc", "--profile"], "newton": ["--solver", "newton", "--profile", *(word for value in NEWTON for word in ("--set", value))],
+           "vbd": [], "vbd_cuda": ["--backend", "cuda"]}
+AUDIT = {"cloth_on_sphere": "end", "large_radius_twist": "frame"}
 SECONDS_TO_STOP = 60  # for the step at hand
 PROCESSOR_TIME = "processor_time.json"
 
@@ -65,12 +71,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", help="where the runs go")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scene", default="cloth_on_sphere", choices=tuple(AUDIT))
     parser.add_argument("--scale", default="paper", choices=("smoke", "small", "paper"))
     parser.add_argument("--membrane", default="stable_neo_hookean", help="of all solvers alike")
     parser.add_argument("--seconds", type=float, default=120, help="for each solver")
     parser.add_argument("--solvers", nargs="+", default=["ipc", "newton", "vbd"], choices=tuple(SOLVERS))
     options = parser.parse_args()
-    base = ["cloth_on_sphere", "--scale", options.scale, "--set", f"membrane={options.membrane}", "--audit", "end"]
+    base = [options.scene, "--scale", options.scale, "--set", f"membrane={options.membrane}", "--audit", AUDIT[options.scene]]
     for name in options.solvers:
         try:
             ended = run_for(options.ogc, [*base, *SOLVERS[name]], Path(options.folder) / name, options.seconds)
