@@ -50,8 +50,15 @@ def detections(run):
     return run.column("discrete_detections") + run.column("continuous_detections")
 
 
+def processor_time(run, steps):
+    """Of the first `steps` steps [ms], where the run's was measured: the whole one's, shared out by time on the clock. Else not-a-number."""
+    wall = run.column("wall")
+    return getattr(run, "processor_ms", np.nan) * np.sum(wall[:steps]) / np.sum(wall)
+
+
 def ratios(runs):
-    """[(label, IPC's mean time a step over this run's, the paper's claim or None)] over the steps that both have."""
+    """[(label, IPC's time a step over this run's, what was measured, the paper's claim or None)] over the steps that both have. Processor time if there is one:
+    on a machine that does other work the clock says nothing."""
     baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
     if baseline is None:
         return []
@@ -60,8 +67,10 @@ def ratios(runs):
         if run is baseline:
             continue
         steps = min(len(run.column("step")), len(baseline.column("step")))
-        ratio = np.mean(baseline.column("wall")[:steps]) / np.mean(run.column("wall")[:steps])
-        result.append((label(run), ratio, CLAIMS.get(run.manifest["solver"]) if run.manifest["backend"] == "cpu" else None))
+        ratio, unit = processor_time(baseline, steps) / processor_time(run, steps), "processor time"
+        if not np.isfinite(ratio) or run.manifest["backend"] != "cpu":
+            ratio, unit = np.mean(baseline.column("wall")[:steps]) / np.mean(run.column("wall")[:steps]), "time on the clock"
+        result.append((label(run), ratio, f"{unit} of {steps} steps", CLAIMS.get(run.manifest["solver"]) if run.manifest["backend"] == "cpu" else None))
     return result
 
 
@@ -70,10 +79,12 @@ def summary(runs):
     lines = []
     for run in runs:
         wall, found = run.column("wall"), detections(run)
-        lines.append(f"{label(run)}: {np.mean(wall):.4g} ms a step (median {np.median(wall):.4g}, worst {wall.max():.4g}), "
+        used = processor_time(run, len(wall)) / len(wall)
+        processor = f", {used:.4g} ms of processor time" if np.isfinite(used) else ""
+        lines.append(f"{label(run)}: {np.mean(wall):.4g} ms a step on the clock (median {np.median(wall):.4g}, worst {wall.max():.4g}){processor}, "
                      f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step")
-    for name, ratio, claim in ratios(runs):
-        lines.append(f"IPC takes {ratio:.3g} times as long as {name}" + (f" (paper: {claim:g})" if claim else ""))
+    for name, ratio, measured, claim in ratios(runs):
+        lines.append(f"IPC takes {ratio:.3g} times the {measured} that {name} takes" + (f" (paper: {claim:g})" if claim else ""))
     return lines
 
 
