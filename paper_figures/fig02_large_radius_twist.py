@@ -114,7 +114,7 @@ def runs_of(arguments):
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0])
-    parser.add_argument("--parts", action="store_true", help="draw what paper_figures.in_time --scene large_radius_twist has made in the folder, and run nothing")
+    parser.add_argument("--parts", action="store_true", help="draw what paper_figures.in_time --scene large_radius_twist has made, and run nothing")
     options = parser.parse_args()
     try:
         print("\n".join(draw(runs_of(options), Path(options.folder) / "fig02.png")))

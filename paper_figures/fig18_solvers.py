@@ -50,10 +50,10 @@ def detections(run):
     return run.column("discrete_detections") + run.column("continuous_detections")
 
 
-def processor_time(run, steps):
-    """Of the first `steps` steps [ms], where the run's was measured: the whole one's, shared out by time on the clock. Else not-a-number."""
+def processor_times(run):
+    """Of each step [ms]: the whole run's, where it was measured, shared out by time on the clock. Else not-a-number."""
     wall = run.column("wall")
-    return getattr(run, "processor_ms", np.nan) * np.sum(wall[:steps]) / np.sum(wall)
+    return wall * getattr(run, "processor_ms", np.nan) / np.sum(wall)
 
 
 def ratios(runs):
@@ -67,7 +67,7 @@ def ratios(runs):
         if run is baseline:
             continue
         steps = min(len(run.column("step")), len(baseline.column("step")))
-        ratio, unit = processor_time(baseline, steps) / processor_time(run, steps), "processor time"
+        ratio, unit = np.sum(processor_times(baseline)[:steps]) / np.sum(processor_times(run)[:steps]), "processor time"
         if not np.isfinite(ratio) or run.manifest["backend"] != "cpu":
             ratio, unit = np.mean(baseline.column("wall")[:steps]) / np.mean(run.column("wall")[:steps]), "time on the clock"
         result.append((label(run), ratio, f"{unit} of {steps} steps", CLAIMS.get(run.manifest["solver"]) if run.manifest["backend"] == "cpu" else None))
@@ -79,7 +79,7 @@ def summary(runs):
     lines = []
     for run in runs:
         wall, found = run.column("wall"), detections(run)
-        used = processor_time(run, len(wall)) / len(wall)
+        used = np.mean(processor_times(run))
         processor = f", {used:.4g} ms of processor time" if np.isfinite(used) else ""
         lines.append(f"{label(run)}: {np.mean(wall):.4g} ms a step on the clock (median {np.median(wall):.4g}, worst {wall.max():.4g}){processor}, "
                      f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step")
@@ -111,12 +111,14 @@ def draw(runs, out):
     grid = figure.add_gridspec(3, 4, height_ratios=[0.9, 1, 1])
     draw_frames(figure, [grid[0, i] for i in range(4)], runs[0], [round(f * runs[0].setting("steps")) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
     linear, logarithmic, counts = figure.add_subplot(grid[1, :2]), figure.add_subplot(grid[1, 2:]), figure.add_subplot(grid[2, :2])
+    by_processor = all(run.manifest["backend"] == "cpu" and hasattr(run, "processor_ms") for run in runs)
     for run, dash in zip(runs, style.DASHES):
         for axes in (linear, logarithmic):
-            axes.plot(run.column("step"), run.column("wall"), dash, label=label(run))
+            axes.plot(run.column("step"), processor_times(run) if by_processor else run.column("wall"), dash, label=label(run))
         counts.step(run.column("step"), detections(run), where="mid", linestyle=dash, label=label(run))
-    linear.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
-    logarithmic.set(xlabel="step", ylabel="time a step [ms]", title="Time, logarithmic", yscale="log")
+    time = "processor time" if by_processor else "time"
+    linear.set(xlabel="step", ylabel=f"{time} a step [ms]", title=time.capitalize(), ylim=(0, None))
+    logarithmic.set(xlabel="step", ylabel=f"{time} a step [ms]", title=f"{time.capitalize()}, logarithmic", yscale="log")
     counts.set(xlabel="step", ylabel="detections a step", title="Detections, continuous and discrete", ylim=(0, None))
     for axes in (linear, logarithmic, counts):
         axes.legend()

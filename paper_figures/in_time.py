@@ -1,6 +1,6 @@
-"""Runs of Fig. 2 and 18 where a command may last so long only: each solver runs for so many seconds, is asked to stop, and goes on from its last frame when this
-is called again. Needs Python's own library alone, so that a bare machine with the program can do it; `python3 -m paper_figures.fig18_solvers FOLDER --parts` and
-`python3 -m paper_figures.fig02_large_radius_twist FOLDER --parts` draw the results.
+"""Runs of Fig. 2 and 18 where a command may last so long only: each solver runs for so many seconds, is asked to stop, and goes on from its last frame when
+this is called again. Needs Python's own library alone, so that a bare machine with the program can do it; what draws the results is
+`python3 -m paper_figures.fig18_solvers FOLDER --parts` or `python3 -m paper_figures.fig02_large_radius_twist FOLDER --parts`.
 
 A part that continues starts from positions rounded to single precision, so its last bits differ from those of one long run.
 """
