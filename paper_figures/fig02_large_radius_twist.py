@@ -8,7 +8,7 @@ import numpy as np
 from paper_figures import in_time
 from paper_figures.common import baseline_arguments, ipc_windows, label, options_of
 from paper_figures.fig18_solvers import Joined
-from paper_figures.runs import run_once
+from paper_figures.runs import provenance, run_once, write_table
 from plots import render, style
 from plots.run_folder import RunError, commits_in_words
 from plots.scene_figure import bodies_of
@@ -75,7 +75,7 @@ def draw(runs, out):
             picture.imshow(render.picture(bodies_of(run, shown), CAMERA))
         else:
             picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
-    lines = []
+    lines, rows = [], []
     for run, dash in zip(runs, style.DASHES):
         time, rough, stretched = history(run)
         h = run.setting("time_step")
@@ -88,6 +88,9 @@ def draw(runs, out):
             energy = run.column("kinetic_energy")[np.searchsorted(steps, round(time[at] / h))]
             lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch {stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
                          f"kinetic energy {energy:.3g} J")
+            stretches = dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[at]))
+            rows.append({"time [s]": time[at], "roughness [edges]": rough[at], **stretches,
+                         "kinetic energy [J]": energy, "iterations a step": np.mean(run.column("iterations")), **provenance(run)})
         lines.append(f"{label(run)}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and {np.mean(run.column('iterations')):.3g} iterations a step, "
                      f"{np.mean(run.column('vertex_facet_contacts') + run.column('edge_edge_contacts')):.4g} pairs")
     axes[0].set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
@@ -97,6 +100,7 @@ def draw(runs, out):
         a.legend()
     figure.suptitle(f"{SCENE} ({runs[0].manifest['scale']}); {commits_in_words(runs)}", fontsize=9)
     style.save(figure, out)
+    write_table(Path(out).with_suffix(".csv"), rows)
     return lines
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures.common import baseline_arguments, label, options_of
-from paper_figures.runs import run_once
+from paper_figures.runs import provenance, run_once, write_table
 from plots import render, style
 from plots.run_folder import RunError, commits_in_words
 from plots.scene_figure import bodies_of
@@ -22,6 +22,20 @@ def centre(run):
     cloth = slice(body["first_vertex"], body["first_vertex"] + body["vertex_count"])
     frames = [run.frame(path) for path in run.frames]
     return np.array([f.time for f in frames]), np.array([f.positions[cloth, 1].mean() for f in frames])
+
+
+def rows(runs):
+    """A row a run and shown frame: kinetic energy and mean height there, the run's largest kinetic energy, and the largest loss of it in one step."""
+    result = []
+    for run in runs:
+        energy, last = run.column("kinetic_energy"), int(run.column("step")[-1])
+        heights = dict(zip(*centre(run)))
+        for frame_number in FRAMES:
+            frame = run.frame_at_step(round(frame_number / FRAMES[-1] * last))
+            result.append({"frame": frame_number, "time [s]": frame.time, "kinetic energy [J]": float(energy[frame.step - 1]) if frame.step else 0.0,
+                           "mean height [m]": float(heights[frame.time]), "largest kinetic energy [J]": float(energy.max()),
+                           "largest loss in one step [J]": float(-np.diff(energy).min()), **provenance(run)})
+    return result
 
 
 def draw(runs, out):
@@ -66,6 +80,8 @@ def runs_of(arguments):
 if __name__ == "__main__":
     options = baseline_arguments(__doc__.splitlines()[0]).parse_args()
     try:
-        print("\n".join(draw(runs_of(options), Path(options.folder) / "fig20.png")))
+        found = runs_of(options)
+        write_table(Path(options.folder) / "fig20.csv", rows(found))
+        print("\n".join(draw(found, Path(options.folder) / "fig20.png")))
     except RunError as error:
         sys.exit(f"fig20: {error}")
