@@ -91,7 +91,7 @@ Shape inside(Random& random, ContactSides sides, double share) {
 
 /// A parameter near an end, or beyond it.
 double near_end(Random& random) {
-  const double off = random.one_in(3) ? random.between(-0.5, 0) : random.rung();
+  const double off = !random.is_fine() && random.one_in(3) ? random.between(-0.5, 0) : random.rung();
   return random.one_in(2) ? off : 1 - off;
 }
 
@@ -245,6 +245,17 @@ Shape any_shape(Random& random) {
 }
 ContactActivation any_activation(Random& random) { return static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size()))); }
 
+/// Next to a boundary: of a feature, of the radius, between the stages.
+Shape near_boundary(Random& random) {
+  random.be_fine();
+  switch (random.below(4)) {
+    case 0: return near_radius(random);
+    case 1: return near_switch(random);
+    default: return near_feature(random);
+  }
+}
+CaseData contact_boundary(Random& random) { return contact_case(random, near_boundary(random)); }
+
 CaseData contact_variants(Random& random) {
   auto question = std::get<ContactForceCase>(contact_case(random, any_shape(random)));
   question.activation = any_activation(random);
@@ -322,13 +333,15 @@ CaseData friction_lift(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)), random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));
 }
 
+CaseData friction_boundary(Random& random) { return friction_of(random, near_boundary(random)); }
+
 CaseData friction_variants(Random& random) {
   auto question = std::get<FrictionForceCase>(friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
   question.contact.activation = any_activation(random);
   return question;
 }
 
-constexpr std::array<Generator, 11> contact_table{{{"uniform", 30, true, contact_uniform},
+constexpr std::array<Generator, 12> contact_table{{{"uniform", 30, true, contact_uniform},
                                                   {"bits", 10, false, contact_bits},
                                                   {"lattice", 15, false, contact_lattice},
                                                   {"ladder.feature", 14, false, contact_feature},
@@ -338,8 +351,9 @@ constexpr std::array<Generator, 11> contact_table{{{"uniform", 30, true, contact
                                                   {"ladder.switch", 5, false, contact_switch},
                                                   {"ladder.touching", 7, false, contact_touching},
                                                   {"ladder.mollifier", 5, false, contact_mollifier},
-                                                  {"ladder.variants", 25, false, contact_variants}}};
-constexpr std::array<Generator, 10> friction_table{{{"uniform", 30, true, friction_uniform},
+                                                  {"ladder.variants", 25, false, contact_variants},
+                                                  {"ladder.boundary", 150, false, contact_boundary}}};
+constexpr std::array<Generator, 11> friction_table{{{"uniform", 30, true, friction_uniform},
                                                    {"bits", 10, false, friction_bits},
                                                    {"lattice", 12, false, friction_lattice},
                                                    {"ladder.feature", 14, false, friction_feature},
@@ -348,7 +362,8 @@ constexpr std::array<Generator, 10> friction_table{{{"uniform", 30, true, fricti
                                                    {"ladder.still", 10, false, friction_still},
                                                    {"ladder.limit", 8, false, friction_limit},
                                                    {"ladder.lift", 8, false, friction_lift},
-                                                   {"ladder.variants", 20, false, friction_variants}}};
+                                                   {"ladder.variants", 20, false, friction_variants},
+                                                   {"ladder.boundary", 140, false, friction_boundary}}};
 
 }  // namespace
 

@@ -52,7 +52,7 @@ void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tall
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto& accepted = truth.accepted[i];
     tally.begin(cases[i].name);
-    tally.count(1, 1, accepted.size() > 1);
+    tally.count(1, 1, accepted.size() > 1, truth.near[i]);
     const Vec3f& force = out.force[i];
     const ForceAnswer& exact = nearest(accepted, force, out.block[i], metrics(tally.stage));
     const ForceErrors errors = errors_of(force, out.block[i], exact);

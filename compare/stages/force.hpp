@@ -30,8 +30,11 @@ struct ForceAnswer {
 inline constexpr double per_vertex_additions = 5;
 
 /// accepted[i][0] is the exact answer of case i; more than one where the case is grey: an answer on the other side of a jump.
+/// near[i] is 1 where a decision of case i lies within near_factor: of contact_force and friction_force the features of the closest points, d = r, and d = τ of an
+/// activation with two stages. The other energies decide nothing that their answers would show.
 struct ForceTruth {
   std::vector<std::vector<ForceAnswer>> accepted;
+  std::vector<std::uint8_t> near;
 };
 
 }  // namespace ogc::compare

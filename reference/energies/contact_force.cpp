@@ -47,15 +47,20 @@ compare::ForceAnswer largest(const compare::ContactForceCase& q) {
   return bounds;
 }
 
-}  // namespace
-
-std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question) {
+std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& question, const std::vector<Meeting>& all) {
   const auto own = static_cast<std::size_t>(question.own);
-  return answers(meetings(question), largest(question), [&](const Meeting& meeting) { return acting(meeting, own); });
+  return answers(all, largest(question), [&](const Meeting& meeting) { return acting(meeting, own); });
 }
 
+}  // namespace
+
+std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question) { return answers_of(question, meetings(question)); }
+
 compare::ForceTruth contact_force(const compare::ContactForceIn& in) {
-  return for_all(in.cases, [](const compare::ContactForceCase& question) { return contact_force(question); });
+  return for_all(in.cases, [](const compare::ContactForceCase& question) -> Accepted {
+    const std::vector<Meeting> all = meetings(question);
+    return {answers_of(question, all), is_near_decision(question, all.front())};
+  });
 }
 
 }  // namespace ogc::reference

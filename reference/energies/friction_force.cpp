@@ -71,14 +71,19 @@ compare::ForceAnswer largest(const compare::FrictionForceCase& q) {
   return bounds;
 }
 
-}  // namespace
-
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) {
-  return answers(meetings(question.contact), largest(question), [&](const Meeting& meeting) { return acting(meeting, question); });
+std::vector<compare::ForceAnswer> answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
+  return answers(all, largest(question), [&](const Meeting& meeting) { return acting(meeting, question); });
 }
 
+}  // namespace
+
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)); }
+
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {
-  return for_all(in.cases, [](const compare::FrictionForceCase& question) { return friction_force(question); });
+  return for_all(in.cases, [](const compare::FrictionForceCase& question) -> Accepted {
+    const std::vector<Meeting> all = meetings(question.contact);
+    return {answers_of(question, all), is_near_decision(question.contact, all.front())};
+  });
 }
 
 }  // namespace ogc::reference

@@ -185,6 +185,22 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
+bool near_features(const ContactForceCase& q) {
+  const auto& x = q.vertex;
+  switch (q.sides) {
+    case ContactSides::point_edge: return examine(along(x[1], x[2], x[0])).near || examine(along(x[2], x[1], x[0])).near;
+    case ContactSides::edge_edge: {
+      const EdgePair pair{{x[0], x[1]}, {x[2], x[3]}};
+      return is_near_decision(pair, closest_features(pair), are_nearly_parallel(pair).exact);
+    }
+    case ContactSides::point_triangle: {
+      const Corners corners{x[1], x[2], x[3]};
+      return near_feature(corners, closest_feature(corners, x[0]), x[0]);
+    }
+    default: return false;
+  }
+}
+
 }  // namespace
 
 Triple<Input> Meeting::separation() const {
@@ -217,6 +233,13 @@ std::vector<Meeting> meetings(const ContactForceCase& question) {
     result.back().across = true;
   }
   return result;
+}
+
+bool is_near_decision(const ContactForceCase& question, const Meeting& exact) {
+  const double width = exact.distance_doubt * (compare::near_factor / (compare::contact_grey * compare::unit_roundoff));
+  const auto near = [&](double place) { return std::abs(exact.distance.value - place) <= width; };
+  const bool has_stages = question.activation == compare::ContactActivation::ogc || question.activation == compare::ContactActivation::ogc_as_printed;
+  return near(exact.radius.value) || (has_stages && near(0.5 * exact.radius.value)) || near_features(question);
 }
 
 LargestSlopes largest_slopes(const ContactForceCase& question) {

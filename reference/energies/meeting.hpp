@@ -64,6 +64,9 @@ struct Meeting {
 /// The exact meeting first, then those that a decision in its grey zone could give instead.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
+/// Whether a decision of the contact lies within near_factor: the features of its closest points, d = r, and d = τ of an activation with two stages.
+bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
+
 /// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force and a block, by their moduli in
 /// the scales, that no answer can exceed wherever the points touch.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,

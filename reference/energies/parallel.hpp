@@ -1,18 +1,31 @@
 // All cases of a batch, in parallel over them: each case has its place, so threads change nothing.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <tbb/parallel_for.h>
 
 #include "compare/stages/force.hpp"
 
 namespace ogc::reference {
 
-/// `answers_of` gives the acceptable answers of one case, the exact one first.
-template <class Case, class AnswersOf>
-compare::ForceTruth for_all(const std::vector<Case>& cases, AnswersOf answers_of) {
-  compare::ForceTruth truth;
-  truth.accepted.resize(cases.size());
-  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { truth.accepted[i] = answers_of(cases[i]); });
+/// The truth about one case: the acceptable answers, the exact one first, and whether a decision is near.
+struct Accepted {
+  std::vector<compare::ForceAnswer> answers;
+  bool near = false;
+  Accepted(std::vector<compare::ForceAnswer> all, bool is_near = false) : answers(std::move(all)), near(is_near) {}
+};
+
+/// `truth_of` gives the truth about one case.
+template <class Case, class TruthOf>
+compare::ForceTruth for_all(const std::vector<Case>& cases, TruthOf truth_of) {
+  compare::ForceTruth truth{std::vector<std::vector<compare::ForceAnswer>>(cases.size()), std::vector<std::uint8_t>(cases.size())};
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    Accepted accepted = truth_of(cases[i]);
+    truth.accepted[i] = std::move(accepted.answers);
+    truth.near[i] = accepted.near;
+  });
   return truth;
 }
 
