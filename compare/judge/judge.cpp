@@ -1,10 +1,13 @@
 // Batches are handed out by number and merged by number, so threads can change neither a case nor a sum. A mesh stage does not know beforehand how
-// many batches it needs: it stops merging where the wanted number of cases is reached and throws away what was begun beyond.
+// many batches it needs: it stops merging where the wanted number of cases is reached and throws away what was begun beyond. So that this is little, no batch is
+// begun far ahead of the merged ones: a contestant that answers one thread at a time would otherwise be kept busy with what nobody wants, while the batch that
+// all wait for stands in the queue.
 #include "compare/judge/judge.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <exception>
 #include <limits>
 #include <map>
@@ -57,8 +60,9 @@ class GeneratorRun {
     for (;;) {
       std::uint64_t number = 0;
       {
-        const std::lock_guard lock(mutex_);
-        if (stopped_ || next_ == batches_) return;
+        std::unique_lock lock(mutex_);
+        may_go_on_.wait(lock, [this] { return is_over() || next_ < merged_count_ + ahead(); });
+        if (is_over()) return;
         number = next_++;
       }
       try {
@@ -71,8 +75,21 @@ class GeneratorRun {
         const std::lock_guard lock(mutex_);
         if (!failure_) failure_ = std::current_exception();
         stopped_ = true;
+        may_go_on_.notify_all();
       }
     }
+  }
+
+  bool is_over() const { return stopped_ || next_ == batches_; }
+
+  /// How many batches may be begun beyond the merged ones: where their number is known a few a thread; of a mesh stage one a thread, and no more than are missing
+  /// by the cases of a batch so far.
+  std::uint64_t ahead() const {
+    if (!is_mesh_stage(stage_)) return 4 * options_.threads;
+    if (merged_count_ == 0) return options_.threads;
+    const std::uint64_t cases = merged_.total().cases, missing = wanted_ > cases ? wanted_ - cases : 0;
+    const std::uint64_t batches = cases == 0 ? options_.threads : (missing * merged_count_ + cases - 1) / cases;
+    return std::clamp<std::uint64_t>(batches, 1, options_.threads);
   }
 
   void merge(std::uint64_t number, Tally tally) {
@@ -85,6 +102,7 @@ class GeneratorRun {
       // Batches of a family of empty meshes would never count a case.
       stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_ || merged_.failures >= failures_allowed;
     }
+    may_go_on_.notify_all();
     if (options_.progress) options_.progress(cases_before_ + merged_.total().cases, mismatches_before_ + merged_.mismatched);
   }
 
@@ -97,6 +115,7 @@ class GeneratorRun {
   const JudgeOptions& options_;
   std::uint64_t cases_before_ = 0, mismatches_before_ = 0;
   std::mutex mutex_, contestant_turn_;
+  std::condition_variable may_go_on_;
   std::uint64_t next_ = 0, merged_count_ = 0;
   std::map<std::uint64_t, Tally> waiting_;
   Tally merged_;

@@ -1,4 +1,5 @@
 // The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare` says so.
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
@@ -92,6 +93,25 @@ TEST_CASE("threads without work begin no batches beyond the last", "[agreement]"
   const StageReport report = judge_stage(Stage::truncate, slow, authority, options);
   CHECK(batches == 3);
   CHECK(report.tally.questions == 100);
+}
+
+TEST_CASE("of a mesh stage no thread begins more than one batch that nobody wants", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant counting = tests::exact_contestant(authority);
+  std::atomic<std::uint64_t> asked = 0;
+  counting.bound = [right = counting.bound, &asked](const BoundIn& in) {
+    ++asked;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return right(in);
+  };
+  JudgeOptions options;
+  options.cases = 3000;
+  options.threads = 6;
+  options.generator = "soup";
+  const StageReport report = judge_stage(Stage::bound, counting, authority, options);
+  constexpr std::uint64_t meshes = 4;  // of a batch
+  CHECK(report.tally.total().cases >= options.cases);
+  CHECK(asked <= report.tally.questions + meshes * options.threads);
 }
 
 TEST_CASE("the fast path on the CPU agrees with the reference in every stage", "[agreement]") {
