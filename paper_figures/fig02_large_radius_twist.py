@@ -10,7 +10,7 @@ from paper_figures.common import baseline_arguments, ipc_windows, label, options
 from paper_figures.fig18_solvers import Joined
 from paper_figures.runs import provenance, run_once, write_table
 from plots import render, style
-from plots.run_folder import RunError, commits_in_words
+from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE = "large_radius_twist"
@@ -50,11 +50,10 @@ def stretch(positions, rest, triangles):
     return np.percentile(length[0] / length[1], [1, 50, 99])
 
 
-def history(run):
-    """Time [s], roughness and stretch of each stored frame; the first frame is the rest shape."""
+def history(run, rest):
+    """Time [s], roughness and stretch of each stored frame; `rest`: positions of the rest shape."""
     triangles = run.bodies()[0]["triangles"]
     frames = [run.frame(path) for path in run.frames]
-    rest = frames[0].positions.astype(float)
     return (np.array([f.time for f in frames]), np.array([roughness(f.positions.astype(float), triangles) for f in frames]),
             np.array([stretch(f.positions.astype(float), rest, triangles) for f in frames]))
 
@@ -76,16 +75,18 @@ def draw(runs, out):
         else:
             picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
     lines, rows = [], []
+    rest = runs[1].frame(runs[1].frames[0]).positions.astype(float)  # OGC's start; windows start elsewhere
     for run, dash in zip(runs, style.DASHES):
-        time, rough, stretched = history(run)
+        time, rough, stretched = history(run, rest)
         h = run.setting("time_step")
         axes[0].plot(time, rough, dash, label=label(run))
         axes[1].fill_between(time, stretched[:, 0], stretched[:, 2], alpha=0.3)
         axes[1].plot(time, stretched[:, 1], dash, label=f"{label(run)}: median, 1 % to 99 %")
         axes[2].plot(run.column("step") * h, run.column("kinetic_energy"), dash, label=label(run))
         steps = run.column("step")
+        energies = dict(zip(steps.astype(int), run.column("kinetic_energy")))
         for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
-            energy = run.column("kinetic_energy")[np.searchsorted(steps, round(time[at] / h))]
+            energy = energies.get(round(time[at] / h), np.nan)  # a state that a run began with has none
             lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch {stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
                          f"kinetic energy {energy:.3g} J")
             stretches = dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[at]))
@@ -108,7 +109,7 @@ def runs_of(arguments):
     """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
     folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "frame"]
     if arguments.parts:
-        return [Joined(in_time.parts(folder / name)) for name in ("ipc", "vbd")]
+        return [*(Joined(in_time.parts(folder / name)) for name in ("ipc", "vbd")), *(Run(window) for window in sorted(folder.glob("ipc_*")))]
     ogc = run_once(arguments.ogc, base, folder / "vbd")
     if arguments.scale != "paper":
         return [run_once(arguments.ogc, [*base, "--solver", "ipc", "--profile"], folder / "ipc"), ogc]
