@@ -178,58 +178,6 @@ int improve(const compare::CompressedRows& graph, std::vector<int> order, int pa
   return count;
 }
 
-// The connected part of v, ascending.
-std::vector<int> part_of(const compare::CompressedRows& graph, int v, std::vector<char>& seen) {
-  std::vector<int> part{v};
-  seen[static_cast<std::size_t>(v)] = 1;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    for (const int u : graph[static_cast<std::size_t>(part[i])]) {
-      if (seen[static_cast<std::size_t>(u)] == 0) part.push_back(u);
-      seen[static_cast<std::size_t>(u)] = 1;
-    }
-  }
-  std::sort(part.begin(), part.end());
-  return part;
-}
-
-// Vertices numbered row by row of `width`: (row + 2 column) mod 5, a knight's move from one vertex of a class to the next. Triangles and hinges of a grid whose
-// diagonals alternate join vertices at (±1, 0), (0, ±1), (±1, ±1), (±2, 0), (0, ±2), and none of these is 0 mod 5. Greedy orders find 6 colours there.
-constexpr int lattice_colours = 5;
-
-int lattice_colour(int place, int width) { return (place / width + 2 * (place % width)) % lattice_colours; }
-
-bool is_lattice(const compare::CompressedRows& graph, const std::vector<int>& part, int width) {
-  const auto colour = [&](int v) { return lattice_colour(v - part.front(), width); };
-  return std::all_of(part.begin(), part.end(), [&](int v) {
-    const auto& row = graph[static_cast<std::size_t>(v)];
-    return std::all_of(row.begin(), row.end(), [&](int u) { return colour(u) != colour(v); });
-  });
-}
-
-// Colours by that form each part which is such a grid; every neighbour of the first vertex is tried as the one below it.
-void colour_lattices(const compare::CompressedRows& graph, const std::vector<int>& vertices, std::vector<int>& colour) {
-  std::vector<char> seen(colour.size(), 0);
-  for (const int v : vertices) {
-    if (seen[static_cast<std::size_t>(v)] != 0) continue;
-    const std::vector<int> part = part_of(graph, v, seen);
-    const auto below = graph[static_cast<std::size_t>(v)];
-    const auto found = std::find_if(below.begin(), below.end(), [&](int u) { return is_lattice(graph, part, u - v); });
-    if (found == below.end()) continue;
-    for (const int u : part) colour[static_cast<std::size_t>(u)] = lattice_colour(u - v, *found - v);
-  }
-}
-
-// The number of classes; 0 where one of them is empty.
-int class_count(const std::vector<int>& vertices, const std::vector<int>& colour) {
-  std::vector<int> size;
-  for (const int v : vertices) {
-    const auto c = static_cast<std::size_t>(colour[static_cast<std::size_t>(v)]);
-    if (c >= size.size()) size.resize(c + 1, 0);
-    ++size[c];
-  }
-  return std::count(size.begin(), size.end(), 0) > 0 ? 0 : static_cast<int>(size.size());
-}
-
 }  // namespace
 
 Colouring colour_vertices(const RestState& rest) {
@@ -247,12 +195,6 @@ Colouring colour_vertices(const RestState& rest) {
     if (!result.colour.empty() && count >= result.count) continue;
     result.colour = colour;
     result.count = count;
-  }
-  if (result.count > lattice_colours) {
-    colour = result.colour;
-    colour_lattices(graph, vertices, colour);
-    const int count = class_count(vertices, colour);
-    if (count > 0 && count < result.count) result.colour = colour, result.count = count;
   }
   for (int pass = 0; pass < 2; ++pass) balance(graph, vertices, result.count, result.colour);
   result.order = vertices;
