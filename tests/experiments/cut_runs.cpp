@@ -42,6 +42,8 @@ std::string iterations_of(const fs::path& run) {
   return text;
 }
 
+bool is_finished(const fs::path& run) { return fs::exists(run / "run.json") && compare::RunReader(run).provenance().status == "finished"; }
+
 }  // namespace
 
 void check_same_run(const fs::path& whole, const fs::path& resumed) {
@@ -61,7 +63,12 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
   for (int attempt = 0; attempt < 40; ++attempt) {
     const std::string before = cuts.in_time < 3 && cuts.killed < 20 ? "timeout --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
-    if (result.status == 0) break;
+    // A signal may also meet a run that has written all and is about to end.
+    if (result.status == 0 || is_finished(run)) {
+      if (cuts.in_time > 0) break;
+      fs::remove_all(run);  // too early for a cut in time: once more
+      continue;
+    }
     INFO(result.err);
     REQUIRE((result.status == 128 + 9 || result.status == 130 || result.status == 143));
     ++cuts.killed;
