@@ -63,8 +63,9 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
   for (int attempt = 0; attempt < 40; ++attempt) {
     const std::string before = cuts.in_time < 3 && cuts.killed < 20 ? "timeout --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
-    // A signal may also meet a run that has written all and is about to end.
+    // A signal may also meet a run whose last step is written, and leave the trajectory to `ogc export`.
     if (result.status == 0 || is_finished(run)) {
+      if (result.status != 0) REQUIRE(run_ogc("export " + run.string()).status == 0);
       if (cuts.in_time > 0) break;
       fs::remove_all(run);  // too early for a cut in time: once more
       continue;
