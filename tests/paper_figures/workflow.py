@@ -137,9 +137,9 @@ class Jobs(Scratch):
 
 @unittest.skipUnless(importlib.util.find_spec("snakemake"), "Snakemake is not installed: its part is left out")
 class Snakemake(Scratch):
-    def workflow(self, *options, **variables):
+    def workflow(self, *options, figures="fig07", **variables):
         command = [sys.executable, "-m", "snakemake", "-s", str(SOURCE / "paper_figures/Snakefile"), "-d", str(self.runs), "--nolock", "--cores", "1", *options,
-                   "--config", "figures=fig07", f"ogc={self.ogc}"]
+                   "--config", f"figures={figures}", f"ogc={self.ogc}"]
         done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **variables, "PYTHONPATH": str(SOURCE), "XDG_CACHE_HOME": str(self.runs / "cache")})
         return done.returncode, done.stdout + done.stderr
 
@@ -156,6 +156,11 @@ class Snakemake(Scratch):
         status, said = self.workflow("--dry-run", *data)
         self.assertIn("Updated input files: program.txt", said)
         self.assertEqual(json.loads((self.runs / "illustrations/fig07_data.log.json").read_text())["command"][1:3], ["illustrate", "fig07"])
+
+    def test_without_a_name_it_is_the_representative_figure(self):
+        status, said = self.workflow("--dry-run", figures="")  # as `experiments/reproduce` says it
+        self.assertEqual(status, 0, said)
+        self.assertIn(f"rule {recipes.REPRESENTATIVE}_run:", said)
 
 
 if __name__ == "__main__":
