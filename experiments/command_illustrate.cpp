@@ -60,9 +60,9 @@ void run(const Options& options, const CommandContext& context) {
 void add_illustrate_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("illustrate", "Data of the paper's drawings of blocks, Gauss maps, contact sets and truncated steps (Fig. 3 to 9, 22)");
+      app.add_subcommand("illustrate", "Data of the paper's drawings of blocks, Gauss maps, contact sets and truncated steps (Fig. 2c to e, 3 to 9, 22)");
   command->add_option("FIGURE", options->figures,
-                      "fig03 fig04 fig05 fig06 fig07 fig08 fig09 fig22 (default: all of these) fig21d (for paper_figures/fig21_activation_drop.py)");
+                      "fig02_models fig03 fig04 fig05 fig06 fig07 fig08 fig09 fig22 (default: all of these) fig21d (for paper_figures/fig21_activation_drop.py)");
   command->add_option("--out", options->folder, "Folder to write to, made where it is missing")->capture_default_str();
   command->footer("Everything is computed by the exact reference; nothing is drawn by hand. The pictures:\n"
                   "  python3 -m paper_figures.illustrations FOLDER\n\n"

@@ -1,4 +1,4 @@
-"""The paper's drawings (Fig. 3 to 9, 22) from what `ogc illustrate` computed: nothing here knows any geometry, it only draws points and lines."""
+"""The paper's drawings (Fig. 2c to e, 3 to 9, 22) from what `ogc illustrate` computed: nothing here knows any geometry, it only draws points and lines."""
 
 import argparse
 import json
@@ -16,6 +16,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402  (after
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 TITLES = {
+    "fig02_models": "Fig. 2c to e: what IPC and OGC offset, and the forces that it gives (dashed: boundaries in the colour of their facet)",
     "fig03": "Fig. 3: contact face sets and the forces that they give",
     "fig04": "Fig. 4: a curve, its offset, and its offset that knows its layers",
     "fig05": "Fig. 5: vertices, their blocks (green) and spherical indicatrices",
@@ -100,6 +101,21 @@ def draw_face_sets(figure, panels):
             axes.set_title(title, fontsize=9)
             if row == 0:
                 axes.text(0.5, 1.3, wrapped(f"({panel['name']}) {panel['caption']}"), transform=axes.transAxes, ha="center", va="bottom", fontsize=9)
+
+
+def draw_models(figure, panels):
+    row = figure.subplots(1, len(panels))
+    for axes, panel in zip(row, panels):
+        plane(axes, panel)
+        points = xy(layers(panel, "surface")[0])
+        for k in range(len(points) - 1):
+            colour = SEGMENT_COLOURS[k % len(SEGMENT_COLOURS)]
+            axes.plot(*points[k:k + 2].T, color=colour, linewidth=2.5, solid_capstyle="round")
+            for layer in (*layers(panel, f"capsule of facet {k}"), *layers(panel, f"block of facet {k}")):
+                draw_line(axes, layer, color=colour, linewidth=1, linestyle="--")
+        for layer in layers(panel, "arrows"):
+            draw_arrows(axes, layer)
+        axes.plot(*xy(layers(panel, "points")[0]).T, "o", color="black", markersize=4, zorder=6)
 
 
 def draw_offsets(figure, panels):
@@ -326,6 +342,7 @@ def draw_space(figure, panels, spheres, elevation=22, azimuth=-62):
 
 
 DRAWERS = {
+    "fig02_models": (draw_models, (11, 3.6)),
     "fig03": (draw_face_sets, (10, 7.5)),
     "fig04": (draw_offsets, (11, 3.6)),
     "fig05": (lambda f, p: draw_space(f, p, True, 55), (10, 7)),

@@ -16,6 +16,7 @@ inline std::array<double, 2> on_circle(int i, int k) {
   return {std::cos(angle), std::sin(angle)};
 }
 
+std::vector<DrawingPanel> contact_models();      ///< Fig. 2c to e
 std::vector<DrawingPanel> contact_face_sets();   ///< Fig. 3
 std::vector<DrawingPanel> offset_geometries();   ///< Fig. 4
 std::vector<DrawingPanel> vertex_kinds();        ///< Fig. 5

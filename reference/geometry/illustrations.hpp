@@ -1,4 +1,4 @@
-// The data of the paper's drawings (Fig. 3 to 9, 22), computed by the very functions that decide; plots only draw them.
+// The data of the paper's drawings (Fig. 2c to e, 3 to 9, 22), computed by the very functions that decide; plots only draw them.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct DrawingPanel {
   std::vector<DrawingLayer> layers;
 };
 
-/// "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22".
+/// "fig02_models", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22".
 std::span<const std::string_view> illustration_names();
 
 /// The panels of one figure. Throws InputError for a name that is not in the list.

@@ -1,4 +1,4 @@
-// Fig. 3, 4 and 22a: slices of swept polylines. Contact sets, layers and distances come from the surface; only the drawing is plane.
+// Fig. 2c to e, 3, 4 and 22a: slices of swept polylines. Contact sets, layers and distances come from the surface; only the drawing is plane.
 #include <algorithm>
 
 #include "reference/geometry/contact_sets.hpp"
@@ -143,7 +143,55 @@ std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double 
   return {closed, open};
 }
 
+/// What IPC's model makes of a segment: all points within r of it. A circle cut in two by the segment's normal, its halves around the two ends.
+DrawingLayer capsule(const Slice& slice, int segment, double r) {
+  const auto &a = slice.polyline()[static_cast<std::size_t>(segment)], &b = slice.polyline()[static_cast<std::size_t>(segment) + 1];
+  const double along = std::atan2(static_cast<double>(b[1]) - a[1], static_cast<double>(b[0]) - a[0]);
+  constexpr int half = 48;
+  DrawingLayer layer{"capsule of facet " + std::to_string(segment), {}, {}, {{}}, {}, false};
+  for (int k = 0; k <= 2 * half + 1; ++k) {
+    const Point2& centre = k <= half ? b : a;
+    const double angle = along + std::numbers::pi * (static_cast<double>(k <= half ? k : k - 1) / half - 0.5);
+    layer.lines[0].push_back(k);
+    layer.points.push_back({centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle), 0});
+  }
+  layer.lines[0].push_back(0);
+  return layer;
+}
+
+/// The pushes of both models' sets from each of some vertices, and where these are.
+DrawingPanel model_panel(const std::string& name, const std::string& caption, const Slice& slice, const std::vector<Index>& vertices, float r, bool ogc) {
+  const Complex mesh = slice.mesh();
+  DrawingPanel panel{name, caption, {polyline_layer(slice)}};
+  DrawingLayer points{"points", {}, {}, {}, {}, true};
+  for (const Index v : vertices) {
+    const Point2 x{mesh.at(v).x, mesh.at(v).y};
+    points.points.push_back({x[0], x[1], 0});
+    const auto faces = ogc ? ogc_faces(slice, v, r) : segments_of(slice, ipc_face_set(mesh, v, r), v < slice.extra(0) ? v : -1);
+    panel.layers.push_back(arrows("arrows", slice, faces, x, r));
+  }
+  panel.layers.push_back(std::move(points));
+  return panel;
+}
+
 }  // namespace
+
+std::vector<DrawingPanel> contact_models() {
+  const std::vector<Point2> around{{-1.02f, 0.2f}, {0.15f, 0.38f}, {0.98f, -0.25f}};
+  const Slice facet({{-0.75f, 0}, {0.75f, 0}}, around), sheet({{-1.6f, 0.04f}, {-0.8f, 0}, {0, 0.06f}, {0.8f, 0}, {1.6f, 0.04f}}, around);
+  constexpr float r = 0.55f, large = 1.1f;
+  const std::vector<Index> strangers{facet.extra(0), facet.extra(1), facet.extra(2)};
+  std::vector<DrawingPanel> panels{model_panel("c", "IPC: a facet offset in all directions; beyond its ends it pushes along itself, too", facet, strangers, r, false),
+                                   model_panel("d", "IPC, radius of more than an edge: a sheet's own neighbours push each other", sheet, {sheet.vertex(1), sheet.vertex(3)}, large, false),
+                                   model_panel("e", "OGC: the blocks of the facets; neighbours in the sheet's plane are in none", sheet,
+                                               {sheet.vertex(1), sheet.vertex(3), sheet.extra(1)}, large, true)};
+  panels[0].layers.push_back(capsule(facet, 0, r));
+  for (const int segment : {0, 1, 2, 3}) {
+    panels[1].layers.push_back(capsule(sheet, segment, large));
+    for (DrawingLayer& boundary : segment_block(sheet, segment, large)) panels[2].layers.push_back(std::move(boundary));
+  }
+  return panels;
+}
 
 std::vector<DrawingPanel> contact_face_sets() {
   const std::vector<Point2> above{{0.1f, 0.45f}};

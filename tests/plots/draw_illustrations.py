@@ -16,7 +16,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
 
-FIGURES = {"fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22"}
+FIGURES = {"fig02_models", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22"}
 
 
 def run(*command, **options):

@@ -44,6 +44,24 @@ TEST_CASE("illustrations: every figure has panels whose layers refer to their ow
   CHECK_THROWS_AS(reference::illustration("fig99"), compare::InputError);
 }
 
+TEST_CASE("illustrations: Fig. 2c to e, IPC pushes along a facet beyond its ends and neighbours in a sheet; OGC pushes a stranger alone", "[unit]") {
+  const auto panels = reference::illustration("fig02_models");
+  std::vector<std::size_t> pushes[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const DrawingLayer& l : panels[k].layers) {
+      if (l.name == "arrows") pushes[k].push_back(l.lines.size());
+    }
+  }
+  CHECK(pushes[0] == std::vector<std::size_t>{1, 1, 1});
+  const auto& beyond_the_end = *std::find_if(panels[0].layers.begin(), panels[0].layers.end(), [](const DrawingLayer& l) { return l.name == "arrows"; });
+  CHECK(beyond_the_end.points[1][0] > beyond_the_end.points[0][0]);
+  CHECK(pushes[1][0] > 0);
+  CHECK(pushes[1][1] > 0);
+  CHECK(pushes[2][0] == 0);
+  CHECK(pushes[2][1] == 0);
+  CHECK(pushes[2][2] > 0);
+}
+
 TEST_CASE("illustrations: Fig. 3, IPC pushes two facets over a ridge, OGC its crest; SDF one facet in a valley where OGC pushes both", "[unit]") {
   const auto panels = reference::illustration("fig03");
   CHECK(layer(panels[0], "IPC").lines.size() == 2);
