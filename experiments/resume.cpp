@@ -9,15 +9,12 @@ namespace {
 
 using compare::Provenance;
 
-bool says_yes(const Provenance& provenance, const std::string& key) {
-  const auto entry = provenance.extra.find(key);
-  return entry != provenance.extra.end() && entry->second == "yes";
-}
-
 std::string text_in(const Provenance& provenance, const std::string& key) {
   const auto entry = provenance.extra.find(key);
   return entry == provenance.extra.end() ? "" : entry->second;
 }
+
+bool says_yes(const Provenance& provenance, const std::string& key) { return text_in(provenance, key) == "yes"; }
 
 void check_end(const std::string& folder, const compare::RunReader& run) {
   if (run.provenance().status != "finished") return;

@@ -29,10 +29,4 @@ struct SweepWork {
 };
 SweepWork sweep_work(const compare::Scene& scene);
 
-/// What the searches of one detection have to do, by what was counted on `cloth_on_sphere` (fast/PERFORMANCE.md); of other scenes it says no more than the order.
-struct SearchWork {
-  double flop = 0, bytes = 0;  ///< in double precision; of the trees' nodes
-};
-SearchWork search_work(const compare::Scene& scene);
-
 }  // namespace ogc::fast

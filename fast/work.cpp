@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "fast/kernels/bvh.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -34,18 +33,7 @@ constexpr double vertex_flop = 54;
 /// Vertices of a contact of each sort, where its points lie inside: each updates itself from it.
 constexpr double contact_vertices = 4;
 
-// Counted at step 60 of cloth_on_sphere (fast/PERFORMANCE.md, "Detection on the H200"): nodes that a search opens, pairs of which it takes a distance.
-constexpr double edge_nodes = 37, edge_distances = 12, vertex_nodes = 45, vertex_distances = 11;
-/// Of a distance in double, an estimate.
-constexpr double distance_flop = 500;
-
 }  // namespace
-
-SearchWork search_work(const compare::Scene& scene) {
-  const compare::Topology topology = compare::build_topology(scene);
-  const auto edges = static_cast<double>(topology.edges.size()), vertices = static_cast<double>(topology.vertex_count);
-  return {(edges * edge_distances + vertices * vertex_distances) * distance_flop, (edges * edge_nodes + vertices * vertex_nodes) * sizeof(Quad)};
-}
 
 SweepWork sweep_work(const compare::Scene& scene) {
   const compare::Topology topology = compare::build_topology(scene);

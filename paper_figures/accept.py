@@ -18,7 +18,7 @@ from paper_figures import recipes
 from paper_figures.evidence import RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-# A file above this is no small data; the folder as a whole stays under 30 MiB.
+# A file above this is no small data; the folder as a whole stays under 30 MiB. Rows above half of it are kept compressed.
 LARGEST = 2 * 2**20
 
 
@@ -90,11 +90,16 @@ def run_name(path, folder):
     return "_".join(part for part in path.parent.relative_to(folder).parts if part != "runs")
 
 
+def compressed(name, data):
+    """(name, data) as they are kept: long rows with gzip, which evidence.py reads as well."""
+    return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LARGEST / 2 else (name, data)
+
+
 def run_files(path, stem):
     """Manifest, rows and iterations of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
     manifest["command"] = relative(manifest["command"])
-    rows = [(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in ("steps.csv", "iterations.csv") if path.with_name(name).is_file()]
+    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in ("steps.csv", "iterations.csv") if path.with_name(name).is_file()]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 
 

@@ -13,7 +13,7 @@ import statistics
 import sys
 from pathlib import Path
 
-from paper_figures.evidence import RESULTS, Evidence, EvidenceError, RunEvidence
+from paper_figures.evidence import RESULTS, Evidence, EvidenceError, runs_in
 from paper_figures.verdicts import STATES, band_in_words, judge_all, within
 
 BANDS = RESULTS / "bands.json"
@@ -27,16 +27,6 @@ def bands(path=BANDS):
     """column -> relative band of its mean."""
     document = json.loads(Path(path).read_text())
     return {name: document["factor"] * entry["spread"] for name, entry in document["columns"].items()}
-
-
-def all_runs(folder):
-    """Every run below `folder` that has rows, finished or not."""
-    found = []
-    for path in sorted(Path(folder).rglob("*run.json")):
-        rows = path.with_name(path.name.removesuffix("run.json") + "steps.csv")
-        if rows.is_file():
-            found.append(RunEvidence(path, rows, path.relative_to(folder).as_posix()))
-    return found
 
 
 def counterpart(run, accepted):
@@ -83,7 +73,7 @@ def compare_runs(new, accepted, allowed):
 
 def compare_illustrations(runs, results):
     """(line, met) for each illustration's data; the exact reference gives the same numbers everywhere."""
-    for path in sorted(Path(runs).glob("illustrations/fig??.json")):
+    for path in sorted(Path(runs).glob("illustrations/fig*.json")):
         for old in sorted(Path(results).glob(f"*/{path.name}.gz")):
             same = gzip.decompress(old.read_bytes()) == path.read_bytes()
             yield f"illustrations/{path.name}: {'the data' if same else 'NOT the data'} of {old.relative_to(results)}", same
@@ -130,7 +120,7 @@ def compare_smaller(claim, new, kept):
 
 def check(runs, results=RESULTS):
     """Words about all below `runs`, and whether everything is met."""
-    new, kept = all_runs(runs), Evidence(results)
+    new, kept = runs_in(runs), Evidence(results)
     found = [*compare_runs(new, kept.runs, bands()), *compare_illustrations(runs, results), *compare_claims(Evidence(runs), kept)]
     if not found:
         return [f"{len(new)} runs, none of which an accepted result or a claim (they are about the paper's size) is about"], True

@@ -1,10 +1,11 @@
 """What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a judgement needs no package.
 
-A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`, `X_steps.csv`); a table is `figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit
+A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`, `X_steps.csv`, long ones as `X_steps.csv.gz`); a table is `figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit
 and a device in each row. Runs that are unfinished, of a changed tree, or that failed their audit are no evidence.
 """
 
 import csv
+import gzip
 import json
 import math
 import statistics
@@ -38,7 +39,7 @@ class RunEvidence:
 
     @cached_property
     def columns(self):
-        with self.rows.open(newline="") as file:
+        with (gzip.open if self.rows.suffix == ".gz" else open)(self.rows, "rt", newline="") as file:
             names, *rows = [row for row in csv.reader(file) if row]
         return {name.partition("[")[0].strip(): [float(row[i] or "nan") for row in rows if len(row) == len(names)] for i, name in enumerate(names)}
 
@@ -86,17 +87,23 @@ def table_name(path):
     return (name, scale) if name else (scale, folder[1] if len(folder) == 3 else "")
 
 
+def runs_in(folder):
+    """Every run below `folder` that has rows, finished or not, by the name of its manifest."""
+    found = []
+    for path in sorted(Path(folder).rglob("*run.json")):
+        rows = path.with_name(path.name.removesuffix("run.json") + "steps.csv")
+        kept = [way for way in (rows, rows.with_name(rows.name + ".gz")) if way.is_file()]
+        if kept:
+            found.append(RunEvidence(path, kept[0], path.relative_to(folder).as_posix()))
+    return found
+
+
 class Evidence:
     """All usable runs and tables below `folder`: accepted results, or run folders."""
 
     def __init__(self, folder=RESULTS):
         folder = Path(folder)
-        self.runs, self.tables = [], []
-        for path in sorted(folder.rglob("*run.json")):
-            rows = path.with_name(path.name.removesuffix("run.json") + "steps.csv")
-            if rows.is_file():
-                self.runs.append(RunEvidence(path, rows, path.relative_to(folder).as_posix()))
-        self.runs.sort(key=lambda run: run.manifest.get("ended", ""))
+        self.runs, self.tables = sorted(runs_in(folder), key=lambda run: run.manifest.get("ended", "")), []
         self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
         for path in sorted([*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")]):
             name, scale = table_name(path)

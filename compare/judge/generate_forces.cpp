@@ -75,17 +75,23 @@ CaseData membrane_lattice(Random& random) {
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
 }
 
+/// Points of any bits, and as many others or the same for the start.
+template <std::size_t N>
+void place_bits(Random& random, std::array<Vec3f, N>& points, std::array<Vec3f, N>& start) {
+  const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
+  const bool moved = random.one_in(2);
+  for (std::size_t k = 0; k < N; ++k) {
+    points[k] = placement::single(now[k]);
+    start[k] = moved ? placement::single(before[k]) : points[k];
+  }
+}
+
 /// Corners of any bits: stretched up to 10⁹ times, and needles.
 CaseData membrane_bits(Random& random) {
   MembraneCase question;
   set_rest(question, rest_corners(random, false));
   set_material(random, question);
-  const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
-  const bool moved = random.one_in(2);
-  for (std::size_t k = 0; k < 3; ++k) {
-    question.corner[k] = placement::single(now[k]);
-    question.start[k] = moved ? placement::single(before[k]) : question.corner[k];
-  }
+  place_bits(random, question.corner, question.start);
   return question;
 }
 
@@ -206,12 +212,7 @@ CaseData bending_uniform(Random& random) {
 /// Vertices of any bits: needles of up to 10¹² to 1, and hinges of every angle.
 CaseData bending_bits(Random& random) {
   BendingCase question = std::get<BendingCase>(bending_uniform(random));
-  const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
-  const bool moved = random.one_in(2);
-  for (std::size_t k = 0; k < 4; ++k) {
-    question.vertex[k] = placement::single(now[k]);
-    question.start[k] = moved ? placement::single(before[k]) : question.vertex[k];
-  }
+  place_bits(random, question.vertex, question.start);
   return question;
 }
 

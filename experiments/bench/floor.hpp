@@ -10,26 +10,21 @@
 namespace ogc::experiments {
 
 struct MachineLimits {
-  double flop_per_second = 0, double_flop_per_second = 0;
+  double flop_per_second = 0;
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;  ///< up to so many bytes stay in the cache of the device
   double seconds_between_colours = 0;  ///< a kernel that waits for the one before, in a graph
 };
 
-/// H200: 132 multiprocessors × 128 fused multiply-adds (half as many in double) × 1.98 GHz; bandwidths and the shortest edge of a graph as measured on one (fast/PERFORMANCE.md).
+/// H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz; bandwidths and the shortest edge of a graph as fast/PERFORMANCE.md gives them.
 inline std::optional<MachineLimits> limits_of(const std::string& device) {
   if (device.find("H200") == std::string::npos) return std::nullopt;
-  return MachineLimits{132 * 128 * 2 * 1.98e9, 132 * 64 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
+  return MachineLimits{132 * 128 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
 }
 
 /// Of one iteration of the sweep with so many contacts [s]: the larger of arithmetic and bytes, and an edge a colour.
 inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& work, double flop, double bytes) {
   const double rate = bytes <= machine.cache_bytes ? machine.cache_bytes_per_second : machine.memory_bytes_per_second;
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;
-}
-
-/// Of the searches of one detection [s]; trees stay in the cache.
-inline double search_floor(const MachineLimits& machine, const fast::SearchWork& work) {
-  return std::max(work.flop / machine.double_flop_per_second, work.bytes / machine.cache_bytes_per_second);
 }
 
 }  // namespace ogc::experiments

@@ -21,7 +21,7 @@ using Rows = std::vector<StepMetrics>;
 /// Windows of one scene on one backend, one a repetition, and what they are counted by.
 class Windows {
  public:
-  Windows(const BenchScene& from, fast::Backend backend, bool profile, std::int64_t steps) : steps_(steps), work_(fast::sweep_work(from.scene)), searches_(fast::search_work(from.scene)) {
+  Windows(const BenchScene& from, fast::Backend backend, bool profile, std::int64_t steps) : steps_(steps), work_(fast::sweep_work(from.scene)) {
     simulation_ = fast::contestant(backend).start(from.scene, {.profile = profile, .energies = false});
     if (from.start) simulation_->restore(*from.start);
     start_ = simulation_->snapshot();
@@ -40,12 +40,10 @@ class Windows {
   std::vector<std::string> stage_names() const { return simulation_->stage_names(); }
   std::string device() const { return simulation_->device(); }
   const fast::SweepWork& work() const { return work_; }
-  const fast::SearchWork& searches() const { return searches_; }
 
  private:
   std::int64_t steps_;
   fast::SweepWork work_;
-  fast::SearchWork searches_;
   std::unique_ptr<compare::Simulation> simulation_;
   compare::Snapshot start_;
   std::vector<Rows> rows_;
@@ -87,27 +85,14 @@ void count_work(benchmark::State& state, const Rows& rows, const Windows& window
   state.counters["share_of_floor"] = of_step([&](const StepMetrics& row) { return sweep_floor(*machine, work, flop(row), bytes(row)); }) / (1e-3 * mean_ms);
 }
 
-/// The searches of all detections of a step, where they were counted.
-void count_searches(benchmark::State& state, const Rows& rows, const Windows& windows, double mean_ms) {
-  const double detections = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.discrete_detections); });
-  const fast::SearchWork& work = windows.searches();
-  state.counters["flop"] = detections * work.flop;
-  state.counters["bytes"] = detections * work.bytes;
-  const std::optional<MachineLimits> machine = limits_of(windows.device());
-  if (machine && mean_ms > 0) state.counters["share_of_floor"] = detections * search_floor(*machine, work) / (1e-3 * mean_ms);
-}
-
 void count_steps(benchmark::State& state, const Rows& rows) {
   state.counters["contacts"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.vertex_facet_contacts + row.edge_edge_contacts); });
   state.counters["detections"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.discrete_detections); });
   state.counters["repeats"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.repeats); });
 }
 
-/// Whose work stands for a benchmark.
-enum class Counted { none, sweep, searches };
-
-/// `stage`: its place among the times of a row; none for the whole step, for which the sweep's work stands.
-void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage, Counted counted) {
+/// `stage`: its place among the times of a row; none for the whole step. `sweeps`: whether the sweep's work stands for it.
+void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage, bool sweeps) {
   const Rows& rows = windows.repetition(repetition);
   const auto milliseconds = [&](const StepMetrics& row) { return stage ? row.stage_ms[*stage] : row.wall_ms; };
   if (static_cast<benchmark::IterationCount>(rows.size()) < state.max_iterations) {
@@ -117,8 +102,7 @@ void measure(benchmark::State& state, Windows& windows, std::size_t repetition, 
   std::size_t k = 0;
   for (auto _ : state) state.SetIterationTime(1e-3 * milliseconds(rows[k++]));
   count_steps(state, rows);
-  if (counted == Counted::sweep) count_work(state, rows, windows, mean(rows, milliseconds));
-  if (counted == Counted::searches) count_searches(state, rows, windows, mean(rows, milliseconds));
+  if (sweeps) count_work(state, rows, windows, mean(rows, milliseconds));
 }
 
 class Registrar {
@@ -137,13 +121,12 @@ class Registrar {
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend, std::optional<std::size_t> stage) const {
-    const bool searches = stage && stages[*stage] == "detection" && name.find("/cloth_on_sphere") != std::string::npos;
-    const Counted counted = !stage || stages[*stage] == "sweep" ? Counted::sweep : searches ? Counted::searches : Counted::none;
+    const bool sweeps = !stage || stages[*stage] == "sweep";
     const std::string key = name.substr(stage ? name.find('/', 5) : 4) + name_of(backend) + (stage ? "profiled" : "");
     const auto body = [=, steps = options_.steps, repetition = std::make_shared<std::size_t>(0)](benchmark::State& state) {
       Windows& windows = windows_of(key, [&] { return std::make_unique<Windows>(make(), backend, stage.has_value(), steps); });
       if (stage && windows.stage_names().at(*stage) != stages[*stage]) throw std::logic_error("the parts of a step have other names");
-      measure(state, windows, (*repetition)++, stage, counted);
+      measure(state, windows, (*repetition)++, stage, sweeps);
     };
     benchmark::RegisterBenchmark((name + "/" + name_of(backend)).c_str(), body)
         ->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(options_.steps)->Repetitions(options_.repetitions);

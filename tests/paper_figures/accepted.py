@@ -105,10 +105,12 @@ class Checking(Scratch):
     def test_illustrations_are_the_same_data(self):
         (self.runs / "illustrations").mkdir(parents=True)
         (self.results / "m").mkdir(parents=True)
-        (self.results / "m/fig07.json.gz").write_bytes(gzip.compress(b"{}"))
-        for data, good in ((b"{}", True), (b"{ }", False)):
-            (self.runs / "illustrations/fig07.json").write_bytes(data)
-            self.assertEqual([met for _, met in check.compare_illustrations(self.runs, self.results)], [good])
+        for name in ("fig07", "fig02_models"):
+            (self.results / f"m/{name}.json.gz").write_bytes(gzip.compress(b"{}"))
+            for data, good in ((b"{}", True), (b"{ }", False)):
+                (self.runs / f"illustrations/{name}.json").write_bytes(data)
+                self.assertEqual([met for _, met in check.compare_illustrations(self.runs, self.results)], [good])
+            (self.runs / f"illustrations/{name}.json").unlink()
 
     def test_a_claim_at_a_smaller_scale_is_held_to_its_band_moved_to_the_accepted_number(self):
         claim = {"id": "s.c", "scene": "s", "value": 5, "band": [4.5, 5.5], "measure": {"table": "fig99", "column": "n", "where": {"kind": "a"}}, "run": {"scale": "paper"}}
@@ -155,6 +157,17 @@ class Accepting(Scratch):
         with (kept / "provenance.csv").open(newline="") as file:
             rows = {row["file"]: row for row in csv.DictReader(file)}
         self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
+
+    def test_long_rows_are_kept_compressed_and_read_again(self):
+        self.finished()
+        rows = (self.runs / "fig18-paper-cuda/run/steps.csv").read_text()
+        last = rows.splitlines(keepends=True)[-1]
+        (self.runs / "fig18-paper-cuda/run/steps.csv").write_text(rows + last * (accept.LARGEST // len(last)))
+        self.accept("fig18")
+        self.assertTrue((self.results / "machine/fig18_paper_steps.csv.gz").is_file())
+        new, old = check.runs_in(self.runs)[0], Evidence(self.results).runs[0]
+        self.assertEqual(new.columns["kinetic_energy"], old.columns["kinetic_energy"])
+        self.assertGreater(len(old.column("step")), 100)
 
     def test_what_is_no_evidence_is_refused_in_words_and_nothing_is_written(self):
         for changes, words in (({"dirty": True}, "uncommitted changes"), ({"guarantee_kept": False}, "failed its audit"), ({"status": "running"}, "not finished")):
