@@ -61,10 +61,10 @@ __global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }
 
-/// Likewise; a block is cuda_block_size/W teams.
+/// Likewise; a block is serial_block_size/W teams.
 template <int W, class F>
-__global__ void __launch_bounds__(cuda_block_size) run_serial_teams(int n, F f) {
-  const int i = (static_cast<int>(blockIdx.x) * cuda_block_size + static_cast<int>(threadIdx.x)) / W;
+__global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f) {
+  const int i = (static_cast<int>(blockIdx.x) * serial_block_size + static_cast<int>(threadIdx.x)) / W;
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
@@ -115,13 +115,13 @@ class CudaBackend {
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
     const bool serial = static_cast<std::int64_t>(n) * W >= serial_team_lanes_;
-    const int teams = (serial ? cuda_block_size : 32) / W;  // of a block
+    const int teams = (serial ? serial_block_size : 32) / W;  // of a block
     cudaLaunchAttribute overlap{};
     overlap.id = cudaLaunchAttributeProgrammaticStreamSerialization;
     overlap.val.programmaticStreamSerializationAllowed = 1;
     cudaLaunchConfig_t launch{};
     launch.gridDim = dim3(static_cast<unsigned>((n + teams - 1) / teams));
-    launch.blockDim = dim3(serial ? cuda_block_size : 32 * F::parts);
+    launch.blockDim = dim3(serial ? serial_block_size : 32 * F::parts);
     launch.stream = current_;
     launch.attrs = &overlap;
     launch.numAttrs = start == Start::overlapping ? 1 : 0;

@@ -4,7 +4,9 @@
 // dependent instructions, which is what a small launch costs, is the longest part's and not all of them. Lanes leave what they have in shared memory,
 // warp 0 adds the parts in their order and then the lanes.
 //
-// SerialLaneTeam: the same lanes run one part after the other. A launch that fills the device anyway pays for instructions, and here no warp waits at a barrier.
+// SerialLaneTeam: the same lanes run one part after the other. A launch that fills the device anyway pays for instructions, and here no warp waits for another
+// sort of term. Terms of a pooled part are computed by all threads of the block, whosever they are, a block's worth at a time; each lane then adds its own
+// from shared memory, in their order. So a team with fifty contacts holds up nobody, and the chain of dependent reads is as long as the block's average.
 //
 // The tree is a butterfly: at distance s every lane adds its partner l xor s. By induction all lanes l with the same l mod s hold the same bits after that
 // round: the two partners add the same two numbers, in opposite order, and IEEE addition is commutative. Lane l < s adds lanes[l] + lanes[l + s], which is
@@ -18,11 +20,14 @@
 #include <cstring>
 #include <type_traits>
 
+#include <cub/block/block_scan.cuh>
 #include <cuda_runtime.h>
 
-#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/team.hpp"
 
 namespace ogc::fast {
+
+inline constexpr int serial_block_size = 128;  ///< threads of a block of SerialLaneTeams
 
 namespace detail {
 
@@ -57,14 +62,44 @@ template <int W, bool begins, class Part, class Accumulator>
 __device__ void add_part(const Part& part, int lane, Accumulator& own) {
   int k = lane;
   const bool any = k < part.count;
-  decltype(part.load(0)) loaded{};
-  if (any) loaded = part.load(k);
+  decltype(load_item(part, 0)) loaded{};
+  if (any) loaded = load_item(part, k);
   if constexpr (begins) {
     cudaGridDependencySynchronize();
     cudaTriggerProgrammaticLaunchCompletion();
   }
-  if (any) part.add(loaded, own);
-  for (k += W; k < part.count; k += W) part.add(part.load(k), own);
+  if (any) add_item(part, loaded, own);
+  for (k += W; k < part.count; k += W) add_item(part, load_item(part, k), own);
+}
+
+/// This lane's items of a pooled part, by all threads of the block at once. A team that is not `present` has none.
+template <int W, class Load, class Term, class Accumulator>
+__device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
+  constexpr int teams = serial_block_size / W;
+  using Scan = cub::BlockScan<int, serial_block_size>;
+  __shared__ typename Scan::TempStorage scan;
+  __shared__ int begins[teams], offsets[teams + 1];  // of the teams' items: in their arrays; in the order of the block
+  __shared__ unsigned memory[serial_block_size][words<Accumulator>()];
+  const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
+  int offset = 0, total = 0;
+  __syncthreads();  // whoever still reads what stood here
+  Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
+  if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
+  if (thread == 0) offsets[teams] = total;
+  __syncthreads();
+  const int end = offsets[team + 1];
+  int next = offsets[team] + lane;
+  for (int base = 0; base < total; base += serial_block_size) {
+    const int item = base + thread;
+    if (item < total) {
+      int owner = 0;
+      for (int half = teams / 2; half > 0; half /= 2) owner += offsets[owner + half] <= item ? half : 0;
+      *reinterpret_cast<Accumulator*>(memory[thread]) = part.term(part.load(begins[owner] + item - offsets[owner]));
+    }
+    __syncthreads();
+    for (const int here = min(end, base + serial_block_size); next < here; next += W) own += *reinterpret_cast<const Accumulator*>(memory[next - base]);
+    __syncthreads();
+  }
 }
 
 }  // namespace detail
@@ -126,10 +161,17 @@ class SerialLaneTeam {
  private:
   __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
 
-  template <bool begins, class Part, class Accumulator>
-  __device__ static void add(const Part& part, Accumulator& total) {
+  template <bool begins, class Load, class Add, class Accumulator>
+  __device__ static void add(const Part<Load, Add>& part, Accumulator& total) {
     Accumulator own{};
     detail::add_part<W, begins>(part, lane(), own);
+    total += own;
+  }
+  template <bool begins, class Load, class Term, class Accumulator>
+  __device__ void add(const PooledPart<Load, Term>& part, Accumulator& total) const {
+    static_assert(!begins, "the first part is not pooled");
+    Accumulator own{};
+    detail::add_pooled<W>(part, present_, own);
     total += own;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/rounding.hpp"
 #include "fast/kernels/vector.hpp"
 
 namespace ogc::fast {
@@ -35,14 +36,15 @@ struct ForceAndBlock {
     block.zz += scale;
   }
 
+  /// Rounded by itself: with a product of the other's computation contracted into it, the bits would depend on where that is computed.
   OGC_HD ForceAndBlock& operator+=(const ForceAndBlock& other) {
-    force = force + other.force;
-    block.xx += other.block.xx;
-    block.xy += other.block.xy;
-    block.xz += other.block.xz;
-    block.yy += other.block.yy;
-    block.yz += other.block.yz;
-    block.zz += other.block.zz;
+    force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
+    block.xx = add(block.xx, other.block.xx);
+    block.xy = add(block.xy, other.block.xy);
+    block.xz = add(block.xz, other.block.xz);
+    block.yy = add(block.yy, other.block.yy);
+    block.yz = add(block.yz, other.block.yz);
+    block.zz = add(block.zz, other.block.zz);
     return *this;
   }
 };

@@ -1,5 +1,5 @@
 // From raw contacts, appended in any order and more than once, to records in canonical order and to each vertex's incidences. A contact's bucket is its
-// first face; inside a bucket a short segment is sorted, which costs far less than sorting all.
+// first face; inside a bucket each contact counts those before it, which costs far less than sorting all, and no thread waits for the longest bucket.
 //
 // Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order buckets, and in a bucket the
 // sorted seconds, have the canonical order of compare/stages. The searches note pairs that may be contacts: half as many again as the contacts where r is
@@ -33,9 +33,9 @@ struct ListsView {
   NotedPair* noted = nullptr;
   int noted_capacity = 0;
   int* noted_count = nullptr;       ///< also those that found no room
-  RawContact* raw = nullptr;        ///< as appended
-  RawContact* sorted = nullptr;     ///< by bucket
-  int capacity = 0;                 ///< of raw, sorted and both record arrays; incidences have four times as much
+  RawContact* raw = nullptr;        ///< as appended; later those of `bucketed` at the same places, `bucket` -1 for what stands in its bucket twice
+  RawContact* bucketed = nullptr;   ///< bucket by bucket
+  int capacity = 0;                 ///< of raw, bucketed and both record arrays; incidences have four times as much
   int* cursor = nullptr;            ///< contacts appended, also those that found no room
   int* overflow = nullptr;          ///< sticky
   int buckets = 0;
@@ -66,37 +66,6 @@ struct ListsView {
   }
 };
 
-/// Ascending order in place: by insertion while short, by heap where a crowded vertex has hundreds.
-template <class T>
-OGC_HD void sort_segment(T* items, int n) {
-  if (n <= 32) {
-    for (int i = 1; i < n; ++i) {
-      const T item = items[i];
-      int k = i;
-      for (; k > 0 && item < items[k - 1]; --k) items[k] = items[k - 1];
-      items[k] = item;
-    }
-    return;
-  }
-  const auto sink = [items](int root, int end) {
-    const T item = items[root];
-    for (int child = 2 * root + 1; child < end; child = 2 * root + 1) {
-      if (child + 1 < end && items[child] < items[child + 1]) ++child;
-      if (!(item < items[child])) break;
-      items[root] = items[child];
-      root = child;
-    }
-    items[root] = item;
-  };
-  for (int root = n / 2 - 1; root >= 0; --root) sink(root, n);
-  for (int end = n - 1; end > 0; --end) {
-    const T largest = items[0];
-    items[0] = items[end];
-    items[end] = largest;
-    sink(0, end);
-  }
-}
-
 /// Start of a detection: index over the largest of buckets, vertices and primitives.
 struct PrepareLists {
   ListsView lists;
@@ -104,8 +73,8 @@ struct PrepareLists {
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    if (i == 0) *lists.noted_count = *lists.cursor = 0;
-    if (i < lists.buckets) lists.raw_counts[i] = lists.raw_filled[i] = 0;
+    if (i == 0) *lists.noted_count = *lists.cursor = *lists.edge_edge_count = 0;
+    if (i < lists.buckets) lists.raw_counts[i] = lists.raw_filled[i] = lists.record_counts[i] = 0;
     if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
   }
 };
@@ -126,47 +95,57 @@ struct FillBuckets {
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     const RawContact contact = lists.raw[i];
-    lists.sorted[lists.raw_offsets[contact.bucket] + atomic_add(&lists.raw_filled[contact.bucket], 1)] = contact;
+    lists.bucketed[lists.raw_offsets[contact.bucket] + atomic_add(&lists.raw_filled[contact.bucket], 1)] = contact;
   }
 };
 
-/// Sorts a bucket and drops what stands in it twice: of one pair the lowest-numbered edges stay.
-struct SortBuckets {
+/// Of what stands in a bucket twice, the one with the lowest-numbered edges stays. Index over all contacts in their buckets.
+struct DropDuplicates {
   ListsView lists;
 
-  OGC_HD void operator()(int bucket) const {
+  OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    RawContact* items = lists.sorted + lists.raw_offsets[bucket];
-    const int n = lists.raw_offsets[bucket + 1] - lists.raw_offsets[bucket];
-    sort_segment(items, n);
-    int kept = 0;
-    for (int k = 0; k < n; ++k) {
-      if (k == 0 || items[k].second != items[kept - 1].second) items[kept++] = items[k];
+    RawContact own = lists.bucketed[i];
+    for (int k = lists.raw_offsets[own.bucket], end = lists.raw_offsets[own.bucket + 1]; k < end; ++k) {
+      const RawContact other = lists.bucketed[k];
+      if (other.second == own.second && (other < own || (!(own < other) && k < i))) {
+        own.bucket = -1;
+        break;
+      }
     }
-    lists.record_counts[bucket] = kept;
+    lists.raw[i] = own;
+    if (own.bucket >= 0) atomic_add(&lists.record_counts[own.bucket], 1);
   }
 };
 
+/// Writes the record of each contact that stayed; index over all contacts in their buckets.
 struct WriteRecords {
   ListsView lists;
   SurfaceView surface;
 
-  OGC_HD void operator()(int bucket) const {
+  OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     const int edge_edge_start = lists.record_offsets[surface.vertex_count];
-    if (bucket == 0) *lists.edge_edge_count = lists.record_offsets[lists.buckets] - edge_edge_start;
-    const RawContact* items = lists.sorted + lists.raw_offsets[bucket];
-    for (int k = 0; k < lists.record_counts[bucket]; ++k) {
-      const int record = lists.record_offsets[bucket] + k;
-      if (bucket < surface.vertex_count) {
-        write_vertex_facet(items[k], record);
-      } else {
-        write_edge_edge(items[k], record - edge_edge_start);
-      }
+    if (i == 0) *lists.edge_edge_count = lists.record_offsets[lists.buckets] - edge_edge_start;
+    const RawContact own = lists.raw[i];
+    if (own.bucket < 0) return;
+    const int record = lists.record_offsets[own.bucket] + rank(own);
+    if (own.bucket < surface.vertex_count) {
+      write_vertex_facet(own, record);
+    } else {
+      write_edge_edge(own, record - edge_edge_start);
     }
   }
 
  private:
+  /// Those of the bucket that stayed and come before it.
+  OGC_HD int rank(const RawContact& own) const {
+    int before = 0;
+    for (int k = lists.raw_offsets[own.bucket], end = lists.raw_offsets[own.bucket + 1]; k < end; ++k) {
+      before += lists.raw[k].bucket >= 0 && lists.raw[k].second < own.second ? 1 : 0;
+    }
+    return before;
+  }
   OGC_HD void count(int vertex) const {
     if (vertex >= 0) atomic_add(&lists.incidence_counts[vertex], 1);
   }

@@ -169,26 +169,26 @@ OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const
   add_friction(at.shape.normal, relative, at.weight, incidence.friction, normal_force, limit, sum);
 }
 
-OGC_HD inline void add_contact_incidence(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence, const ContactReads& reads,
-                                         ForceAndBlock& sum) {
+OGC_HD inline ForceAndBlock contact_term(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence, const ContactReads& reads) {
+  ForceAndBlock term;
   const ContactAt at(incidence, reads, view.radius);
-  if (!at.acts()) return;
-  const float normal_force = add_contact(kind, at.shape, at.weight, view.radius, incidence.stiffness, sum);
-  add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, sum);
+  if (!at.acts()) return term;
+  const float normal_force = add_contact(kind, at.shape, at.weight, view.radius, incidence.stiffness, term);
+  add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, term);
+  return term;
 }
 
-/// Both sorts of contacts of a vertex, each as a part of its sum.
+/// Both sorts of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so teams share the work.
 struct ContactParts {
   const SweepView& view;
   ContactRow row;
   ContactActivation kind;
 
-  /// Part of the records from `begin` on.
   OGC_HD auto range(int begin, int count) const {
-    return part(count, [contacts = view.contacts + begin](int k) { return contacts[k]; },
-                [seen = &view, activation = kind](const ContactIncidence& contact, ForceAndBlock& sum) {
-                  add_contact_incidence(*seen, activation, contact, read_contact(*seen, contact), sum);
-                });
+    return pooled_part(begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
+                       [seen = &view, activation = kind](const ContactIncidence& contact) {
+                         return contact_term(*seen, activation, contact, read_contact(*seen, contact));
+                       });
   }
   OGC_HD auto vertex_facet() const { return range(row.begin, row.vertex_facet); }
   OGC_HD auto edge_edge() const { return range(row.begin + row.vertex_facet, row.count - row.vertex_facet); }

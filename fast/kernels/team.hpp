@@ -21,6 +21,38 @@ OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
 }
 
+/// Terms of items begin + k that depend on nothing of the team's own, so that teams may compute each other's: term(load(item)) is an Accumulator.
+template <class Load, class Term>
+struct PooledPart {
+  int begin, count;
+  Load load;
+  Term term;
+};
+
+template <class Load, class Term>
+OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term term) {
+  return {begin, count, load, term};
+}
+
+// Item k of either sort of part.
+
+template <class Load, class Add>
+OGC_HD auto load_item(const Part<Load, Add>& part, int k) {
+  return part.load(k);
+}
+template <class Load, class Term>
+OGC_HD auto load_item(const PooledPart<Load, Term>& part, int k) {
+  return part.load(part.begin + k);
+}
+template <class Load, class Add, class Loaded, class Accumulator>
+OGC_HD void add_item(const Part<Load, Add>& part, const Loaded& loaded, Accumulator& sum) {
+  part.add(loaded, sum);
+}
+template <class Load, class Term, class Loaded, class Accumulator>
+OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, Accumulator& sum) {
+  sum += part.term(loaded);
+}
+
 /// W lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum is -0 only of two -0, so leaving out the
 /// empty lanes of a part changes no bit.
 template <int W>
@@ -47,7 +79,7 @@ struct SerialTeam {
   OGC_HD static void add_part(const Part& part, Accumulator (&lanes)[W]) {
     for (int l = 0; l < W && l < part.count; ++l) {
       Accumulator own{};
-      for (int k = l; k < part.count; k += W) part.add(part.load(k), own);
+      for (int k = l; k < part.count; k += W) add_item(part, load_item(part, k), own);
       lanes[l] += own;
     }
   }

@@ -27,7 +27,7 @@ class Lists {
   ListsView view() {
     int* status = status_.data();
     return {noted_.data(),         noted_capacity_,        status + 3,                raw_.data(),
-            sorted_.data(),        capacity_,              status,                    status + 1,
+            bucketed_.data(),        capacity_,              status,                    status + 1,
             buckets_,              raw_counts_.data(),     raw_offsets_.data(),       raw_filled_.data(),
             record_counts_.data(), record_offsets_.data(), status + 2,                vertex_facet_.data(),
             vertex_facet_face_.data(), edge_edge_.data(),  incidence_counts_.data(),  incidence_offsets_.data(),
@@ -48,9 +48,9 @@ class Lists {
     backend.for_each(1, CheckCapacity{lists});
     backend.exclusive_scan(lists.raw_counts, lists.raw_offsets, buckets_);
     backend.for_each_counted(lists.cursor, capacity_, FillBuckets{lists});
-    backend.for_each(buckets_, SortBuckets{lists});
+    backend.for_each_counted(lists.cursor, capacity_, DropDuplicates{lists});
     backend.exclusive_scan(lists.record_counts, lists.record_offsets, buckets_);
-    backend.for_each(buckets_, WriteRecords{lists, surface_});
+    backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, surface_});
     backend.exclusive_scan(lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count);
     ListsView unordered = lists;
     unordered.incidences = unordered_incidences_.data();
@@ -84,7 +84,7 @@ class Lists {
     noted_capacity_ = noted_capacity;
     const auto n = static_cast<std::size_t>(capacity);
     noted_.resize(static_cast<std::size_t>(noted_capacity));
-    raw_.resize(n), sorted_.resize(n), vertex_facet_.resize(n), vertex_facet_face_.resize(n), edge_edge_.resize(n);
+    raw_.resize(n), bucketed_.resize(n), vertex_facet_.resize(n), vertex_facet_face_.resize(n), edge_edge_.resize(n);
     unordered_incidences_.resize(4 * n), incidences_.resize(4 * n);
     for (Buffer<int>* counts : {&raw_counts_, &raw_offsets_, &raw_filled_, &record_counts_, &record_offsets_, &incidence_counts_, &incidence_offsets_,
                                 &incidence_filled_}) {
@@ -96,7 +96,7 @@ class Lists {
   int buckets_, capacity_ = 0, noted_capacity_ = 0;
   Buffer<int> status_;  ///< contacts appended, overflow, edge–edge records, noted pairs
   Buffer<NotedPair> noted_;
-  Buffer<RawContact> raw_, sorted_;
+  Buffer<RawContact> raw_, bucketed_;
   Buffer<int> raw_counts_, raw_offsets_, raw_filled_, record_counts_, record_offsets_, vertex_facet_face_;
   Buffer<int> incidence_counts_, incidence_offsets_, incidence_filled_;
   Buffer<VertexFacetRecord> vertex_facet_;

@@ -58,14 +58,14 @@ struct Sums {
   float large = 0, small = 0;
   int count = 0;
   OGC_HD Sums& operator+=(const Sums& other) {
-    large += other.large;
-    small += other.small;
+    large = add(large, other.large);
+    small = add(small, other.small);
     count += other.count;
     return *this;
   }
 };
 
-// A row as three parts of unequal length; the first is empty in some rows.
+// A row as three parts of unequal length, the last of them pooled; the first is empty in some rows.
 struct RowSums {
   static constexpr int parts = 3;
   const int* offsets;
@@ -75,9 +75,9 @@ struct RowSums {
   OGC_HD void operator()(int row, Team team) const {
     const int begin = offsets[row], count = offsets[row + 1] - begin, first = count / 5, second = first + count / 2;
     const auto load_from = [this](int start) { return [from = terms + start](int k) { return from[k]; }; };
-    const auto add = [](float term, Sums& sums) { sums += Sums{term, term * term, 1}; };
+    const auto add = [](float term, Sums& sums) { sums += Sums{term, mul(term, term), 1}; };
     const Sums sums = team.template sum<Sums>(part(first, load_from(begin), add), part(second - first, load_from(begin + first), add),
-                                              part(count - second, load_from(begin + second), add));
+                                              pooled_part(begin + second, count - second, load_from(0), [](float term) { return Sums{term, mul(term, term), 1}; }));
     if (team.leader()) out[row] = sums;
   }
 };
@@ -101,16 +101,15 @@ Rows random_rows(int count) {
 }
 
 template <int W>
-void check_team() {
-  const int count = 1001;
+void check_team(int count) {
   const Rows rows = random_rows(count);
-  std::vector<Sums> expected(count);
+  std::vector<Sums> expected(static_cast<std::size_t>(count));
   for (int row = 0; row < count; ++row) RowSums{rows.offsets.data(), rows.terms.data(), expected.data()}(row, SerialTeam<W>{});
   CudaBackend backend;
   const CudaBuffer<int> offsets = on_device(rows.offsets);
   const CudaBuffer<float> terms = on_device(rows.terms);
   CudaBuffer<Sums> out;
-  out.resize(count);
+  out.resize(static_cast<std::size_t>(count));
   for (const Start start : {Start::after_previous, Start::overlapping}) {
     out.fill_zero();
     backend.for_each_team<W>(count, RowSums{offsets.data(), terms.data(), out.data()}, start);
@@ -149,13 +148,15 @@ TEST_CASE("for_each_counted reads its count on the device and never passes the c
   }
 }
 
-TEST_CASE("a team of lanes gives the bits of SerialTeam for every width", "[gpu]") {
-  check_team<1>();
-  check_team<2>();
-  check_team<4>();
-  check_team<8>();
-  check_team<16>();
-  check_team<32>();
+TEST_CASE("a team of lanes gives the bits of SerialTeam for every width, in launches that fill the device and in small ones", "[gpu]") {
+  for (const int count : {1001, 50'003}) {
+    check_team<1>(count);
+    check_team<2>(count);
+    check_team<4>(count);
+    check_team<8>(count);
+    check_team<16>(count);
+    check_team<32>(count);
+  }
 }
 
 TEST_CASE("exclusive_scan gives n + 1 sums, in place too", "[gpu]") {
