@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "fast/kernels/segment.hpp"
+#include "fast/kernels/skin.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -170,6 +171,9 @@ struct Reach {
   SurfaceView surface;
   const Vec* positions;
   const float* query_radius;
+  const SkinState* skin = nullptr;  ///< null: a search that keeps no pairs
+
+  OGC_HD bool is_needed() const { return skin == nullptr || skin->mode != SkinMode::recheck; }
 
   OGC_HD float of_edge(int e) const {
     Nearest nearest;
@@ -202,7 +206,8 @@ struct Reach {
   }
   /// The root of squared_to_segment errs by 2⁻⁴⁸ of the sum of both lengths.
   OGC_HD float above(const Nearest& nearest) const {
-    return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
+    const float reach = smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
+    return skin != nullptr && skin->mode == SkinMode::list ? add(reach, skin->margin) : reach;
   }
 };
 
@@ -213,6 +218,7 @@ struct RefitPrimitives {
   float* vertex_limit;
 
   OGC_HD void operator()(int i) const {
+    if (!reach.is_needed()) return;
     const int edge_place = i - facets.count, v = edge_place - edges.count;
     if (edge_place < 0) {
       const int t = facets.order[i];
@@ -246,8 +252,10 @@ OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count 
 struct RefitInner {
   TreeView facets, edges;
   int level, facet_nodes;
+  const SkinState* skin;  ///< as in Reach
 
   OGC_HD void operator()(int i) const {
+    if (skin != nullptr && skin->mode == SkinMode::recheck) return;
     const bool is_facet = i < facet_nodes;
     const TreeView& tree = is_facet ? facets : edges;
     const int j = is_facet ? i : i - facet_nodes;

@@ -15,10 +15,12 @@ struct CollectContacts {
     const ListsView& lists = vertex_facet.lists;
     if (*lists.overflow != 0) return;
     const NotedPair pair = lists.noted[i];
+    const bool certain = pair.second < 0;
+    const int second = certain ? ~pair.second : pair.second;
     if (pair.first < 0) {
-      vertex_facet(~pair.first, pair.second);
+      vertex_facet(~pair.first, second, certain);
     } else {
-      edge_edge(pair.first, pair.second);
+      edge_edge(pair.first, second, certain);
     }
   }
 };

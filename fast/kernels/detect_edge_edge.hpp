@@ -7,6 +7,7 @@
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/separation.hpp"
+#include "fast/kernels/skin.hpp"
 
 namespace ogc::fast {
 
@@ -16,52 +17,83 @@ struct DetectEdgeEdge {
   const Vec* positions;
   TreeView tree;
   ListsView lists;
+  SkinView skin;
   float contact_radius;
   float* d_min_edge;  ///< at most r_q before the launch
 
-  OGC_HD bool is_off() const { return *lists.overflow != 0; }
+  OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
   OGC_HD Search begin(int i) const {
     const Quad& leaf = tree.node(0, i / 4);
-    return {leaf.box(i % 4), tree.order[i], i + 1, larger(gap_limit(contact_radius), leaf.reach[i % 4])};
+    const float margin = skin.search_margin();
+    return {leaf.box(i % 4), tree.order[i], i + 1, larger(gap_limit(add(contact_radius, margin)), leaf.reach[i % 4]), margin};
   }
 
   OGC_HD bool is_pair(const Search& search, int place, float gap) const {
     const int other = tree.order[place];
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[other];
     if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.in_one_group(p, q)) return false;
-    const float own = smaller(search.limit, gap_limit(larger(contact_radius, atomic_load(&d_min_edge[search.owner]))));
-    const float limit = larger(own, smaller(tree.node(0, place / 4).reach[place % 4], gap_limit(atomic_load(&d_min_edge[other]))));
-    return !(gap > limit) && !is_beyond(separation(ends(p), ends(q)), limit);
+    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[other]);
+    const float reach = tree.node(0, place / 4).reach[place % 4];
+    const auto limit = [&](float margin) {
+      return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
+    };
+    const float within = limit(search.margin);
+    if (gap > within) return false;
+    const float apart = separation(ends(p), ends(q));
+    if (is_beyond(apart, within)) return false;
+    if (!(search.margin > 0)) return true;
+    skin.keep(search.owner < other ? NotedPair{search.owner, other} : NotedPair{other, search.owner});
+    return !(gap > limit(0.0F)) && !is_beyond(apart, limit(0.0F));
   }
 
   OGC_HD float meet(const Search& search, int place, float gap) const {
-    const int e = search.owner, other = tree.order[place];
-    const int low = e < other ? e : other, high = e < other ? other : e;
-    const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
-    const float below = larger(d.below(), gap_below(gap));
-    lower(&d_min_edge[e], below);
-    lower(&d_min_edge[other], below);
-    if (sub(d.value, d.slack) < static_cast<double>(contact_radius)) lists.note({low, high});
-    return gap_limit(larger(contact_radius, below));
+    const int e = search.owner, other = tree.order[place], low = e < other ? e : other, high = e < other ? other : e;
+    return gap_limit(add(larger(contact_radius, measure(low, high, gap)), search.margin));
+  }
+
+  /// A pair kept by a search before, low < high.
+  OGC_HD void recheck(int low, int high) const {
+    const EdgeEnds p = surface.edges[low], q = surface.edges[high];
+    const float gap = squared_gap(box(p), box(q)), limit = gap_limit(larger(contact_radius, larger(bound(low), bound(high))));
+    if (!(gap > limit) && !is_beyond(separation(ends(p), ends(q)), limit)) measure(low, high, gap);
   }
 
  private:
+  /// Of which no smallest distance of this detection will be above.
+  OGC_HD float bound(int e) const { return smaller(atomic_load(&d_min_edge[e]), skin.bound(skin.edge[e])); }
+
+  /// The pair's distance for both partners, and the note where it may be a contact; low < high.
+  OGC_HD float measure(int low, int high, float gap) const {
+    const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
+    const float below = larger(d.below(), gap_below(gap));
+    lower(&d_min_edge[low], below);
+    lower(&d_min_edge[high], below);
+    if (d.may_be_within(contact_radius)) lists.note({low, high}, d.is_surely_within(contact_radius));
+    return below;
+  }
+
+  OGC_HD Box box(const EdgeEnds& e) const {
+    Box box;
+    box.include(positions[e.a]);
+    box.include(positions[e.b]);
+    return box;
+  }
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 
-/// The contact of two edges, low < high, if there is one.
+/// The contact of two edges, low < high, if there is one. `certain`: nearer than r without a doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
   const Vec* positions;
   ListsView lists;
   float contact_radius;
 
-  OGC_HD void operator()(int low, int high) const {
+  OGC_HD void operator()(int low, int high, bool certain) const {
     const EdgeEnds p = surface.edges[low], q = surface.edges[high];
     const Ends first{positions[p.a], positions[p.b]}, second{positions[q.a], positions[q.b]};
     const EdgePairFeatures on = closest_edge_features(first, second);
-    if (!is_within(first, second, on, edge_edge_distance(first, second), contact_radius)) return;
+    if (!certain && !is_within(first, second, on, edge_edge_distance(first, second), contact_radius)) return;
     if (is_overlapping_parallel(first, second)) {
       append(surface.edge_face(low), surface.edge_face(high), low, high);
       return;

@@ -10,6 +10,7 @@
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/separation.hpp"
+#include "fast/kernels/skin.hpp"
 
 namespace ogc::fast {
 
@@ -21,53 +22,82 @@ struct DetectVertexFacet {
   const int* vertex_order;
   const float* vertex_limit;  ///< by vertex: gap limit of its reach
   ListsView lists;
+  SkinView skin;
   float contact_radius;
   float* d_min_vertex;    ///< at most r_q before the launch
   float* d_min_triangle;  ///< likewise
 
-  OGC_HD bool is_off() const { return *lists.overflow != 0; }
+  OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = positions[v];
-    return {{x, x}, v, 0, larger(gap_limit(contact_radius), vertex_limit[v])};
+    const float margin = skin.search_margin();
+    return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
   }
 
   OGC_HD bool is_pair(const Search& search, int place, float gap) const {
     const int v = search.owner, t = tree.order[place];
     const Facet& facet = surface.facets[t];
     if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.in_one_group(v, facet)) return false;
-    const float limit = larger(search.limit, smaller(tree.node(0, place / 4).reach[place % 4], gap_limit(atomic_load(&d_min_triangle[t]))));
-    return !(gap > limit) && !is_beyond(separation(search.box.lower, corners(facet)), limit);
+    const float own = larger(contact_radius, atomic_load(&d_min_vertex[v])), theirs = atomic_load(&d_min_triangle[t]);
+    const float reach = tree.node(0, place / 4).reach[place % 4];
+    const auto limit = [&](float margin) {
+      return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
+    };
+    const float within = limit(search.margin);
+    if (gap > within) return false;
+    const float apart = separation(search.box.lower, corners(facet));
+    if (is_beyond(apart, within)) return false;
+    if (!(search.margin > 0)) return true;
+    skin.keep({~v, t});
+    return !(gap > limit(0.0F)) && !is_beyond(apart, limit(0.0F));
   }
 
   OGC_HD float meet(const Search& search, int place, float gap) const {
     const int v = search.owner, t = tree.order[place];
-    const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
-    const float below = larger(d.below(), gap_below(gap));
-    lower(&d_min_vertex[v], below);
-    lower(&d_min_triangle[t], below);
-    if (sub(d.value, d.slack) < static_cast<double>(contact_radius)) lists.note({~v, t});
-    return gap_limit(larger(contact_radius, below));
+    return gap_limit(add(larger(contact_radius, measure(v, t, gap)), search.margin));
+  }
+
+  /// A pair kept by a search before.
+  OGC_HD void recheck(int v, int t) const {
+    const Vec x = positions[v];
+    const Corners t_corners = corners(surface.facets[t]);
+    Box box;
+    for (int k = 0; k < 3; ++k) box.include(t_corners[k]);
+    const float of_vertex = smaller(atomic_load(&d_min_vertex[v]), skin.bound(skin.vertex[v]));
+    const float of_triangle = smaller(atomic_load(&d_min_triangle[t]), skin.bound(skin.triangle[t]));
+    const float gap = squared_gap(box, {x, x}), limit = gap_limit(larger(contact_radius, larger(of_vertex, of_triangle)));
+    if (!(gap > limit) && !is_beyond(separation(x, t_corners), limit)) measure(v, t, gap);
   }
 
  private:
+  /// The pair's distance for both partners, and the note where it may be a contact.
+  OGC_HD float measure(int v, int t, float gap) const {
+    const Distance d = point_triangle_distance(positions[v], corners(surface.facets[t]));
+    const float below = larger(d.below(), gap_below(gap));
+    lower(&d_min_vertex[v], below);
+    lower(&d_min_triangle[t], below);
+    if (d.may_be_within(contact_radius)) lists.note({~v, t}, d.is_surely_within(contact_radius));
+    return below;
+  }
+
   OGC_HD Corners corners(const Facet& t) const { return {positions[t.corner[0]], positions[t.corner[1]], positions[t.corner[2]]}; }
 };
 
-/// The contact of a vertex and a facet, if there is one. Each triangle around a shared face reports it; the lists keep one.
+/// The contact of a vertex and a facet, if there is one. `certain`: nearer than r without a doubt. Each triangle around a shared face reports it; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
   const Vec* positions;
   ListsView lists;
   float contact_radius;
 
-  OGC_HD void operator()(int v, int t) const {
+  OGC_HD void operator()(int v, int t, bool certain) const {
     const Facet facet = surface.facets[t];
     const Vec x = positions[v];
     const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
     const TriangleFeature feature = closest_feature(x, corners, facet.descending);
-    if (!is_within(x, corners, feature, point_triangle_distance(x, corners), contact_radius)) return;
+    if (!certain && !is_within(x, corners, feature, point_triangle_distance(x, corners), contact_radius)) return;
     if (feature == TriangleFeature::interior) {
       lists.append({v, surface.triangle_face(t), 0, 0});
     } else if (feature <= TriangleFeature::corner_2) {

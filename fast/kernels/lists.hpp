@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// A pair closer than r, or too nearly so for a rounded distance to tell: edges first < second, or vertex ~first and facet `second`.
+/// A pair of edges first < second, or of vertex ~first and facet `second`.
 struct NotedPair {
   int first, second;
 };
@@ -53,7 +53,9 @@ struct ListsView {
   int* incidence_filled = nullptr;   ///< by vertex
   Incidence* incidences = nullptr;
 
-  OGC_HD void note(const NotedPair& pair) const {
+  /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of a certain one is stored inverted.
+  OGC_HD void note(NotedPair pair, bool certain) const {
+    if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
     if (place < noted_capacity) noted[place] = pair;
   }

@@ -18,6 +18,7 @@ struct Search {
   int owner = -1;  ///< whose search it is: number of a vertex or an edge
   int from = 0;
   float limit = 0;
+  float margin = 0;  ///< by which it looks farther than it has to (skin.hpp) [m]
 };
 
 /// `count` searches in one tree.

@@ -11,6 +11,8 @@ using Real = Vector<Rounded>;
 struct Distance {
   double value = 0, slack = 0;
 
+  OGC_HD bool may_be_within(float r) const { return sub(value, slack) < static_cast<double>(r); }
+  OGC_HD bool is_surely_within(float r) const { return add(value, slack) < static_cast<double>(r); }
   /// Never above the exact distance.
   OGC_HD float below() const {
     const double low = sub(value, slack);

@@ -36,14 +36,14 @@ class Bvh {
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Boxes at `positions` and reaches within *query_radius; the order stays.
-  void refit(Backend& backend, const Vec* positions, const float* query_radius) {
+  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are rechecked.
+  void refit(Backend& backend, const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
     backend.for_each(facets_.count + edges_.count + surface_.vertex_count,
-                     RefitPrimitives{{surface_, positions, query_radius}, facets_, edges_, vertex_limit_.data()});
+                     RefitPrimitives{{surface_, positions, query_radius, skin.state}, facets_, edges_, vertex_limit_.data()});
     for (int level = 1; level < std::max(facets_.levels, edges_.levels); level += 2) {
       const int facet_nodes = level < facets_.levels ? level_size(facets_.count, level) : 0;
       const int edge_nodes = level < edges_.levels ? level_size(edges_.count, level) : 0;
-      backend.for_each(facet_nodes + edge_nodes, RefitInner{facets_, edges_, level, facet_nodes});
+      backend.for_each(facet_nodes + edge_nodes, RefitInner{facets_, edges_, level, facet_nodes, skin.state});
     }
   }
 

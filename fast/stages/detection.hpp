@@ -1,4 +1,4 @@
-// A whole detection: trees at the current positions, both queries, lists, bounds (Alg. 3 lines 4–19). All of it is enqueued, nothing waits and nothing
+// A whole detection: trees at the current positions and both queries, or a look at the pairs that a search kept; lists, bounds (Alg. 3 lines 4–19). All of it is enqueued, nothing waits and nothing
 // is allocated, so it may stand inside Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the needed size stays
 // that of the first detection that had no room, and the contacts of the last complete one are not mixed with others.
 #pragma once
@@ -16,9 +16,27 @@
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
 #include "fast/stages/lists.hpp"
+#include "fast/stages/skin.hpp"
 #include "fast/stages/surface.hpp"
 
 namespace ogc::fast {
+
+/// The pairs of the list with a skin, in place of a search; index over all of them.
+struct RecheckPairs {
+  DetectVertexFacet vertex_facet;
+  DetectEdgeEdge edge_edge;
+
+  OGC_HD void operator()(int i) const {
+    const SkinView& skin = edge_edge.skin;
+    if (*edge_edge.lists.overflow != 0 || !skin.rechecks()) return;
+    const NotedPair pair = skin.pairs[i];
+    if (pair.first < 0) {
+      vertex_facet.recheck(~pair.first, pair.second);
+    } else {
+      edge_edge.recheck(pair.first, pair.second);
+    }
+  }
+};
 
 /// What every launch of a detection starts from.
 struct PrepareDetection {
@@ -34,11 +52,13 @@ struct PrepareDetection {
 template <class Backend>
 class Detection {
  public:
-  /// `rigid_groups`: see compare/stages/detect.hpp; empty where no pair is left out. `capacity`: contacts at first; 0 for a guess by mesh size.
-  Detection(Backend& backend, const compare::Topology& topology, std::span<const compare::Index> rigid_groups, int capacity = 0)
+  /// `rigid_groups`: see compare/stages/detect.hpp; empty where no pair is left out. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`: largest
+  /// margin of the list of pairs as a part of r; 0 for none. It changes the time alone.
+  Detection(Backend& backend, const compare::Topology& topology, std::span<const compare::Index> rigid_groups, int capacity = 0, float skin = 0)
       : backend_(backend),
         surface_(topology, rigid_groups),
         bvh_(surface_.view()),
+        skin_(surface_.view(), skin),
         lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count) {
     const auto at_least_one = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
     const SurfaceView surface = surface_.view();
@@ -55,16 +75,26 @@ class Detection {
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
+    const SkinView skin = skin_.view(contact_radius);
     float *d_vertex = d_min_vertex_.data(), *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
     backend_.for_each(std::max(lists.buckets, surface.triangle_count),
                       PrepareDetection{{lists, surface.vertex_count},
                                        {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex, d_edge,
                                         d_triangle}});
-    bvh_.refit(backend_, positions, query_radius);
-    const DetectVertexFacet vertex_facet{surface, positions, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, contact_radius, d_vertex,
-                                         d_triangle};
-    const DetectEdgeEdge edge_edge{surface, positions, bvh_.edges(), lists, contact_radius, d_edge};
+    if (skin_.is_used()) {
+      backend_.for_each(surface.vertex_count, MeasureDrift{skin, positions, lists.overflow});
+      backend_.for_each(1, ChooseSkinMode{skin, query_radius, lists.overflow});
+    }
+    bvh_.refit(backend_, positions, query_radius, skin);
+    const DetectVertexFacet vertex_facet{surface, positions, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
+                                         d_vertex, d_triangle};
+    const DetectEdgeEdge edge_edge{surface, positions, bvh_.edges(), lists, skin, contact_radius, d_edge};
     backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
+    if (skin_.is_used()) {
+      backend_.for_each_counted(&skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
+      backend_.for_each(std::max({surface.vertex_count, surface.edge_count, surface.triangle_count}),
+                        KeepAnchor{skin, surface, positions, d_vertex, d_edge, d_triangle});
+    }
     lists_.assemble(backend_, positions, contact_radius);
     compute_bounds(backend_, surface.vertex_count,
                    {surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow, bound_.data()});
@@ -81,7 +111,15 @@ class Detection {
   const int* overflow() const { return lists_.overflow(); }
 
   /// Host only: enlarges what was too small and clears the flag; true where there was anything to do, and the detection has to be repeated.
-  bool grow() { return lists_.grow(); }
+  bool grow() {
+    const bool grown = lists_.grow();
+    if (grown) skin_.forget();  // its detection may have ended half way
+    return grown;
+  }
+  /// Host only: room for the pairs of the skin, where they found none; true where something has moved.
+  bool make_room() { return skin_.make_room(); }
+  /// Host only: how detections went so far.
+  SkinState skin_state() const { return skin_.state(); }
 
   /// Contacts that fit before the lists have to grow.
   int capacity() const { return lists_.capacity(); }
@@ -92,6 +130,7 @@ class Detection {
     const auto possible = [](std::int64_t capacity) { return capacity > 0 && capacity <= std::numeric_limits<int>::max(); };
     if (capacities.size() != 2 || !std::all_of(capacities.begin(), capacities.end(), possible)) throw std::invalid_argument("capacities of other lists");
     lists_.reserve(static_cast<int>(capacities[0]), static_cast<int>(capacities[1]));
+    skin_.forget();
   }
 
   const float* d_min_vertex() const { return d_min_vertex_.data(); }      ///< Eq. 22, rounded down [m]
@@ -104,6 +143,7 @@ class Detection {
   Backend& backend_;
   Surface<Backend> surface_;
   Bvh<Backend> bvh_;
+  Skin<Backend> skin_;
   Lists<Backend> lists_;
   typename Backend::template Buffer<float> d_min_vertex_, d_min_edge_, d_min_triangle_, bound_;
 };

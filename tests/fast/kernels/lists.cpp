@@ -74,8 +74,9 @@ TEST_CASE("a list that is full counts on and writes nothing beyond its end", "[u
   int noted_count = 0;
   ListsView lists{};
   lists.noted = noted, lists.noted_count = &noted_count, lists.noted_capacity = 2;
-  for (int i = 0; i < 4; ++i) lists.note(pair);
+  for (int i = 0; i < 4; ++i) lists.note(pair, i % 2 == 0);
   CHECK(noted_count == 4);
+  CHECK(noted[0].second == ~2);
   CHECK(noted[1].second == 2);
   CHECK(noted[2].second == 0);
 }

@@ -1,0 +1,70 @@
+// Memory of the list with a skin (fast/kernels/skin.hpp). Unlike the other lists it may be too small: then a detection searches, and the host, which looks
+// after each frame, gives it more room.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "fast/kernels/skin.hpp"
+
+namespace ogc::fast {
+
+/// Largest m as a part of r: a list outlives displacements of up to 7/32 of m, and grows with it.
+inline constexpr float usual_skin = 2.0F;
+
+template <class Backend>
+class Skin {
+ public:
+  /// `share`: largest m/r; 0 for none, every detection searches.
+  Skin(const SurfaceView& surface, float share) : share_(share), capacity_(16 * (surface.vertex_count + surface.edge_count) + 1) {
+    const auto size = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
+    state_.resize(1);
+    forget();
+    anchor_.resize(size(surface.vertex_count));
+    vertex_.resize(size(surface.vertex_count)), edge_.resize(size(surface.edge_count)), triangle_.resize(size(surface.triangle_count));
+    if (is_used()) pairs_.resize(size(capacity_));
+  }
+
+  SkinView view(float contact_radius) {
+    return {state_.data(), share_ * contact_radius, pairs_.data(), capacity_, anchor_.data(), vertex_.data(), edge_.data(), triangle_.data()};
+  }
+
+  /// Whether a detection may ever do anything but search.
+  bool is_used() const { return share_ > 0; }
+
+  /// Host only: the next detection searches.
+  void forget() {
+    const SkinState fresh;
+    state_.upload(&fresh, 1);
+  }
+
+  /// Host only: room for half as many pairs again as the last list had, where that found none; true where something moved.
+  bool make_room() {
+    const SkinState now = state();
+    if (now.has_list == 0 || now.count <= capacity_) return false;
+    capacity_ = now.count + now.count / 2;
+    pairs_.resize(static_cast<std::size_t>(capacity_));
+    forget();
+    return true;
+  }
+
+  /// Host only.
+  SkinState state() const {
+    SkinState now;
+    state_.download(&now, 1);
+    return now;
+  }
+
+ private:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  float share_;
+  int capacity_;
+  Buffer<SkinState> state_;
+  Buffer<NotedPair> pairs_;
+  Buffer<Vec> anchor_;
+  Buffer<float> vertex_, edge_, triangle_;
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,153 @@
+#include "fast/stages/skin.hpp"
+
+#include <random>
+
+#include "fast/cpu/backend.hpp"
+#include "fast/stages/contact_engine.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/meshes.hpp"
+
+namespace {
+
+using namespace ogc;
+using namespace ogc::fast;
+using tests::TestMesh;
+
+constexpr float radius = 0.3F;
+constexpr float margin = usual_skin / 8 * radius;  // where nothing has moved since the search before
+constexpr float farthest = 7 * margin / 32;
+
+using Positions = std::vector<compare::Vec3f>;
+
+/// Layers closer to each other than r, edges longer and shorter than r, a triangle as large as all of it, and a vertex far from everything.
+TestMesh surfaces() {
+  TestMesh mesh;
+  for (std::uint32_t k = 0; k < 3; ++k) mesh.add(tests::jittered(tests::sheet(9, 1.0F, 0.25F * static_cast<float>(k)), 0.1F, k));
+  mesh.add(tests::jittered(tests::sheet(7, 0.15F, 1.5F), 0.03F, 7));
+  mesh.add({{{-9, -0.2F, -9}, {18, -0.2F, -9}, {4, -0.2F, 18}}, {{0, 1, 2}}, {}});
+  mesh.add({{{4, 9, 4}, {5, 9, 4}, {4, 9, 5}}, {{0, 1, 2}}, {}});
+  return mesh;
+}
+
+/// Each vertex moved by a vector of this length in a random direction.
+Positions moved(Positions positions, float length, std::mt19937& random) {
+  std::normal_distribution<float> normal;
+  for (auto& x : positions) {
+    const Vec d{normal(random), normal(random), normal(random)};
+    const float scale = length / std::max(1e-3F, std::sqrt(dot(d, d)));
+    x = {x.x + scale * d.x, x.y + scale * d.y, x.z + scale * d.z};
+  }
+  return positions;
+}
+
+ContactSets afresh(const compare::Topology& topology, const Positions& positions, float r_q) {
+  CpuBackend backend;
+  return BackendContactEngine<CpuBackend>(backend, topology, {}).find(positions, {.contact_radius = radius, .query_radius = r_q});
+}
+
+}  // namespace
+
+TEST_CASE("skin: pairs kept by a search give the bits of a search, wherever vertices are within their drift and whatever r_q is", "[property]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  std::mt19937 random(1);
+  for (const float r_q : {radius, 0.5F, 2.0F}) {
+    CpuBackend backend;
+    BackendContactEngine<CpuBackend> engine(backend, topology, {});
+    const auto find = [&](const Positions& positions, float query) { return engine.find(positions, {.contact_radius = radius, .query_radius = query}); };
+    for (int k = 0; k < 4; ++k) find(mesh.positions, r_q);  // a search, and searches that keep pairs, until these have room
+    const SkinState before = engine.detection().skin_state();
+    REQUIRE(before.listings >= 1);
+    CHECK(before.count < 20000);  // of 280,000 edge pairs and 140,000 of vertices and facets
+    int rechecks = 0;
+    for (const float share : {0.0F, 0.1F, 0.5F, 0.999F}) {
+      for (int k = 0; k < 12; ++k) {
+        const Positions positions = moved(mesh.positions, share * farthest, random);
+        const float query = r_q + (static_cast<float>(k % 4) - 2) / 4 * margin;
+        if (query < radius) continue;
+        ++rechecks;
+        CHECK(find(positions, query) == afresh(topology, positions, query));
+      }
+    }
+    CHECK(engine.detection().skin_state().rechecks - before.rechecks == rechecks);
+    CHECK(engine.detection().skin_state().searches == before.searches);
+  }
+}
+
+TEST_CASE("skin: detections along a walk are those of a search, through all changes between searching, keeping and looking again", "[property]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  std::mt19937 random(2);
+  CpuBackend backend;
+  BackendContactEngine<CpuBackend> engine(backend, topology, {});
+  Positions positions = mesh.positions;
+  for (int k = 0; k < 80; ++k) {
+    positions = moved(positions, (k % 10 == 0 ? 0.5F : 0.02F) * radius, random);
+    CHECK(engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F}) == afresh(topology, positions, 0.8F));
+  }
+  const SkinState state = engine.detection().skin_state();
+  CHECK(state.searches >= 5);
+  CHECK(state.listings >= 5);
+  CHECK(state.rechecks >= 30);
+}
+
+TEST_CASE("skin: nothing is looked at again beyond the drift, for a larger r_q, or where coordinates are too large for the margin", "[unit]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  const auto rechecks_after = [&](const compare::Vec3f& shift, float r_q) {
+    CpuBackend backend;
+    BackendContactEngine<CpuBackend> engine(backend, topology, {});
+    Positions positions = mesh.positions;
+    if (shift.y != 0) for (auto& x : positions) x.y += shift.y;
+    for (int k = 0; k < 2; ++k) engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F});
+    positions[5].x += shift.x;
+    engine.find(positions, {.contact_radius = radius, .query_radius = r_q});
+    return engine.detection().skin_state().rechecks;
+  };
+  CHECK(rechecks_after({0, 0, 0}, 0.8F) == 1);
+  CHECK(rechecks_after({0.99F * farthest, 0, 0}, 0.8F) == 1);
+  CHECK(rechecks_after({1.01F * farthest, 0, 0}, 0.8F) == 0);
+  CHECK(rechecks_after({0, 0, 0}, 0.8F + 0.49F * margin) == 1);
+  CHECK(rechecks_after({0, 0, 0}, 0.8F + 0.51F * margin) == 0);
+  CHECK(rechecks_after({0, 3900 * margin, 0}, 0.8F) == 1);
+  CHECK(rechecks_after({0, 4200 * margin, 0}, 0.8F) == 0);
+}
+
+TEST_CASE("skin: a list without room for its pairs is not used, and is given room", "[unit]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  const auto* x = reinterpret_cast<const Vec*>(mesh.positions.data());
+  CpuBackend backend;
+  Detection<CpuBackend> detection(backend, topology, {}, 100000, 40.0F);
+  const float r_q = 0.8F;
+  for (int k = 0; k < 3; ++k) detection.detect(x, radius, &r_q, 0.45F);
+  CHECK(detection.skin_state().rechecks == 0);
+  CHECK(detection.make_room());
+  CHECK_FALSE(detection.make_room());
+  for (int k = 0; k < 3; ++k) detection.detect(x, radius, &r_q, 0.45F);
+  CHECK(detection.skin_state().rechecks == 1);
+}
+
+TEST_CASE("skin: nothing is kept where vertices moved too far for any margin, and ever less often where lists came to nothing", "[unit]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  const auto state_after = [&](int detections, float move) {
+    CpuBackend backend;
+    Detection<CpuBackend> detection(backend, topology, {}, 100000, usual_skin);
+    const float r_q = 0.8F;
+    Positions positions = mesh.positions;
+    for (int k = 0; k < detections; ++k) {
+      detection.detect(reinterpret_cast<const Vec*>(positions.data()), radius, &r_q, 0.45F);
+      positions[3].z += k % 2 == 0 ? move : 2 * radius;  // a move that promises rest, then one that no list survives
+    }
+    return detection.skin_state();
+  };
+  constexpr float most = usual_skin * radius / 3 * 7 / 32;
+  CHECK(state_after(2, 0).listings == 1);
+  CHECK(state_after(2, 0.99F * most).listings == 1);
+  CHECK(state_after(2, 1.01F * most).listings == 0);
+  const SkinState often = state_after(200, 0);
+  CHECK(often.rechecks == 0);
+  CHECK(often.listings >= 4);
+  CHECK(often.listings <= 8);  // with waits of 1, 3, 7, 15, 31 and then 63 searches
+}
