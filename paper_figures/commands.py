@@ -1,7 +1,7 @@
 """The runs of the figures that are made of several, as data: their scripts draw them, device_runs makes them where nothing but Python itself is installed.
 
-Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are those of `ogc run`; `backend` is that of VBD in single precision, all else
-runs on the CPU.
+Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are those of `ogc run`; `backend` is that of VBD in
+single precision, all else runs on the CPU.
 """
 
 from paper_figures.timed_runs import Job
@@ -12,7 +12,8 @@ NEO_HOOKEAN = "stable_neo_hookean"  # of IPC's runs and of those beside them (co
 THREE_CLOTHS_STEP = {"smoke": 24, "small": 40, "paper": 50}
 VBD = ("--set", "iterations=500")
 ANY = ("--set", "redetect_fraction=0")
-NEWTON = ("--solver", "newton", "--residual", "--set", "newton_tolerance=0", "--set", "newton_step_tolerance=1e-9", "--set", "newton_iterations=50", "--set", "friction_solves=50")
+NEWTON = ("--solver", "newton", "--residual", *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "newton_iterations=50", "friction_solves=50")
+                                               for word in ("--set", value)))
 
 ACTIVATION_STEPS = {"smoke": 30, "small": 40, "paper": 40}
 ENERGIES = ("ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed")
@@ -43,8 +44,9 @@ def three_cloths(scale, backends):
     start = Job("start", (*base, "--backend", backends[-1], "--steps", step - 1))
     solve = (*base, "--steps", step, "--iterations", "--profile")
     state = ("start", -1)
-    single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *VBD, *more), state) for backend in backends for suffix, more in (("", ()), ("_any", ANY))]
-    double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *VBD), state), Job("newton", (*solve, *NEWTON), state), Job("newton_any", (*solve, *NEWTON, *ANY), state)]
+    variants = (("", ()), ("_any", ANY))
+    single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *VBD, *more), state) for backend in backends for suffix, more in variants]
+    double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *VBD), state), *(Job(f"newton{suffix}", (*solve, *NEWTON, *more), state) for suffix, more in variants)]
     return [start, *single], double
 
 

@@ -1,27 +1,30 @@
-"""All runs of the paper's size that need a GPU or many cores, in one command for a machine that is lent by the minute and has nothing but Python and the program (experiments/bundle).
+"""All runs of the paper's size that need a GPU or many cores, in one command, for a machine that is lent by the minute and has nothing but Python and the
+program (experiments/bundle).
 
     python3 -m paper_figures.device_runs --program PROGRAM --out RUNS [--seconds N] [PART …]   a limit for each part; call again to go on
     python3 -m paper_figures.device_runs --out RUNS --pack FOLDER      what is finished and was not packed before, as pieces of at most 16 MB
-    python3 -m paper_figures.device_runs --program PROGRAM --out runs --unpack FOLDER   at home: then the figures' scripts find these runs finished, and draw
+    python3 -m paper_figures.device_runs --program PROGRAM --out runs --unpack FOLDER   at home: the figures' scripts find these runs finished
 
 Folders are those of the workflow (figNN-SCALE-BACKEND), whole runs and windows of Table 1 those of experiments/table1. Packed are manifests, rows and some frames. Beside each
-part on a GPU the device's memory is sampled (nvidia-smi, once a second) into device_memory.json.
+run on a GPU the device's memory is sampled (device_memory.py).
 """
 
 import argparse
 import json
+import math
 import os
 import shutil
 import subprocess
 import sys
 import tarfile
-import threading
 import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures import commands
+from paper_figures import commands, growth
+from paper_figures.device_memory import DeviceMemory
 from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, command_in, last_lines, make, manifest_of
 
 TABLE1 = Path(__file__).parent.parent / "experiments/table1"
@@ -42,6 +45,7 @@ class Part:
     frames: int = 4
     last: int = 0
     gpu: bool = True
+    prepare: Callable | None = None  # of (program, folder), before the first run
 
 
 def parts(scale, backend):
@@ -56,49 +60,19 @@ def parts(scale, backend):
     single, double = commands.three_cloths(scale, both)
     half_turn, _ = commands.beside_ipc(commands.TWIST, scale, backend)
     drop, ipc = commands.beside_ipc(commands.ONE_ITERATION, scale, backend)
+    on_device = tuple(job for job in single if "cpu" not in job.name or backend == "cpu")
     wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
-              "fig17": Part(figure("fig17"), (tuple(single),), last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0), "cloth_on_sphere": row("cloth_on_sphere", frames=21),
-              "fifty_layers": row("fifty_layers"), "knot": row("knot")}
-    on_cores = {"fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), last=2),
-                "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False), "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), last=1, gpu=False)}
+              "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
+              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot")}
+    on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
+                "fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), frames=0, last=2),
+                "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False),
+                "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False)}
+    cores = os.cpu_count() or 1
+    over = {name: Part(figure("growth"), (tuple(jobs),), frames=0, gpu=name == "growth_cuda", prepare=growth.scenes_of(jobs))
+            for name, jobs in (*((f"growth_{kind}", growth.sizes(scale, kind)) for kind in reversed(both)), ("threads", growth.threads(scale, cores)))}
     windows = {f"windows_{name}": Part(figure("table1"), row=name, windows=True, frames=0, gpu=False) for name in sorted(ROWS, key="fifty_layers_1m".__eq__)}
-    return {**wanted, **on_cores, **windows}
-
-
-class DeviceMemory:
-    """Samples the memory in use on the first device, in MiB, while its block runs; nothing where nvidia-smi can't be had."""
-
-    COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--id=0")
-
-    def __init__(self, path, wanted):
-        self.path, self.wanted, self.samples, self.over = path, wanted, [], threading.Event()
-
-    def sample(self):
-        try:
-            return int(subprocess.run(self.COMMAND, capture_output=True, text=True, check=True).stdout)
-        except (OSError, ValueError, subprocess.CalledProcessError):
-            return None
-
-    def watch(self):
-        while not self.over.wait(1):
-            self.samples.append(self.sample())
-
-    def __enter__(self):
-        before = self.sample() if self.wanted else None
-        self.thread = threading.Thread(target=self.watch) if before is not None else None
-        if self.thread:
-            self.samples.append(before)
-            self.thread.start()
-
-    def __exit__(self, *_):
-        if not self.thread:
-            return
-        self.over.set()
-        self.thread.join()
-        taken = [n for n in self.samples if n is not None]
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        kept = json.loads(self.path.read_text()) if self.path.is_file() else {"largest [MiB]": 0}  # of a part that goes on
-        self.path.write_text(json.dumps({"before [MiB]": taken[0], "largest [MiB]": max(kept["largest [MiB]"], *taken), "samples": len(taken)}) + "\n")
+    return {**wanted, **over, **on_cores, **windows}
 
 
 class Machine:
@@ -106,7 +80,7 @@ class Machine:
 
     def __init__(self, options):
         self.program, self.out, self.options = options.program, Path(options.out), options
-        self.book = parts(options.scale, options.backend)
+        self.book, self.all = parts(options.scale, options.backend), Limit(options.all_seconds)
 
     def chain(self, part, jobs, limit):
         """The worst end of its jobs; one that can't begin because another was stopped is stopped, too."""
@@ -114,12 +88,15 @@ class Machine:
         for job in jobs:
             if job.state and manifest_of(self.out / part.folder / job.state[0]).get("status", "").startswith("failed"):
                 continue
-            ends.append(make(self.program, job, self.out / part.folder, limit))
+            with DeviceMemory(self.out / part.folder / f"{job.name}_device_memory.json", part.gpu and self.options.backend == "cuda"):
+                ends.append(make(self.program, job, self.out / part.folder, limit))
             if ends[-1] == STOPPED:
                 return STOPPED
         return FINISHED if FINISHED in ends else KEPT
 
     def chains(self, part, limit):
+        if part.prepare:
+            part.prepare(self.program, self.out / part.folder)
         with ThreadPoolExecutor(max_workers=self.options.jobs) as pool:
             tasks = [pool.submit(self.chain, part, jobs, limit) for jobs in part.chains]
         problems = [str(task.exception()) for task in tasks if task.exception()]
@@ -132,8 +109,9 @@ class Machine:
         """By experiments/table1, which keeps and resumes by itself; the figure of the row's scene is drawn of the whole run."""
         o, log = self.options, self.out / part.folder / f"{part.row}_{'windows' if part.windows else 'whole'}.log"
         extra = ["--skip", "whole", "--window", o.window] if part.windows else ["--skip", "cpu"]
-        seconds = ["--seconds", int(o.seconds)] if o.seconds else []
-        code = command_in([TABLE1, self.program, self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend, *extra, *seconds], log, Limit(o.seconds and o.seconds + 90))
+        seconds = [] if math.isinf(limit.left()) else ["--seconds", int(limit.left())]
+        with DeviceMemory(self.out / part.folder / f"{part.row}_device_memory.json", part.gpu and o.backend == "cuda"):
+            code = command_in([TABLE1, self.program, self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend, *extra, *seconds], log, Limit())
         if code == LEFT_FOR_THE_NEXT:
             return STOPPED
         if code != 0:
@@ -145,15 +123,22 @@ class Machine:
                 link.symlink_to(os.path.relpath(self.out / part.folder / part.row / "whole", link.parent))
         return FINISHED if log.read_text().strip() else KEPT
 
+    def limit(self):
+        """Of the part that begins now."""
+        seconds = min(self.options.seconds or math.inf, self.all.left())
+        return Limit(None if math.isinf(seconds) else max(seconds, 1e-9))
+
     def do(self, name):
         """Makes a part; prints its line. True where it failed."""
         part, begun, words = self.book[name], time.monotonic(), ""
-        limit = Limit(self.options.seconds)
-        with DeviceMemory(self.out / part.folder / f"{name}_device_memory.json", part.gpu and self.options.backend == "cuda"):
-            try:
-                end = self.table(part, limit) if part.row else self.chains(part, limit)
-            except RunFailure as problem:
-                end, words = FAILED, f"\n  {problem}"
+        limit = self.limit()
+        if limit.left() == 0:
+            print(f"{name:24} not begun: no time is left; call again to go on")
+            return False
+        try:
+            end = self.table(part, limit) if part.row else self.chains(part, limit)
+        except RunFailure as problem:
+            end, words = FAILED, f"\n  {problem}"
         print(f"{name:24} {time.monotonic() - begun:7.1f} s  {end}{words}", flush=True)
         return end == FAILED
 
@@ -182,7 +167,7 @@ def files_of(out, part):
         yield from frames
         if frames:
             yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())
-    yield from sorted((out / part.folder).glob("*_device_memory.json"))
+    yield from sorted((out / part.folder).glob("*_device_memory.json")) if part.gpu else ()
     if part.figure and (out / part.figure / "run").is_symlink():
         yield out / part.figure / "run"
 
@@ -246,6 +231,7 @@ def arguments():
     parser.add_argument("--scale", default="paper", choices=("smoke", "small", "paper"))
     parser.add_argument("--backend", default="cuda", choices=("cpu", "cuda"))
     parser.add_argument("--seconds", type=float, help="limit of each part")
+    parser.add_argument("--all-seconds", type=float, help="limit of all parts together")
     parser.add_argument("--jobs", type=int, default=1, help="chains of a part that run side by side")
     parser.add_argument("--window", type=int, default=200, help="steps of a CPU window of Table 1")
     parser.add_argument("--pack", type=Path, metavar="FOLDER", help="pack, and run nothing")

@@ -12,15 +12,11 @@ import statistics
 import sys
 from pathlib import Path
 
-from paper_figures.evidence import EvidenceError, RunEvidence
+from paper_figures.device_memory import taken
+from paper_figures.evidence import EvidenceError, run_at
 
 ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m")
 CLAIMS = Path(__file__).parent / "claims"
-
-
-def run_at(folder):
-    manifest, rows = folder / "run.json", folder / "steps.csv"
-    return RunEvidence(manifest, rows, folder.as_posix()) if manifest.is_file() and rows.is_file() else None
 
 
 def runs_below(folder, pattern):
@@ -70,13 +66,6 @@ def sizes(run):
     return {"vertices": scene["vertices"], "triangles": scene["triangles"], "iterations": run.manifest["settings"]["iterations"]["value"]}
 
 
-def device_memory(folder, scene):
-    """What the whole run took of the device's memory [MiB], if device_runs sampled it."""
-    path = folder / f"{scene}_device_memory.json"
-    sampled = json.loads(path.read_text()) if path.is_file() else None
-    return sampled["largest [MiB]"] - sampled["before [MiB]"] if sampled else ""
-
-
 def device_row(scene, runs, memory=""):
     """Of the whole runs on the device, which must be as long as each other."""
     if len({len(run.column("step")) for run in runs}) > 1:
@@ -109,7 +98,7 @@ def rows_of(folder):
     for scene in ROWS:
         whole, windows = runs_below(Path(folder) / scene, "whole*"), runs_below(Path(folder) / scene, "cpu_*")
         if whole:
-            rows.append(device_row(scene, whole, device_memory(Path(folder), scene)))
+            rows.append(device_row(scene, whole, taken(Path(folder) / f"{scene}_device_memory.json")))
         if windows:
             rows.append(cpu_row(scene, windows, whole[-1].manifest["settings"]["steps"]["value"] if whole else ""))
     if not rows:

@@ -1,4 +1,4 @@
-"""Runs of `ogc` under a limit of time: what is finished is kept, what was cut off goes on, and at the limit a run is asked to stop. Python's own library is enough."""
+"""Runs of `ogc` under a limit of time: what is finished is kept, what was cut off goes on, and at the limit a run is asked to stop. Python's library is enough."""
 
 import json
 import math
@@ -21,23 +21,26 @@ class RunFailure(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """`ogc run ARGUMENTS --out FOLDER/name`; `state`: (another job's name, place among its frames) where it begins; `may_fail`: to fail is a result."""
+    """`ogc run [scene] ARGUMENTS --out FOLDER/name`; `scene`: a scene file below FOLDER; `state`: (another job's name, place among its frames) where it begins;
+    `may_fail`: to fail is a result."""
 
     name: str
     arguments: tuple
     state: tuple = ()
+    scene: str = ""
     may_fail: bool = False
     resumable: bool = True
 
     def words(self, root):
         """Arguments with the frame that the run begins with. Throws RunFailure where it is missing."""
+        scene = [str(root / self.scene)] if self.scene else []
         if not self.state:
-            return [*map(str, self.arguments)]
+            return [*scene, *map(str, self.arguments)]
         name, place = self.state
         frames = sorted((root / name / "frames").glob("frame_*.h5"))
         if len(frames) < abs(place):
             raise RunFailure(f"{root / self.name} begins with a frame of {root / name}, which has none: make that run first")
-        return [*map(str, self.arguments), "--from-state", str(frames[place])]
+        return [*scene, *map(str, self.arguments), "--from-state", str(frames[place])]
 
     def command(self, program, root):
         return [str(program), "run", *self.words(root), "--out", str(root / self.name)]
@@ -106,7 +109,8 @@ def make(program, job, root, limit):
         return KEPT
     if limit.left() == 0:
         return STOPPED
-    again = [str(program), "run", "--resume", str(folder)] if alike and job.resumable and not status.startswith("failed") and (folder / "checkpoint.h5").is_file() else None
+    goes_on = alike and job.resumable and not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
+    again = [str(program), "run", "--resume", str(folder)] if goes_on else None
     if not again:
         shutil.rmtree(folder, ignore_errors=True)
     code = command_in(again or command, log, limit)
