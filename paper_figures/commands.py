@@ -46,8 +46,8 @@ def three_cloths(scale, backends):
     state = ("start", -1)
     variants = (("", ()), ("_any", ANY))
     single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *VBD, *more), state) for backend in backends for suffix, more in variants]
-    double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *VBD), state), *(Job(f"newton{suffix}", (*solve, *NEWTON, *more), state) for suffix, more in variants)]
-    return [start, *single], double
+    newton = [Job(f"newton{suffix}", (*solve, *NEWTON, *more), state) for suffix, more in variants]
+    return [start, *single], [Job("vbd_double", (*solve, "--solver", "reference_vbd", *VBD), state), *newton]
 
 
 def ablation(scale, energy):

@@ -6,13 +6,13 @@ import threading
 
 
 class DeviceMemory:
-    """Samples the memory in use on the first device [MiB] once a second while its block runs, and keeps the first and the largest number in a file; nothing where
-    nvidia-smi can't be had. One process asks all the time: its start takes locks of the driver, which would show in a step."""
+    """Samples the memory in use on the first device [MiB] once a second while its block runs, and keeps the first and the largest number in a file; nothing
+    where nvidia-smi can't be had. One process asks all the time: its start takes locks of the driver, which would show in a step."""
 
     COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--id=0", "--loop=1")
 
     def __init__(self, path, wanted, command=COMMAND):
-        self.path, self.command, self.samples, self.process = path, command if wanted else None, [], None
+        self.path, self.command, self.samples, self.process, self.first = path, command if wanted else None, [], None, threading.Event()
 
     def __enter__(self):
         try:
@@ -20,13 +20,16 @@ class DeviceMemory:
         except OSError:
             return
         if self.process:
-            self.read(self.process.stdout.readline())  # before anything begins
-            self.reader = threading.Thread(target=lambda: [self.read(line) for line in self.process.stdout])
+            self.reader = threading.Thread(target=self.read)
             self.reader.start()
+            self.first.wait(10)  # what is in use before anything begins
 
-    def read(self, line):
-        if line.strip().isdigit():
-            self.samples.append(int(line))
+    def read(self):
+        for line in self.process.stdout:
+            if line.strip().isdigit():
+                self.samples.append(int(line))
+                self.first.set()
+        self.first.set()
 
     def __exit__(self, *_):
         if not self.process:

@@ -5,8 +5,8 @@ program (experiments/bundle).
     python3 -m paper_figures.device_runs --out RUNS --pack FOLDER      what is finished and was not packed before, as pieces of at most 16 MB
     python3 -m paper_figures.device_runs --program PROGRAM --out runs --unpack FOLDER   at home: the figures' scripts find these runs finished
 
-Folders are those of the workflow (figNN-SCALE-BACKEND), whole runs and windows of Table 1 those of experiments/table1. Packed are manifests, rows and some frames. Beside each
-run on a GPU the device's memory is sampled (device_memory.py).
+Folders are those of the workflow (figNN-SCALE-BACKEND), whole runs and windows of Table 1 those of experiments/table1. Packed are manifests, rows and some frames.
+Beside each run on a GPU the device's memory is sampled (device_memory.py).
 """
 
 import argparse
@@ -111,7 +111,8 @@ class Machine:
         extra = ["--skip", "whole", "--window", o.window] if part.windows else ["--skip", "cpu"]
         seconds = [] if math.isinf(limit.left()) else ["--seconds", int(limit.left())]
         with DeviceMemory(self.out / part.folder / f"{part.row}_device_memory.json", part.gpu and o.backend == "cuda"):
-            code = command_in([TABLE1, self.program, self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend, *extra, *seconds], log, Limit())
+            where = [self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend]
+            code = command_in([TABLE1, self.program, *where, *extra, *seconds], log, Limit())
         if code == LEFT_FOR_THE_NEXT:
             return STOPPED
         if code != 0:

@@ -81,6 +81,11 @@ double mean(const Rows& rows, const std::function<double(const StepMetrics&)>& o
 /// What is counted of a step, or of a part of one.
 enum class Counted { nothing, sweep, searches, both };
 
+Counted counted_of(std::string_view stage) {
+  if (stage == "sweep") return Counted::sweep;
+  return stage == "detection" ? Counted::searches : Counted::nothing;
+}
+
 double detections(const StepMetrics& row) { return static_cast<double>(row.discrete_detections); }
 
 /// Work of the mean step, and the floor under its time [s] where the machine's limits are known.
@@ -154,7 +159,7 @@ class Registrar {
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend, std::optional<std::size_t> stage) const {
-    const Counted counted = !stage ? Counted::both : stages[*stage] == "sweep" ? Counted::sweep : stages[*stage] == "detection" ? Counted::searches : Counted::nothing;
+    const Counted counted = stage ? counted_of(stages[*stage]) : Counted::both;
     const std::string key = name.substr(stage ? name.find('/', 5) : 4) + name_of(backend) + (stage ? "profiled" : "");
     const auto body = [=, steps = options_.steps, repetition = std::make_shared<std::size_t>(0)](benchmark::State& state) {
       Windows& windows = windows_of(key, [&] { return std::make_unique<Windows>(make(), backend, stage.has_value(), steps); });
