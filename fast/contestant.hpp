@@ -1,6 +1,7 @@
 // The fast path as a contestant: single precision, as fast as the machine allows.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "compare/problem/contestant.hpp"
@@ -28,5 +29,16 @@ struct SweepWork {
   double flop_vertex_facet = 0, flop_edge_edge = 0, bytes_contact = 0;  ///< of a contact more, all of whose vertices are free
 };
 SweepWork sweep_work(const compare::Scene& scene);
+
+/// What the searches of one detection have to do at a state, counted by carrying them out on the host, one after the other, with the functors of both backends.
+/// A device that shares them out finds some distances later, so its searches open a few nodes more. Refit, lists and bounds are not in it.
+struct SearchWork {
+  double nodes = 0;        ///< of four boxes, opened
+  double candidates = 0;   ///< primitives that searches were offered
+  double distances = 0;    ///< pairs that no cheaper test could reject: double-precision distances
+  double flop = 0, bytes = 0;  ///< bytes of nodes, candidates and distances as often as they are read: from the cache at best
+};
+/// `query_radius`: r_q [m]. Throws std::invalid_argument where there are not as many positions as vertices.
+SearchWork search_work(const compare::Scene& scene, std::span<const compare::Vec3f> positions, float query_radius);
 
 }  // namespace ogc::fast

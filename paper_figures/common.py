@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from paper_figures import commands
 from paper_figures.runs import run_once
 from plots.run_folder import Run, RunError
 from plots.scene_figure import draw, draw_movie, load_claims
@@ -18,20 +19,21 @@ def label(run):
     return names.get(solver, solver) + (", CUDA" if backend == "cuda" else "")
 
 
-def baseline_arguments(description, scales=("smoke", "small", "paper")):
+def baseline_arguments(description, scales=("smoke", "small", "paper"), backends=("cpu",)):
     """Parser of the figures that compare IPC with OGC: a folder for the runs and the figure, the program, the scale, the membrane of all solvers."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folder", help="where the runs are, or go, and the figure")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="small", choices=scales)
-    parser.add_argument("--membrane", default="stable_neo_hookean", help="of all solvers alike; st_venant_kirchhoff is that of the scenes")
+    parser.add_argument("--membrane", default=commands.NEO_HOOKEAN, help="of all solvers alike; st_venant_kirchhoff is that of the scenes")
+    if len(backends) > 1:
+        parser.add_argument("--backend", default="cpu", choices=backends, help="of OGC's run; IPC's is on the CPU")
     return parser
 
 
 def options_of(arguments):
     """Options of `ogc run` that all runs of such a figure share."""
-    model = [] if arguments.membrane == "st_venant_kirchhoff" else ["--set", f"membrane={arguments.membrane}"]
-    return ["--scale", arguments.scale, *model]
+    return list(commands.shared(arguments.scale, arguments.membrane))
 
 
 def ipc_windows(arguments, scene, whole, starts, steps=20):

@@ -70,6 +70,12 @@ class RunEvidence:
         return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"])
 
 
+def run_at(folder):
+    """The run in a run folder; None where it has no manifest or no rows."""
+    manifest, rows = folder / "run.json", folder / "steps.csv"
+    return RunEvidence(manifest, rows, folder.as_posix()) if manifest.is_file() and rows.is_file() else None
+
+
 @dataclass(frozen=True)
 class Table:
     """A table of results: name (figNN, tableN), scale, rows."""

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures import in_time
-from paper_figures.common import baseline_arguments, ipc_windows, label, options_of
+from paper_figures import commands, in_time
+from paper_figures.common import baseline_arguments, ipc_windows, label
 from paper_figures.fig18_solvers import Joined
-from paper_figures.runs import provenance, run_once, write_table
+from paper_figures.runs import provenance, run_job, write_table
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
-SCENE = "large_radius_twist"
+SCENE = commands.TWIST
 WINDOWS = (300, 600, 900, 1180)
 CAMERA = ((0.75, 0.85, 1.25), (0, 0, 0), (0, 1, 0))
 
@@ -59,14 +59,16 @@ def history(run, rest):
 
 
 def draw(runs, out):
+    """The first two runs are shown, or the only one; curves of all."""
     plt = style.use()
     figure = plt.figure(figsize=(11, 8))
     grid = figure.add_gridspec(2, 6, height_ratios=[1.2, 1])
     usable, reason = render.available()
     axes = [figure.add_subplot(grid[1, 2 * i:2 * i + 2]) for i in range(3)]
     both_at = min(int(run.column("step")[-1]) for run in runs[:2])  # the last step that both came to
-    for i, run in enumerate(runs[:2]):
-        picture = figure.add_subplot(grid[0, 3 * i:3 * i + 3])
+    shown_runs = runs[:2]
+    for i, run in enumerate(shown_runs):
+        picture = figure.add_subplot(grid[0, 3 * i:3 * i + 3] if len(shown_runs) > 1 else grid[0, :])
         picture.axis("off")
         shown = run.frame_at_step(both_at)
         picture.set_title(f"{label(run)}, t = {shown.time:.3g} s")
@@ -75,7 +77,8 @@ def draw(runs, out):
         else:
             picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
     lines, rows = [], []
-    rest = runs[1].frame(runs[1].frames[0]).positions.astype(float)  # OGC's start; windows start elsewhere
+    ogc = next(run for run in runs if run.manifest["solver"] == "vbd")
+    rest = ogc.frame(ogc.frames[0]).positions.astype(float)  # windows start elsewhere
     for run, dash in zip(runs, style.DASHES):
         time, rough, stretched = history(run, rest)
         h = run.setting("time_step")
@@ -106,19 +109,23 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
-    folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "frame"]
+    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's, or none."""
+    folder = Path(arguments.folder)
     if arguments.parts:
         return [*(Joined(in_time.parts(folder / name)) for name in ("ipc", "vbd")), *(Run(window) for window in sorted(folder.glob("ipc_*")))]
-    ogc = run_once(arguments.ogc, base, folder / "vbd")
+    ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
+    ogc = run_job(arguments.ogc, ours, folder)
+    if arguments.without_ipc:
+        return [ogc]
     if arguments.scale != "paper":
-        return [run_once(arguments.ogc, [*base, "--solver", "ipc", "--profile"], folder / "ipc"), ogc]
+        return [run_job(arguments.ogc, baseline, folder), ogc]
     *earlier, last = ipc_windows(arguments, SCENE, ogc, WINDOWS)
     return [last, ogc, *earlier]
 
 
 if __name__ == "__main__":
-    parser = baseline_arguments(__doc__.splitlines()[0])
+    parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
+    parser.add_argument("--without-ipc", action="store_true", help="OGC's run alone")
     parser.add_argument("--parts", action="store_true", help="draw what paper_figures.in_time --scene large_radius_twist has made, and run nothing")
     options = parser.parse_args()
     try:

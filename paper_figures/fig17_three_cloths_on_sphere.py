@@ -12,31 +12,26 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.runs import iterations, last_frame, provenance, run_once, write_table
+from paper_figures import commands
+from paper_figures.runs import iterations, provenance, run_job, write_table
 from plots import style
 from plots.run_folder import RunError, commits_in_words
 
-SCENE = "three_cloths_on_sphere"
-STEPS = {"smoke": 24, "small": 40, "paper": 50}
-VBD = ["--set", "iterations=500"]
-ANY = ["--set", "redetect_fraction=0"]
-NEWTON = ["--solver", "newton", "--residual", "--set", "newton_tolerance=0", "--set", "newton_step_tolerance=1e-9", "--set", "newton_iterations=50", "--set", "friction_solves=50"]
+SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
 
 
-def curves(folder, ogc, scale, backends):
+def label_of(name):
+    """vbd_cuda_any and its like in words."""
+    kind, *more = name.split("_")
+    where = "single, " + more[0] if kind == "vbd" and more[0] != "double" else "double"
+    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}" + (", γ_e = 0" if more[-1:] == ["any"] else "")
+
+
+def curves(folder, ogc, scale, backends, single_only):
     """(label, run) of each curve."""
-    step = STEPS[scale]
-    base = [SCENE, "--scale", scale, "--audit", "end"]
-    start = last_frame(run_once(ogc, [*base, "--backend", backends[-1], "--steps", step - 1], folder / "start"))
-    solve = [*base, "--steps", step, "--from-state", start, "--iterations", "--profile"]
-    variants = []
-    for backend in backends:
-        variants.append((f"VBD, single, {backend}", f"vbd_{backend}", ["--backend", backend, *VBD]))
-        variants.append((f"VBD, single, {backend}, γ_e = 0", f"vbd_{backend}_any", ["--backend", backend, *VBD, *ANY]))
-    variants.append(("VBD, double", "vbd_double", ["--solver", "reference_vbd", *VBD]))
-    variants.append(("Newton, double", "newton", NEWTON))
-    variants.append(("Newton, double, γ_e = 0", "newton_any", [*NEWTON, *ANY]))
-    return [(label, run_once(ogc, [*solve, *more], folder / name)) for label, name, more in variants]
+    (start, *single), double = commands.three_cloths(scale, backends)
+    run_job(ogc, start, folder)
+    return [(label_of(job.name), run_job(ogc, job, folder)) for job in [*single, *([] if single_only else double)]]
 
 
 def detection_share(run):
@@ -85,12 +80,12 @@ def draw(runs, step, scale, claims, out):
     style.save(figure, out)
 
 
-def main(folder, ogc, scale="small", backends=("cpu",)):
+def main(folder, ogc, scale="small", backends=("cpu",), single_only=False):
     """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's path."""
     folder = Path(folder)
     claims = json.loads((Path(__file__).parent / "claims" / f"{SCENE}.json").read_text())["claims"]
     claims = [c for c in claims if isinstance(c["measure"], list)]  # those that a curve can be held against: each names a cell of the table
-    runs = curves(folder, ogc, scale, list(backends))
+    runs = curves(folder, ogc, scale, list(dict.fromkeys(backends)), single_only)
     write_table(folder / "fig17.csv", [summary(label, run, STEPS[scale]) for label, run in runs])
     draw(runs, STEPS[scale], scale, claims, folder / "fig17.png")
     return folder / "fig17.png"
@@ -102,8 +97,9 @@ if __name__ == "__main__":
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="small", choices=STEPS)
     parser.add_argument("--backend", action="append", choices=["cpu", "cuda"], help="of VBD; repeatable; the last one makes the start (default: cpu)")
+    parser.add_argument("--single-only", action="store_true", help="without the curves in double precision, which take the exact detection's time")
     arguments = parser.parse_args()
     try:
-        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"]))
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"], arguments.single_only))
     except RunError as error:
         sys.exit(f"fig17: {error}")

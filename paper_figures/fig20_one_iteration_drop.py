@@ -5,13 +5,14 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.common import baseline_arguments, label, options_of
-from paper_figures.runs import provenance, run_once, write_table
+from paper_figures import commands
+from paper_figures.common import baseline_arguments, label
+from paper_figures.runs import provenance, run_job, write_table
 from plots import render, style
 from plots.run_folder import RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
-SCENE = "one_iteration_drop"
+SCENE = commands.ONE_ITERATION
 CAMERA = ((1.3, 0.5, 1.5), (-0.1, -0.25, 0.0), (0, 1, 0))
 FRAMES = (0, 50, 80)
 
@@ -73,12 +74,11 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "frame"]
-    return [run_once(arguments.ogc, base, folder / "vbd"), run_once(arguments.ogc, [*base, "--solver", "ipc"], folder / "ipc")]
+    return [run_job(arguments.ogc, job, arguments.folder) for job in commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)]
 
 
 if __name__ == "__main__":
-    options = baseline_arguments(__doc__.splitlines()[0]).parse_args()
+    options = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda")).parse_args()
     try:
         found = runs_of(options)
         write_table(Path(options.folder) / "fig20.csv", rows(found))

@@ -14,16 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.runs import iterations, provenance, run_once, write_table
+from paper_figures import commands
+from paper_figures.runs import iterations, provenance, run_job, write_table
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
-SCENE = "activation_drop"
-STEPS = {"smoke": 30, "small": 40, "paper": 40}
-ENERGIES = ["ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed"]
-PAPER = ENERGIES[:2]
-TOLERANCE = ["--set", "newton_tolerance=1e-6"]
+SCENE, STEPS, ENERGIES, PAPER = commands.ACTIVATIONS, commands.ACTIVATION_STEPS, commands.ENERGIES, commands.PAPER_ENERGIES
 CAMERA = ((1.6, 0.9, 1.9), (-0.08, -0.12, 0.0), (0, 1, 0))
 
 
@@ -38,19 +35,14 @@ def ablation(folder, ogc, scale):
     if not all(status_of(path).startswith(("finished", "failed")) for path in folders.values()):
         if (folder / "runs").exists():  # an ablation that was interrupted: its table needs all of its runs
             shutil.rmtree(folder / "runs")
-        command = [str(ogc), "ablate", SCENE, "--scale", scale, "--steps", str(STEPS[scale]), "--solver", "newton", *TOLERANCE, "--set", "frame_steps=1",
-                   "--audit", "end", "--vary", "activation=" + ",".join(ENERGIES), "--out", str(folder / "runs")]
+        command = [str(ogc), "ablate", SCENE, "--scale", scale, "--steps", str(STEPS[scale]), *commands.ABLATION, "--vary", "activation=" + ",".join(ENERGIES),
+                   "--out", str(folder / "runs")]
         print(" ".join(command), file=sys.stderr, flush=True)
         subprocess.run(command, stdout=subprocess.DEVNULL)
     for energy in PAPER:
         if status_of(folders[energy]) != "finished":
             raise RunError(f"{folders[energy]} is not finished ({status_of(folders[energy])}); its last lines say why")
     return {energy: Run(path) for energy, path in folders.items()}
-
-
-def last_step(folder, ogc, scale, energy, state, name, options):
-    return run_once(ogc, [SCENE, "--scale", scale, "--steps", STEPS[scale], "--set", f"activation={energy}", "--from-state", state, "--iterations",
-                          "--audit", "end", *options], folder / f"{name}_{energy}")
 
 
 def force_curves(folder, ogc):
@@ -72,14 +64,19 @@ def first_below(residual, level):
     return int(below[0]) if len(below) else -1
 
 
-def row_of(energy, runs, newton, vbd, step):
+def iterations_to(levels, runs, energy, step):
+    return [first_below(iterations(runs[energy], step)["residual"], level) if energy in runs else "" for level in levels]
+
+
+def row_of(energy, runs, newton, vbd, on_device, step):
     run = runs[energy]
     condition = iterations(newton[energy], step)["condition_number"] if energy in newton else np.array([np.nan])
     condition = condition[np.isfinite(condition)] if energy in newton else condition
-    vbd_iterations = [first_below(iterations(vbd[energy], step)["residual"], level) if energy in vbd else "" for level in (1e-2, 1e-3)]
+    vbd_iterations, device_iterations = (iterations_to((1e-2, 1e-3), solved, energy, step) for solved in (vbd, on_device))
     return {"activation": energy, "status": run.status.partition(":")[0], "steps [1]": len(run.column("step")), "newton_iterations_of_all_steps [1]": int(run.column("iterations").sum()),
             "newton_iterations_of_last_step [1]": int(newton[energy].column("iterations")[-1]) if energy in newton else "",
             "vbd_iterations_to_1e-2 [1]": vbd_iterations[0], "vbd_iterations_to_1e-3 [1]": vbd_iterations[1],
+            "single_vbd_iterations_to_1e-2 [1]": device_iterations[0], "single_vbd_iterations_to_1e-3 [1]": device_iterations[1],
             "condition_number_at_end [1]": f"{condition[-1]:.4g}", "median_condition_number [1]": f"{np.median(condition):.4g}",
             "steps_above_tolerance [1]": int((run.column("residual") > 1e-6).sum()), "largest_residual [1]": f"{run.column('residual').max():.3g}",
             "smallest_distance [mm]": f"{1e3 * run.column('smallest_distance').min():.4g}", "median_step [ms]": f"{np.median(run.column('wall')):.4g}",
@@ -96,9 +93,10 @@ def draw_state(axes, run, title):
         axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
 
 
-def draw_convergence(axes, newton, vbd, step):
+def draw_convergence(axes, newton, vbd, on_device, step):
     for number, energy in enumerate(PAPER):
-        for runs, dash, name in ((vbd, "-", "VBD, double"), (newton, "--", "Newton")):
+        backend = on_device[energy].manifest["backend"]
+        for runs, dash, name in ((vbd, "-", "VBD, double"), (on_device, ":", f"VBD, single, {backend}"), (newton, "--", "Newton")):
             rows = iterations(runs[energy], step)
             axes.plot(rows["iteration"], np.maximum(rows["residual"], 1e-16), dash, color=style.COLOURS[number], linewidth=1, label=f"{energy}, {name}")
     axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title=f"Step {step}")
@@ -112,32 +110,31 @@ def draw_forces(axes, curves):
     axes.legend(fontsize=7)
 
 
-def draw(runs, newton, vbd, curves, rows, step, scale, out):
+def draw(runs, newton, vbd, on_device, curves, rows, step, scale, out):
     plt = style.use()
     figure, axes = plt.subplots(2, 2, figsize=(11, 8))
     for panel, energy in zip(axes[0], PAPER):
         draw_state(panel, runs[energy], f"{energy}, step {step}")
-    draw_convergence(axes[1, 0], newton, vbd, step)
+    draw_convergence(axes[1, 0], newton, vbd, on_device, step)
     draw_forces(axes[1, 1], curves)
     ogc, ipc = rows[0], rows[1]
     ratio = float(ipc["condition_number_at_end [1]"]) / float(ogc["condition_number_at_end [1]"])
     figure.suptitle(f"{SCENE} ({scale}): the two states are at most {ipc['largest_distance_from_ogc [mm]']} mm apart; condition number of ipc_log {ratio:.3g} × "
                     f"that of ogc (paper: 5 ×)\nVBD iterations to 10⁻³: {ogc['vbd_iterations_to_1e-3 [1]']} and {ipc['vbd_iterations_to_1e-3 [1]']} "
-                    f"(paper: 2 ×); {commits_in_words([*runs.values(), *newton.values(), *vbd.values()])}", fontsize=8)
+                    f"(paper: 2 ×); {commits_in_words([*runs.values(), *newton.values(), *vbd.values(), *on_device.values()])}", fontsize=8)
     style.save(figure, out)
 
 
-def main(folder, ogc, scale="small"):
-    """Does the runs that are missing in `folder`, and writes fig21.png and fig21.csv there. Returns the picture's path."""
+def main(folder, ogc, scale="small", backend="cpu"):
+    """Does the runs that are missing in `folder`, and writes fig21.png and fig21.csv there; `backend`: of VBD in single precision. Returns the picture's path."""
     folder, step = Path(folder), STEPS[scale]
     runs = ablation(folder, ogc, scale)
-    start = {energy: run.frames[-2] for energy, run in runs.items()}
-    newton = {e: last_step(folder, ogc, scale, e, start[e], "newton", ["--solver", "newton", *TOLERANCE, "--condition"])
-              for e in ENERGIES if runs[e].status == "finished"}
-    vbd = {e: last_step(folder, ogc, scale, e, start[e], "vbd", ["--solver", "reference_vbd", "--set", "redetect_every=10"]) for e in PAPER}
-    rows = [row_of(energy, runs, newton, vbd, step) for energy in ENERGIES]
+    newton = {e: run_job(ogc, commands.by_newton(scale, e), folder) for e in ENERGIES if runs[e].status == "finished"}
+    vbd = {e: run_job(ogc, commands.by_vbd(scale, e), folder) for e in PAPER}
+    on_device = {e: run_job(ogc, commands.by_vbd_on(scale, e, backend), folder) for e in PAPER}
+    rows = [row_of(energy, runs, newton, vbd, on_device, step) for energy in ENERGIES]
     write_table(folder / "fig21.csv", rows)
-    draw(runs, newton, vbd, force_curves(folder, ogc), rows, step, scale, folder / "fig21.png")
+    draw(runs, newton, vbd, on_device, force_curves(folder, ogc), rows, step, scale, folder / "fig21.png")
     return folder / "fig21.png"
 
 
@@ -146,8 +143,9 @@ if __name__ == "__main__":
     parser.add_argument("folder", help="where the runs are, or go, and the figure")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="small", choices=STEPS)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of VBD in single precision")
     arguments = parser.parse_args()
     try:
-        print(main(arguments.folder, arguments.ogc, arguments.scale))
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend))
     except (RunError, csv.Error) as error:
         sys.exit(f"fig21: {error}")

@@ -127,7 +127,8 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         drawn = [f"{name}-{scale}-{backend}/run" for name in recipe.body["of"]]
         return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots), (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
-    return [Step(recipe.name, picture, (PROGRAM, *script, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
+    made_by = (*script, *(str(HERE / name) for name in ("commands.py", "layers.py")))
+    return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
 
 
 def _sweep(recipe, scale, backend, ogc, python, plots):

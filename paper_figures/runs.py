@@ -1,8 +1,6 @@
 """Runs of `ogc` that a figure needs, each done once: a folder that holds a finished run is used as it is."""
 
 import csv
-import json
-import os
 import re
 import shutil
 import subprocess
@@ -12,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from paper_figures.timed_runs import RunFailure, usable
 from plots.run_folder import Run, RunError
 
 
@@ -23,22 +22,6 @@ class Iterations:
 
     def __getitem__(self, name):
         return self.columns[name]
-
-
-def usable(folder, command):
-    """Whether `folder` holds the finished run of this command by this program. The workflow names in OGC_STAMP a file that is rewritten when the program changes."""
-    manifest, stamp = folder / "run.json", os.environ.get("OGC_STAMP", "")
-    if not manifest.is_file():
-        return False
-    recorded = json.loads(manifest.read_text())
-    changed = stamp and Path(stamp).is_file() and Path(stamp).stat().st_mtime > manifest.stat().st_mtime
-    return recorded.get("status") == "finished" and not changed and without_paths(recorded["command"]) == without_paths(command)
-
-
-def without_paths(command):
-    """The words of a command but for the program and the folders that its files lie in."""
-    words = command.split() if isinstance(command, str) else list(map(str, command))
-    return [word.rpartition("/")[2] for word in words[1:]]
 
 
 def run_once(ogc, arguments, folder):
@@ -53,6 +36,14 @@ def run_once(ogc, arguments, folder):
         if subprocess.run(command, stdout=subprocess.DEVNULL).returncode != 0:
             raise RunError(f"{' '.join(command)}: failed; its last lines say why")
     return Run(folder)
+
+
+def run_job(ogc, job, folder):
+    """The run of a job (paper_figures.commands) below `folder`. Throws RunError."""
+    try:
+        return run_once(ogc, job.words(Path(folder)), Path(folder) / job.name)
+    except RunFailure as error:
+        raise RunError(str(error)) from error
 
 
 def iterations(run, step):

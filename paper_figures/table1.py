@@ -12,15 +12,11 @@ import statistics
 import sys
 from pathlib import Path
 
-from paper_figures.evidence import EvidenceError, RunEvidence
+from paper_figures.device_memory import taken
+from paper_figures.evidence import EvidenceError, run_at
 
 ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m")
 CLAIMS = Path(__file__).parent / "claims"
-
-
-def run_at(folder):
-    manifest, rows = folder / "run.json", folder / "steps.csv"
-    return RunEvidence(manifest, rows, folder.as_posix()) if manifest.is_file() and rows.is_file() else None
 
 
 def runs_below(folder, pattern):
@@ -70,7 +66,7 @@ def sizes(run):
     return {"vertices": scene["vertices"], "triangles": scene["triangles"], "iterations": run.manifest["settings"]["iterations"]["value"]}
 
 
-def device_row(scene, runs):
+def device_row(scene, runs, memory=""):
     """Of the whole runs on the device, which must be as long as each other."""
     if len({len(run.column("step")) for run in runs}) > 1:
         raise EvidenceError(f"{scene}: whole runs of different lengths ({', '.join(run.source for run in runs)}): finish them, or remove the shorter ones")
@@ -81,7 +77,7 @@ def device_row(scene, runs):
     return {"scene": scene, "backend": run.manifest["backend"], **origin(run), **sizes(run),
             **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted, "runs": len(runs), "windows [ms]": "",
             "repeated steps": max(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
-            "audited states": run.manifest.get("audited_states", "0") + ", " + audit}
+            "audited states": run.manifest.get("audited_states", "0") + ", " + audit, "device memory [MiB]": memory}
 
 
 def cpu_row(scene, windows, wanted):
@@ -94,7 +90,7 @@ def cpu_row(scene, windows, wanted):
     each = "; ".join(f"{int(run.column('step')[0]) - 1}: {average:.4g}" for run, average in zip(windows, averages))
     return {"scene": scene, "backend": "cpu", **origin(windows[-1]), **sizes(windows[-1]), **beside(windows[-1], statistics.fmean(averages), max(maxima)),
             "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows), "windows [ms]": each,
-            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found), "audited states": "windows: not audited"}
+            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found), "audited states": "windows: not audited", "device memory [MiB]": ""}
 
 
 def rows_of(folder):
@@ -102,7 +98,7 @@ def rows_of(folder):
     for scene in ROWS:
         whole, windows = runs_below(Path(folder) / scene, "whole*"), runs_below(Path(folder) / scene, "cpu_*")
         if whole:
-            rows.append(device_row(scene, whole))
+            rows.append(device_row(scene, whole, taken(Path(folder) / f"{scene}_device_memory.json")))
         if windows:
             rows.append(cpu_row(scene, windows, whole[-1].manifest["settings"]["steps"]["value"] if whole else ""))
     if not rows:
@@ -117,7 +113,7 @@ def text(value):
 
 
 SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
-         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states", "device",
+         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states", "device memory [MiB]", "device",
          "paper's machine", "commit")
 
 NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in the average, not in the maximum. "

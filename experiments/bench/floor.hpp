@@ -27,4 +27,9 @@ inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& w
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;
 }
 
+/// Of the searches of one detection [s]: the larger of arithmetic and bytes, all of them from the cache. Double precision, which takes twice as long, counts as single.
+inline double search_floor(const MachineLimits& machine, const fast::SearchWork& work) {
+  return std::max(work.flop / machine.flop_per_second, work.bytes / machine.cache_bytes_per_second);
+}
+
 }  // namespace ogc::experiments

@@ -21,7 +21,8 @@ using Rows = std::vector<StepMetrics>;
 /// Windows of one scene on one backend, one a repetition, and what they are counted by.
 class Windows {
  public:
-  Windows(const BenchScene& from, fast::Backend backend, bool profile, std::int64_t steps) : steps_(steps), work_(fast::sweep_work(from.scene)) {
+  Windows(const BenchScene& from, fast::Backend backend, bool profile, std::int64_t steps)
+      : steps_(steps), scene_(from.scene), work_(fast::sweep_work(from.scene)) {
     simulation_ = fast::contestant(backend).start(from.scene, {.profile = profile, .energies = false});
     if (from.start) simulation_->restore(*from.start);
     start_ = simulation_->snapshot();
@@ -40,13 +41,23 @@ class Windows {
   std::vector<std::string> stage_names() const { return simulation_->stage_names(); }
   std::string device() const { return simulation_->device(); }
   const fast::SweepWork& work() const { return work_; }
+  /// Of one detection at the state that the windows end in.
+  const fast::SearchWork& searches() {
+    if (!searches_) {
+      const compare::Snapshot end = simulation_->snapshot();
+      searches_ = fast::search_work(scene_, end.positions, end.query_radius);
+    }
+    return *searches_;
+  }
 
  private:
   std::int64_t steps_;
+  compare::Scene scene_;
   fast::SweepWork work_;
   std::unique_ptr<compare::Simulation> simulation_;
   compare::Snapshot start_;
   std::vector<Rows> rows_;
+  std::optional<fast::SearchWork> searches_;
 };
 
 /// The last windows that were asked for: scenes are large, and benchmarks of one scene follow each other.
@@ -67,8 +78,22 @@ double mean(const Rows& rows, const std::function<double(const StepMetrics&)>& o
   return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
 }
 
-void count_work(benchmark::State& state, const Rows& rows, const Windows& windows, double mean_ms) {
-  const fast::SweepWork& work = windows.work();
+/// What is counted of a step, or of a part of one.
+enum class Counted { nothing, sweep, searches, both };
+
+Counted counted_of(std::string_view stage) {
+  if (stage == "sweep") return Counted::sweep;
+  return stage == "detection" ? Counted::searches : Counted::nothing;
+}
+
+double detections(const StepMetrics& row) { return static_cast<double>(row.discrete_detections); }
+
+/// Work of the mean step, and the floor under its time [s] where the machine's limits are known.
+struct Work {
+  double flop = 0, bytes = 0, floor = 0;
+};
+
+Work sweep_work(const Rows& rows, const fast::SweepWork& work, const std::optional<MachineLimits>& machine) {
   const auto flop = [&](const StepMetrics& row) {
     return work.flop + static_cast<double>(row.vertex_facet_contacts) * work.flop_vertex_facet + static_cast<double>(row.edge_edge_contacts) * work.flop_edge_edge;
   };
@@ -78,21 +103,34 @@ void count_work(benchmark::State& state, const Rows& rows, const Windows& window
   const auto of_step = [&](const auto& of_iteration) {
     return mean(rows, [&](const StepMetrics& row) { return static_cast<double>(row.iterations) * of_iteration(row); });
   };
-  state.counters["flop"] = of_step(flop);
-  state.counters["bytes"] = of_step(bytes);
+  const auto floor = [&](const StepMetrics& row) { return machine ? sweep_floor(*machine, work, flop(row), bytes(row)) : 0; };
+  return {of_step(flop), of_step(bytes), of_step(floor)};
+}
+
+Work search_work(benchmark::State& state, double each_step, const fast::SearchWork& work, const std::optional<MachineLimits>& machine) {
+  state.counters["nodes"] = each_step * work.nodes;
+  state.counters["candidates"] = each_step * work.candidates;
+  state.counters["distances"] = each_step * work.distances;
+  return {each_step * work.flop, each_step * work.bytes, machine ? each_step * search_floor(*machine, work) : 0};
+}
+
+void count_work(benchmark::State& state, const Rows& rows, Windows& windows, Counted counted, double mean_ms) {
   const std::optional<MachineLimits> machine = limits_of(windows.device());
-  if (!machine || !(mean_ms > 0)) return;
-  state.counters["share_of_floor"] = of_step([&](const StepMetrics& row) { return sweep_floor(*machine, work, flop(row), bytes(row)); }) / (1e-3 * mean_ms);
+  const Work sweep = counted == Counted::searches ? Work{} : sweep_work(rows, windows.work(), machine);
+  const Work searches = counted == Counted::sweep ? Work{} : search_work(state, mean(rows, detections), windows.searches(), machine);
+  state.counters["flop"] = sweep.flop + searches.flop;
+  state.counters["bytes"] = sweep.bytes + searches.bytes;
+  if (machine && mean_ms > 0) state.counters["share_of_floor"] = (sweep.floor + searches.floor) / (1e-3 * mean_ms);
 }
 
 void count_steps(benchmark::State& state, const Rows& rows) {
   state.counters["contacts"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.vertex_facet_contacts + row.edge_edge_contacts); });
-  state.counters["detections"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.discrete_detections); });
+  state.counters["detections"] = mean(rows, detections);
   state.counters["repeats"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.repeats); });
 }
 
-/// `stage`: its place among the times of a row; none for the whole step. `sweeps`: whether the sweep's work stands for it.
-void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage, bool sweeps) {
+/// `stage`: its place among the times of a row; none for the whole step.
+void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage, Counted counted) {
   const Rows& rows = windows.repetition(repetition);
   const auto milliseconds = [&](const StepMetrics& row) { return stage ? row.stage_ms[*stage] : row.wall_ms; };
   if (static_cast<benchmark::IterationCount>(rows.size()) < state.max_iterations) {
@@ -102,7 +140,7 @@ void measure(benchmark::State& state, Windows& windows, std::size_t repetition, 
   std::size_t k = 0;
   for (auto _ : state) state.SetIterationTime(1e-3 * milliseconds(rows[k++]));
   count_steps(state, rows);
-  if (sweeps) count_work(state, rows, windows, mean(rows, milliseconds));
+  if (counted != Counted::nothing) count_work(state, rows, windows, counted, mean(rows, milliseconds));
 }
 
 class Registrar {
@@ -121,12 +159,12 @@ class Registrar {
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend, std::optional<std::size_t> stage) const {
-    const bool sweeps = !stage || stages[*stage] == "sweep";
+    const Counted counted = stage ? counted_of(stages[*stage]) : Counted::both;
     const std::string key = name.substr(stage ? name.find('/', 5) : 4) + name_of(backend) + (stage ? "profiled" : "");
     const auto body = [=, steps = options_.steps, repetition = std::make_shared<std::size_t>(0)](benchmark::State& state) {
       Windows& windows = windows_of(key, [&] { return std::make_unique<Windows>(make(), backend, stage.has_value(), steps); });
       if (stage && windows.stage_names().at(*stage) != stages[*stage]) throw std::logic_error("the parts of a step have other names");
-      measure(state, windows, (*repetition)++, stage, sweeps);
+      measure(state, windows, (*repetition)++, stage, counted);
     };
     benchmark::RegisterBenchmark((name + "/" + name_of(backend)).c_str(), body)
         ->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(options_.steps)->Repetitions(options_.repetitions);

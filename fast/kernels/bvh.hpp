@@ -133,9 +133,9 @@ inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
 #endif
 
 /// Calls visit(place, squared gap) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own reach. The visitor
-/// may lower `limit` on the way.
-template <class Visit>
-OGC_HD void for_each_near(const TreeView& tree, const Box& box, int from, const float& limit, Visit visit) {
+/// may lower `limit` on the way. `Tree`: a TreeView, or what counts the nodes of one as they are opened (fast/work.cpp).
+template <class Tree, class Visit>
+OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
   QuadGaps gaps;
   const auto near_lanes = [&](int level, int j) {
     gaps = squared_gaps(tree.node(level, j), box, limit);

@@ -62,19 +62,22 @@ TEST_CASE("the program measures in processes, keeps every repetition, and compar
   const TemporaryFolder folder;
   const std::string file = (folder / "out.json").string();
   const ProgramResult measured =
-      run_ogc("bench --scale smoke --backend cpu --filter '^(stage/truncate|step/twist|part/sweep/twist)' --steps 2 --repetitions 2 --processes 2 --json " + file);
+      run_ogc("bench --scale smoke --backend cpu --filter '^(stage/truncate|step/twist|part/(sweep|detection)/twist)' --steps 2 --repetitions 2 --processes 2 --json " + file);
   INFO(measured.err);
   REQUIRE(measured.status == 0);
-  CHECK(contains(measured.out, {"stage/truncate/cpu", "step/twist/smoke/cpu", "part/sweep/twist/smoke/cpu"}));
+  CHECK(contains(measured.out, {"stage/truncate/cpu", "step/twist/smoke/cpu", "part/sweep/twist/smoke/cpu", "part/detection/twist/smoke/cpu"}));
   const Json json = parse_results(file);
   std::size_t runs = 0;
   for (const Json& run : json.at("benchmarks")) {
     if (run.at("run_type") != "iteration") continue;
     ++runs;
     CHECK(run.at("real_time") > 0);
-    if (!run.at("name").get<std::string>().starts_with("stage")) CHECK((run.at("flop") > 0 && run.at("bytes") > 0));
+    const std::string name = run.at("name");
+    if (name.starts_with("stage")) continue;
+    CHECK((run.at("flop") > 0 && run.at("bytes") > 0));
+    CHECK(run.contains("nodes") == !name.starts_with("part/sweep"));
   }
-  CHECK(runs == 3 * 2 * 2);
+  CHECK(runs == 4 * 2 * 2);
   const std::string before = results_file(folder, "before", {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6}).string();
   const std::string slower = results_file(folder, "slower", {2, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6}, "other").string();
   const ProgramResult compared = run_ogc("bench --against " + before + " --results " + slower);

@@ -1,0 +1,259 @@
+"""All runs of the paper's size that need a GPU or many cores, in one command, for a machine that is lent by the minute and has nothing but Python and the
+program (experiments/bundle).
+
+    python3 -m paper_figures.device_runs --program PROGRAM --out RUNS [--seconds N] [PART …]   a limit for each part; call again to go on
+    python3 -m paper_figures.device_runs --out RUNS --pack FOLDER      what is finished and was not packed before, as pieces of at most 16 MB
+    python3 -m paper_figures.device_runs --program PROGRAM --out runs --unpack FOLDER   at home: the figures' scripts find these runs finished
+
+Folders are those of the workflow (figNN-SCALE-BACKEND), whole runs and windows of Table 1 those of experiments/table1. Packed are manifests, rows and some frames.
+Beside each run on a GPU the device's memory is sampled (device_memory.py).
+"""
+
+import argparse
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from paper_figures import commands, growth
+from paper_figures.device_memory import DeviceMemory
+from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, command_in, last_lines, make, manifest_of
+
+TABLE1 = Path(__file__).parent.parent / "experiments/table1"
+ROWS = {"twist": "fig12", "fifty_layers_1m": "", "cloth_on_sphere": "fig18", "fifty_layers": "fig10", "knot": "fig11"}  # and the figures of their whole runs
+PIECE, TOTAL = 15 * 2**20, 60 * 2**20  # bytes of a packed piece, and of all together
+LEFT_FOR_THE_NEXT = 75  # exit status of experiments/table1 at its limit
+
+
+@dataclass(frozen=True)
+class Part:
+    """Runs of one figure, or of one row of Table 1; chains may run side by side. Of each run `frames` are packed, evenly over it, and the `last` ones."""
+
+    folder: str
+    chains: tuple = ()
+    row: str = ""
+    windows: bool = False
+    figure: str = ""
+    frames: int = 4
+    last: int = 0
+    gpu: bool = True
+    prepare: Callable | None = None  # of (program, folder), before the first run
+
+
+def parts(scale, backend):
+    """name -> Part, the most wanted first."""
+    def figure(name):
+        return f"{name}-{scale}-{backend}"
+
+    def row(name, frames=4):
+        return Part(figure("table1"), row=name, figure=ROWS[name] and figure(ROWS[name]), frames=frames)
+
+    both = ["cpu", "cuda"] if backend == "cuda" else ["cpu"]
+    single, double = commands.three_cloths(scale, both)
+    half_turn, _ = commands.beside_ipc(commands.TWIST, scale, backend)
+    drop, ipc = commands.beside_ipc(commands.ONE_ITERATION, scale, backend)
+    on_device = tuple(job for job in single if "cpu" not in job.name or backend == "cpu")
+    wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
+              "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
+              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot")}
+    on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
+                "fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), frames=0, last=2),
+                "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False),
+                "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False)}
+    cores = os.cpu_count() or 1
+    over = {name: Part(figure("growth"), (tuple(jobs),), frames=0, gpu=name == "growth_cuda", prepare=growth.scenes_of(jobs))
+            for name, jobs in (*((f"growth_{kind}", growth.sizes(scale, kind)) for kind in reversed(both)), ("threads", growth.threads(scale, cores)))}
+    windows = {f"windows_{name}": Part(figure("table1"), row=name, windows=True, frames=0, gpu=False) for name in sorted(ROWS, key="fifty_layers_1m".__eq__)}
+    return {**wanted, **over, **on_cores, **windows}
+
+
+class Machine:
+    """Where the runs go, and with what."""
+
+    def __init__(self, options):
+        self.program, self.out, self.options = options.program, Path(options.out), options
+        self.book, self.all = parts(options.scale, options.backend), Limit(options.all_seconds)
+
+    def chain(self, part, jobs, limit):
+        """The worst end of its jobs; one that can't begin because another was stopped is stopped, too."""
+        ends = [KEPT]
+        for job in jobs:
+            if job.state and manifest_of(self.out / part.folder / job.state[0]).get("status", "").startswith("failed"):
+                continue
+            with DeviceMemory(self.out / part.folder / f"{job.name}_device_memory.json", part.gpu and self.options.backend == "cuda"):
+                ends.append(make(self.program, job, self.out / part.folder, limit))
+            if ends[-1] == STOPPED:
+                return STOPPED
+        return FINISHED if FINISHED in ends else KEPT
+
+    def chains(self, part, limit):
+        if part.prepare:
+            part.prepare(self.program, self.out / part.folder)
+        with ThreadPoolExecutor(max_workers=self.options.jobs) as pool:
+            tasks = [pool.submit(self.chain, part, jobs, limit) for jobs in part.chains]
+        problems = [str(task.exception()) for task in tasks if task.exception()]
+        if problems:
+            raise RunFailure("\n".join(problems))
+        ends = [task.result() for task in tasks]
+        return next(end for end in (STOPPED, FINISHED, KEPT) if end in ends)
+
+    def table(self, part, limit):
+        """By experiments/table1, which keeps and resumes by itself; the figure of the row's scene is drawn of the whole run."""
+        o, log = self.options, self.out / part.folder / f"{part.row}_{'windows' if part.windows else 'whole'}.log"
+        extra = ["--skip", "whole", "--window", o.window] if part.windows else ["--skip", "cpu"]
+        seconds = [] if math.isinf(limit.left()) else ["--seconds", int(limit.left())]
+        with DeviceMemory(self.out / part.folder / f"{part.row}_device_memory.json", part.gpu and o.backend == "cuda"):
+            where = [self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend]
+            code = command_in([TABLE1, self.program, *where, *extra, *seconds], log, Limit())
+        if code == LEFT_FOR_THE_NEXT:
+            return STOPPED
+        if code != 0:
+            raise RunFailure(f"experiments/table1 {part.row}: exit status {code}\n  {last_lines(log)}")
+        if part.figure and not part.windows:
+            link = self.out / part.figure / "run"
+            link.parent.mkdir(parents=True, exist_ok=True)
+            if not link.is_symlink():
+                link.symlink_to(os.path.relpath(self.out / part.folder / part.row / "whole", link.parent))
+        return FINISHED if log.read_text().strip() else KEPT
+
+    def limit(self):
+        """Of the part that begins now."""
+        seconds = min(self.options.seconds or math.inf, self.all.left())
+        return Limit(None if math.isinf(seconds) else max(seconds, 1e-9))
+
+    def do(self, name):
+        """Makes a part; prints its line. True where it failed."""
+        part, begun, words = self.book[name], time.monotonic(), ""
+        limit = self.limit()
+        if limit.left() == 0:
+            print(f"{name:24} not begun: no time is left; call again to go on")
+            return False
+        try:
+            end = self.table(part, limit) if part.row else self.chains(part, limit)
+        except RunFailure as problem:
+            end, words = FAILED, f"\n  {problem}"
+        print(f"{name:24} {time.monotonic() - begun:7.1f} s  {end}{words}", flush=True)
+        return end == FAILED
+
+
+def run_folders(out, part):
+    """Finished run folders of a part, or failed ones where to fail is a result."""
+    if part.row:
+        found = sorted((out / part.folder / part.row).glob("cpu_*" if part.windows else "whole*"))
+    else:
+        found = [out / part.folder / job.name for jobs in part.chains for job in jobs]
+    return [folder for folder in found if manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton"))]
+
+
+def chosen_frames(folder, part):
+    """The part's frames of a run: the first, evenly on to the last, and the last ones."""
+    frames = sorted((folder / "frames").glob("frame_*.h5"))
+    spread = {round(i * (len(frames) - 1) / (part.frames - 1)) for i in range(part.frames)} if part.frames > 1 and frames else set()
+    return [frame for i, frame in enumerate(frames) if i in spread or i >= len(frames) - part.last]
+
+
+def files_of(out, part):
+    """What is packed of a part."""
+    for folder in run_folders(out, part):
+        frames = chosen_frames(folder, part)
+        yield from (folder / name for name in ("run.json", "steps.csv", "iterations.csv") if (folder / name).is_file())
+        yield from frames
+        if frames:
+            yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())
+    yield from sorted((out / part.folder).glob("*_device_memory.json")) if part.gpu else ()
+    if part.figure and (out / part.figure / "run").is_symlink():
+        yield out / part.figure / "run"
+
+
+def pack(out, book, folder):
+    """Pieces of one archive of every finished part that was not packed before, as long as they fit; returns lines about them."""
+    kept, lines = out / "packed.json", []
+    packed = json.loads(kept.read_text()) if kept.is_file() else {}
+    folder.mkdir(parents=True, exist_ok=True)
+    whole = out / "packed.tar.gz"
+    with tarfile.open(whole, "w:gz", compresslevel=6) as archive:
+        for name, part in book.items():
+            files = list(files_of(out, part))
+            runs = [path.parent.as_posix() for path in files if path.name == "run.json"]
+            if not runs or packed.get(name) == runs:
+                continue
+            size = sum(path.lstat().st_size for path in files)
+            if archive.fileobj.fileobj.tell() + size > TOTAL:  # as if nothing were compressed
+                lines.append(f"{name}: {size / 2**20:.1f} MiB did not fit; pack again")
+                continue
+            for path in dict.fromkeys(files):
+                archive.add(path, path.relative_to(out).as_posix())
+            packed[name] = runs
+            lines.append(f"{name}: {len(runs)} runs, {size / 2**20:.1f} MiB")
+    data = whole.read_bytes()
+    for number, first in enumerate(range(0, len(data), PIECE)):
+        (folder / f"runs_{number:02d}").write_bytes(data[first:first + PIECE])
+    whole.unlink()
+    kept.write_text(json.dumps(packed))
+    return [*lines, f"{-(-len(data) // PIECE)} pieces in {folder}, {len(data) / 2**20:.1f} MiB"]
+
+
+def unpack(folder, out, program):
+    """Unpacks what `pack` made, and assembles what draws the meshes (trajectory.vtkhdf) of the frames that came along."""
+    out.mkdir(parents=True, exist_ok=True)
+    whole = out / "packed.tar.gz"
+    whole.write_bytes(b"".join(path.read_bytes() for path in sorted(folder.glob("runs_*"))))
+    with tarfile.open(whole) as archive:
+        names = archive.getnames()
+        archive.extractall(out)
+    whole.unlink()
+    for run in sorted({(out / name).parent for name in names if name.endswith("run.json")}):
+        if any((run / "frames").glob("*")) and not (run / "trajectory.vtkhdf").is_file():
+            scratch = run / "exported"
+            subprocess.run([str(program), "export", str(run), "--format", "obj", "--out", str(scratch)], check=True, stdout=subprocess.DEVNULL)
+            for path in scratch.iterdir():
+                path.unlink()
+            scratch.rmdir()
+        print(run)
+    for link in [path for path in out.glob("*/run") if path.is_symlink()]:  # accept.py looks into folders alone
+        run = link.resolve()
+        link.unlink()
+        shutil.copytree(run, link)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], epilog="Parts, the most wanted first: " + " ".join(parts("paper", "cuda")))
+    parser.add_argument("parts", nargs="*", metavar="PART", help="default: all, in their order")
+    parser.add_argument("--program", default="build/default/ogc", help="ogc")
+    parser.add_argument("--out", required=True, help="where the runs go")
+    parser.add_argument("--scale", default="paper", choices=("smoke", "small", "paper"))
+    parser.add_argument("--backend", default="cuda", choices=("cpu", "cuda"))
+    parser.add_argument("--seconds", type=float, help="limit of each part")
+    parser.add_argument("--all-seconds", type=float, help="limit of all parts together")
+    parser.add_argument("--jobs", type=int, default=1, help="chains of a part that run side by side")
+    parser.add_argument("--window", type=int, default=200, help="steps of a CPU window of Table 1")
+    parser.add_argument("--pack", type=Path, metavar="FOLDER", help="pack, and run nothing")
+    parser.add_argument("--unpack", type=Path, metavar="FOLDER", help="unpack, and run nothing")
+    return parser
+
+
+def main():
+    parser = arguments()
+    options = parser.parse_args()
+    if options.pack:
+        print("\n".join(pack(Path(options.out), parts(options.scale, options.backend), options.pack)))
+    elif options.unpack:
+        unpack(options.unpack, Path(options.out), options.program)
+    else:
+        machine = Machine(options)
+        unknown = [name for name in options.parts if name not in machine.book]
+        if unknown:
+            parser.error(f"no part {', '.join(unknown)}; there are: {', '.join(machine.book)}")
+        sys.exit(1 if any([machine.do(name) for name in options.parts or machine.book]) else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+// Work counted by hand beside work counted by carrying it out.
+#include "fast/contestant.hpp"
+
+#include "compare/problem/scene.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc;
+
+namespace {
+
+/// A triangle at height 0 and one at `height`, as two free bodies; r [m].
+compare::Scene two_triangles(double height, double contact_radius) {
+  compare::Scene scene;
+  for (const double y : {0.0, height}) {
+    compare::Mesh mesh;
+    mesh.positions = {{0, y, 0}, {1, y, 0}, {0, y, 1}};
+    mesh.triangles = {{0, 1, 2}};
+    compare::Body body;
+    body.name = y == 0 ? "low" : "high";
+    append_body(scene, body, mesh);
+  }
+  scene.settings.contact_radius = contact_radius;
+  return scene;
+}
+
+fast::SearchWork work_of(const compare::Scene& scene) {
+  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
+  return fast::search_work(scene, positions, static_cast<float>(scene.settings.contact_radius));
+}
+
+}  // namespace
+
+TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand", "[unit]") {
+  // Trees of four primitives a node. Edges: six in two leaves under a root; each of the six searches opens the root and the second leaf, and the three at places
+  // 0 to 2, which look at places up to 3, the first leaf, too: 6 + 6 + 3. Vertices: six searches through root and leaf of two facets: 12.
+  // Edges are offered those behind them: 15 pairs. Vertices are offered both facets: 12. What shares a vertex has no distance: 3 · 3 edges and 3 + 3 vertices do.
+  const fast::SearchWork work = work_of(two_triangles(0.1, 10));
+  CHECK(work.nodes == 15 + 12);
+  CHECK(work.candidates == 15 + 12);
+  CHECK(work.distances == 9 + 6);
+  CHECK(work.flop > work.distances);
+  CHECK(work.bytes > work.nodes * 4 * 6 * sizeof(float));
+}
+
+TEST_CASE("what lies beyond the radius costs no distance", "[property]") {
+  const fast::SearchWork near = work_of(two_triangles(0.1, 0.2)), far = work_of(two_triangles(0.1, 0.05));
+  CHECK(far.distances == 0);
+  CHECK(near.distances > 0);
+  CHECK(far.nodes <= near.nodes);
+  CHECK(far.candidates <= near.candidates);
+}
+
+TEST_CASE("positions of another mesh are refused", "[unit]") {
+  const compare::Scene scene = two_triangles(0.1, 0.2);
+  CHECK_THROWS_AS(fast::search_work(scene, std::vector<compare::Vec3f>(5), 0.2F), std::invalid_argument);
+}
