@@ -26,7 +26,7 @@ struct SkinState {
   float margin = 0;           ///< m of the list [m]
   float listed_radius = 0;    ///< r_q of the anchor [m]
   float bound = 0;            ///< 2δ + m/16: with it D is above the smallest distance now [m]
-  int count = 0;              ///< pairs kept, also those that found no room
+  int count = 0, most = 0;    ///< pairs kept, also those that found no room; the most of any list before this one
   int searches = 0, listings = 0, rechecks = 0;  ///< detections of each sort so far
   int rechecks_of_list = 0, patience = 0, wait = 0;  ///< uses of this list; searches without one after a list that nothing used, and how many are left
 };
@@ -93,6 +93,7 @@ struct ChooseSkinMode {
       ++s.rechecks, ++s.rechecks_of_list;
       return;
     }
+    if (s.has_list != 0) s.most = s.count > s.most ? s.count : s.most;
     if (s.has_list != 0) s.patience = s.wait = s.rechecks_of_list > 0 ? 0 : (s.patience < 31 ? 2 * s.patience + 1 : 63);
     const float least = mul(skin.largest_margin, 0x1p-3F), wanted = larger(least, drift * (6 / drift_of_margin));
     const float margin = smaller(skin.largest_margin, wanted);

@@ -38,11 +38,12 @@ class Skin {
     state_.upload(&fresh, 1);
   }
 
-  /// Host only: room for half as many pairs again as the last list had, where that found none; true where something moved.
+  /// Host only: room for half as many pairs again as the longest list had, where that found none; true where something moved.
   bool make_room() {
     const SkinState now = state();
-    if (now.has_list == 0 || now.count <= capacity_) return false;
-    capacity_ = now.count + now.count / 2;
+    const int most = std::max(now.most, now.count);
+    if (most <= capacity_) return false;
+    capacity_ = most + most / 2;
     pairs_.resize(static_cast<std::size_t>(capacity_));
     forget();
     return true;
