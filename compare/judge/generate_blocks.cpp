@@ -2,6 +2,7 @@
 // decided by a point on, or a rung beside, the end of a block.
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "compare/judge/block_questions.hpp"
 #include "compare/judge/generators.hpp"
@@ -10,7 +11,7 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr int questions_a_mesh = 48;
+constexpr int questions_a_mesh = 48, questions_a_field = 2000;
 constexpr std::size_t neighbours = 8;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -54,13 +55,25 @@ class Asker {
   /// One of the nearest vertices, of fine cases the nearest; in one of eight other cases any.
   Index near(Index v) {
     if (!random_.is_fine() && random_.one_in(8)) return random_.below(topology_.vertex_count);
+    if (random_.is_fine()) return nearest(v);
     std::vector<std::pair<double, Index>> others;
     for (Index w = 0; w < topology_.vertex_count; ++w)
       if (w != v) others.emplace_back(squared_distance(positions_[at(v)], positions_[at(w)]), w);
     if (others.empty()) return v;
-    const std::size_t kept = std::min(others.size(), random_.is_fine() ? 1 : neighbours);
+    const std::size_t kept = std::min(others.size(), neighbours);
     std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(kept), others.end());
     return others[at(random_.below(static_cast<int>(kept)))].second;
+  }
+
+  /// The lowest-numbered one of the nearest other vertices; v where there is none.
+  Index nearest(Index v) const {
+    Index best = v;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index w = 0; w < topology_.vertex_count; ++w) {
+      const double d = w == v ? least : squared_distance(positions_[at(v)], positions_[at(w)]);
+      if (d < least) best = w, least = d;
+    }
+    return best;
   }
 
   Index edge_at(Index v) {
@@ -92,18 +105,18 @@ class Asker {
 };
 
 /// The mesh that the detections' generator of this name makes of these random numbers.
-template <const auto& family>
+template <const auto& family, int count = questions_a_mesh>
 CaseData about(Random& random) {
   MeshCase mesh = std::get<MeshCase>(find_generator(Stage::detect_vertex_facet, family).make(random));
   BlockCase block{std::move(mesh.topology), std::move(mesh.positions), {}};
-  block.questions = block_questions(random, *block.topology, block.positions, questions_a_mesh);
+  block.questions = block_questions(random, *block.topology, block.positions, count);
   return block;
 }
 
 constexpr std::string_view soup = "soup", cloth = "cloth", few = "few", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold",
-                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands", boundary = "ladder.boundary";
+                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands", boundary = "ladder.boundary", field = "ladder.field";
 
-constexpr std::array<Generator, 12> table{{{soup, 16, true, about<soup>},
+constexpr std::array<Generator, 13> table{{{soup, 16, true, about<soup>},
                                            {cloth, 16, true, about<cloth>},
                                            {few, 2, true, about<few>},
                                            {lattice, 16, false, about<lattice>},
@@ -114,7 +127,8 @@ constexpr std::array<Generator, 12> table{{{soup, 16, true, about<soup>},
                                            {above, 7, false, about<above>},
                                            {book, 6, false, about<book>},
                                            {strands, 6, false, about<strands>},
-                                           {boundary, 900, false, about<boundary>}}};
+                                           {boundary, 900, false, about<boundary>},
+                                           {field, 15000, false, about<field, questions_a_field>, 1000000}}};
 
 }  // namespace
 

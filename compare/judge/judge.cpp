@@ -22,6 +22,7 @@ namespace ogc::compare {
 
 namespace {
 
+// Meshes of a batch; one where a mesh has thousands of vertices.
 constexpr std::uint64_t mesh_batch = 4;
 
 /// The run of one generator: batches of consecutive indices until `cases` are counted.
@@ -46,7 +47,7 @@ class GeneratorRun {
 
  private:
   std::vector<TestCase> batch(std::uint64_t number) const {
-    const std::uint64_t size = is_mesh_stage(stage_) ? mesh_batch : options_.batch;
+    const std::uint64_t size = !is_mesh_stage(stage_) ? options_.batch : generator_.least > 0 ? 1 : mesh_batch;
     const std::uint64_t first = number * size, last = is_mesh_stage(stage_) ? first + size : std::min(first + size, wanted_);
     std::vector<TestCase> cases;
     cases.reserve(first < last ? last - first : 0);

@@ -41,15 +41,11 @@ void MeshBuilder::strand(int count, const Vec3& start, const Vec3& step) {
   }
 }
 
-void MeshBuilder::repeat(const Vec3& shift) {
-  const std::size_t vertex_count = points.size(), triangle_count = triangles.size(), edge_count = loose_edges.size();
-  const Index base = static_cast<Index>(vertex_count);
-  for (std::size_t i = 0; i < vertex_count; ++i) add(sum(points[i], shift));
-  for (std::size_t i = 0; i < triangle_count; ++i) {
-    const Triangle t = triangles[i];
-    triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-  }
-  for (std::size_t i = 0; i < edge_count; ++i) loose_edges.push_back({loose_edges[i][0] + base, loose_edges[i][1] + base});
+void MeshBuilder::append(const MeshBuilder& part, const Vec3& shift) {
+  const Index base = static_cast<Index>(points.size());
+  for (const Vec3& p : part.points) add(sum(p, shift));
+  for (const Triangle& t : part.triangles) triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  for (const Edge& e : part.loose_edges) loose_edges.push_back({e[0] + base, e[1] + base});
 }
 
 void MeshBuilder::group(Index first, Index number) {

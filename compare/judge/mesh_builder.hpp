@@ -21,8 +21,10 @@ struct MeshBuilder {
   void fan(int count, const Vec3& centre, bool closed, double rise);
   /// A polyline of loose edges from `start`, in `count` steps.
   void strand(int count, const Vec3& start, const Vec3& step);
+  /// Adds another mesh, shifted.
+  void append(const MeshBuilder& part, const Vec3& shift);
   /// Copies all that there is, shifted.
-  void repeat(const Vec3& shift);
+  void repeat(const Vec3& shift) { append(MeshBuilder(*this), shift); }
   /// Puts the vertices from `first` on into a group.
   void group(Index first, Index number);
 };

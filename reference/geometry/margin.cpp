@@ -133,40 +133,59 @@ Points<T> constants(const std::array<std::array<double, 3>, 4>& delta) {
   return points;
 }
 
-/// Σ|∂m/∂δᵢ||δᵢ| over the first `count` points after the origin.
-template <std::size_t count>
-double sensitivity(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
-  using Number = Dual<3 * count>;
-  Points<Number> points{};
-  for (std::size_t i = 1; i <= count; ++i) {
-    const std::size_t first = 3 * (i - 1);
-    points[i] = {Number(delta[i][0], first), Number(delta[i][1], first + 1), Number(delta[i][2], first + 2)};
-  }
-  const Number m = evaluate(margin.kind, points, Number(margin.radius));
-  double sum = 0;
-  for (std::size_t i = 0; i < 3 * count; ++i) sum += std::abs(m.slope[i] * delta[1 + i / 3][i % 3]);
-  return sum;
-}
+/// Σ|sᵢxᵢ|.
+double spread(const Point<double>& slope, const Point<double>& x) { return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z); }
+
+Point<double> operator*(double s, const Point<double>& a) { return {s * a.x, s * a.y, s * a.z}; }
+Point<double> operator+(const Point<double>& a, const Point<double>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
 /// Of `side`, m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c) + c × (e × p).
-double side_sensitivity(const std::array<std::array<double, 3>, 4>& delta) {
-  const Points<double> at = constants<double>(delta);
-  const Point<double> &e = at[1], &c = at[2], &p = at[3], by_p = cross(cross(e, c), e), by_c = cross(cross(e, p), e);
-  const Point<double> first = cross(p, cross(e, c)), second = cross(c, cross(e, p));
-  const auto spread = [](const Point<double>& slope, const Point<double>& x) {
-    return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z);
-  };
-  return spread(by_p, p) + spread(by_c, c) + spread({first.x + second.x, first.y + second.y, first.z + second.z}, e);
+double side_sensitivity(const Points<double>& at) {
+  const Point<double> &e = at[1], &c = at[2], &p = at[3], to_c = cross(e, c), to_p = cross(e, p);
+  return spread(cross(to_c, e), p) + spread(cross(to_p, e), c) + spread(cross(p, to_c) + cross(c, to_p), e);
 }
 
-/// The two margins that are asked about most have their derivatives written out.
-double sensitivity(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta, const Measured& m) {
+/// Of `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), by its own place ∂m/∂q = v × (x × v), and
+/// ∂m/∂v = (x × v) × q + (q × v) × x, which goes to q₁ and with the other sign to q.
+double turn_sensitivity(const Points<double>& at) {
+  const Point<double> &x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v), by_v = cross(of_x, q) + cross(of_q, x);
+  return spread(cross(v, of_q), x) + spread(cross(v, of_x) - by_v, q) + spread(by_v, at[3]);
+}
+
+/// Of `parallel`, m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u, ∂m/∂v = 2·10⁶ c × u − 2 (u·u) v.
+double parallel_sensitivity(const Points<double>& at) {
+  const Point<double> &u = at[1], v = at[3] - at[2], c = cross(u, v);
+  const Point<double> by_u = 2e6 * cross(v, c) - 2 * dot(v, v) * u, by_v = 2e6 * cross(c, u) - 2 * dot(u, u) * v;
+  return spread(by_u, u) + spread(by_v, at[2]) + spread(by_v, at[3]);
+}
+
+/// Of a point's gap from a line, m = c·c − r² e·e with c = e × p: ∂m/∂p = 2 c × e, ∂m/∂e = 2 (p × c − r² e).
+double line_sensitivity(const Points<double>& at, double radius) {
+  const Point<double> &e = at[1], &p = at[2], c = cross(e, p);
+  return 2 * (spread(cross(c, e), p) + spread(cross(p, c) - radius * radius * e, e));
+}
+
+/// Of the gap between two lines or of a point from a plane, m = (w·n)² − r² n·n with n = u × v: with s = 2 w·n and g = ∂m/∂n = s w − 2 r² n it is
+/// ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w of a plane, u, w, w + v of two lines.
+double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
+  const Point<double> &u = at[1], w = is_plane ? at[3] : at[2], v = is_plane ? at[2] : at[3] - at[2], n = cross(u, v);
+  const double s = 2 * dot(w, n);
+  const Point<double> g = s * w - 2 * radius * radius * n, by_u = cross(v, g), by_v = cross(g, u), by_w = s * n;
+  if (is_plane) return spread(by_u, u) + spread(by_v, v) + spread(by_w, w);
+  return spread(by_u, u) + spread(by_w - by_v, w) + spread(by_v, at[3]);
+}
+
+/// Σ|∂m/∂δᵢ||δᵢ|, derivatives written out, as they are asked for in every doubtful decision; `delta` as `relative` gives it.
+double sensitivity_at(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
+  const Points<double> at = constants<double>(delta);
   switch (margin.kind) {
-    case MarginKind::along: return 2 * m.modulus;  // each term is a product of two coordinates that stand in no other term
-    case MarginKind::side: return side_sensitivity(delta);
-    case MarginKind::gap_points: return sensitivity<1>(margin, delta);
-    case MarginKind::gap_line: return sensitivity<2>(margin, delta);
-    default: return sensitivity<3>(margin, delta);
+    case MarginKind::along: return 2 * (std::abs(at[1].x * at[2].x) + std::abs(at[1].y * at[2].y) + std::abs(at[1].z * at[2].z));
+    case MarginKind::side: return side_sensitivity(at);
+    case MarginKind::turn: return turn_sensitivity(at);
+    case MarginKind::parallel: return parallel_sensitivity(at);
+    case MarginKind::gap_points: return 2 * dot(at[1], at[1]);
+    case MarginKind::gap_line: return line_sensitivity(at, margin.radius);
+    default: return gap_sensitivity(at, margin.radius, margin.kind == MarginKind::gap_plane);
   }
 }
 
@@ -254,6 +273,8 @@ double size(const Margin& margin) {
 
 }  // namespace
 
+double sensitivity(const Margin& margin) { return sensitivity_at(margin, relative(margin)); }
+
 int sign(const Margin& margin) { return filtered_sign(margin, measured(margin, relative(margin))); }
 
 int compare_distances(const Margin& a, const Margin& b) {
@@ -277,7 +298,7 @@ MarginAnswer examine(const Margin& margin) {
   const double modulus = std::abs(m.value);
   // Twice the bound, so that the roundings of m cannot hide a near case.
   if (modulus > 2 * compare::near_factor * degree(margin.kind) * m.modulus) return answer;
-  const double reach = sensitivity(margin, delta, m);
+  const double reach = sensitivity_at(margin, delta);
   answer.grey = reach > 0 && modulus <= compare::grey_factor * reach;
   answer.near = modulus <= compare::near_factor * reach;
   return answer;
@@ -287,7 +308,7 @@ bool grey(const Margin& margin) {
   const auto delta = relative(margin);
   const Measured m = measured(margin, delta);
   if (std::abs(m.value) > 2 * compare::grey_factor * degree(margin.kind) * m.modulus) return false;
-  const double reach = compare::grey_factor * sensitivity(margin, delta, m);
+  const double reach = compare::grey_factor * sensitivity_at(margin, delta);
   return reach > 0 && std::abs(m.value) <= reach;
 }
 

@@ -129,3 +129,18 @@ TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision bo
     CHECK(report.tally.near_share() >= 0.5);
   }
 }
+
+TEST_CASE("of the meshes that large runs are made of, half of the cases lie within 1024 ulp of a decision boundary too, and the reference passes", "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant exact = tests::exact_contestant(authority);
+  for (const Stage stage : {Stage::block, Stage::detect_vertex_facet, Stage::detect_edge_edge}) {
+    JudgeOptions options;
+    options.cases = 20000;
+    options.generator = "ladder.field";
+    const StageReport report = judge_stage(stage, exact, authority, options);
+    INFO(stage_name(stage));
+    CHECK(report.passed());
+    CHECK(report.tally.questions < 40);  // meshes of more than a thousand cases
+    CHECK(report.tally.near_share() >= 0.5);
+  }
+}
