@@ -2,8 +2,10 @@
 #include "experiments/plugins/contestant.hpp"
 
 #include <chrono>
-#include <cstring>
 #include <utility>
+
+#include "experiments/plugins/arrays.hpp"
+#include "experiments/plugins/scenes.hpp"
 
 namespace ogc::experiments {
 
@@ -22,53 +24,6 @@ static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) && offs
 static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) && offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));
 
 using Plugin = std::shared_ptr<PluginProcess>;
-
-QuestionSizes sizes_of(const Topology& topology) {
-  return {0, topology.vertex_count, static_cast<std::int32_t>(topology.edges.size()), static_cast<std::int32_t>(topology.triangles.size()), 0, 0};
-}
-
-QuestionSizes sizes_of(std::size_t cases) {
-  QuestionSizes sizes;
-  sizes.cases = static_cast<std::int64_t>(cases);
-  return sizes;
-}
-
-std::vector<Bytes> inputs_of(const Topology& topology) {
-  std::vector<Bytes> inputs{bytes_of(topology.edges), bytes_of(topology.triangles), bytes_of(topology.triangle_edges)};
-  for (const CompressedRows* rows : {&topology.vertex_edges, &topology.vertex_triangles, &topology.vertex_neighbours, &topology.edge_triangles,
-                                     &topology.edge_opposite}) {
-    inputs.push_back(bytes_of(rows->offsets));
-    inputs.push_back(bytes_of(rows->items));
-  }
-  return inputs;
-}
-
-/// Outputs become vectors one after another.
-class Outputs {
- public:
-  explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
-  template <class... Items>
-  void to(Items&... items) {
-    (next(items), ...);
-  }
-
- private:
-  template <class T>
-  void next(std::vector<T>& items) {
-    const auto& bytes = answer_.outputs[next_++];
-    items.resize(bytes.size() / sizeof(T));
-    if (!bytes.empty()) std::memcpy(static_cast<void*>(items.data()), bytes.data(), items.size() * sizeof(T));
-  }
-
-  const PluginProcess::Answer& answer_;
-  std::size_t next_ = 0;
-};
-
-/// A face as the plug-in wrote it.
-Face face(std::int32_t kind, std::int32_t index) {
-  if (kind < 0 || kind > 2) throw ContestantFailure("a contact names a face of kind " + std::to_string(kind) + "; known: 0 vertex, 1 edge, 2 triangle");
-  return {static_cast<FaceKind>(kind), index};
-}
 
 ClosestFaceOut ask_closest_face(PluginProcess& plugin, const ClosestFaceIn& in) {
   const std::vector<Bytes> inputs{bytes_of(in.point), bytes_of(in.triangle)};
@@ -101,7 +56,7 @@ DetectVertexFacetOut ask_detect_vertex_facet(PluginProcess& plugin, const Detect
   DetectVertexFacetOut out;
   std::vector<ogc_vertex_facet_contact> contacts;
   Outputs(answer).to(contacts, out.d_min_vertex, out.d_min_triangle);
-  for (const auto& c : contacts) out.contacts.push_back({c.vertex, face(c.kind, c.face), c.owner});
+  for (const auto& c : contacts) out.contacts.push_back(contact_of(c));
   return out;
 }
 
@@ -110,7 +65,7 @@ DetectEdgeEdgeOut ask_detect_edge_edge(PluginProcess& plugin, const DetectIn& in
   DetectEdgeEdgeOut out;
   std::vector<ogc_edge_edge_contact> contacts;
   Outputs(answer).to(contacts, out.d_min_edge);
-  for (const auto& c : contacts) out.contacts.push_back({face(c.first_kind, c.first_face), face(c.second_kind, c.second_face), c.first_edge, c.second_edge});
+  for (const auto& c : contacts) out.contacts.push_back(contact_of(c));
   return out;
 }
 
@@ -187,6 +142,9 @@ void visit_stages(Visit visit) {
   visit("bending", &Contestant::bending);
   visit("spring", &Contestant::spring);
   visit("truncate", &Contestant::truncate);
+  visit("rest_state", &Contestant::rest_state);
+  visit("sweep", &Contestant::sweep);
+  visit("step", &Contestant::step);
 }
 
 template <class Out, class In>
@@ -221,6 +179,9 @@ Contestant plugin_contestant(Plugin plugin) {
   c.bending = [plugin](const BendingIn& in) { return ask_force(*plugin, "bending", in); };
   c.spring = [plugin](const SpringIn& in) { return ask_force(*plugin, "spring", in); };
   c.truncate = [plugin](const TruncateIn& in) { return ask_truncate(*plugin, in); };
+  c.rest_state = [plugin](const RestStateIn& in) { return ask_rest_state(*plugin, in); };
+  c.sweep = [plugin](const SweepIn& in) { return ask_sweep(*plugin, in); };
+  c.step = [plugin](const StepIn& in) { return ask_step(*plugin, in); };
   visit_stages([&](const char* name, auto member) {
     if (!plugin->has(name)) c.*member = nullptr;
   });

@@ -67,8 +67,6 @@ bool ended_by_itself(pid_t process, int& status) {
   return false;
 }
 
-bool is_contact_list(const OutputInfo& info) { return info.per == Per::contact; }
-
 }  // namespace
 
 PluginProcess::PluginProcess(PluginOptions options) : options_(std::move(options)), limit_seconds_(options_.limit_seconds) {
@@ -111,7 +109,7 @@ PluginProcess::Answer PluginProcess::ask(std::string_view stage_name, const Ques
   if (result.status == CallResult::Status::broken) stop();
   if (result.status != CallResult::Status::answered) throw ContestantFailure(why);
   Answer answer;
-  answer.contacts = static_cast<std::size_t>(result.contacts);
+  answer.counts = result.counts;
   for (std::size_t k = 0; k < stage.outputs.size(); ++k) answer.outputs.push_back(receive());
   seconds_[std::string(stage_name)] += result.seconds;
   note(stage, answer);
@@ -180,8 +178,9 @@ void PluginProcess::note(const PluginStage& stage, const Answer& answer) {
         not_a_number = static_cast<std::uint64_t>(std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return std::isnan(std::bit_cast<float>(w)); })) - unwritten;
     }
     const std::string name = std::string(stage.name) + "." + std::string(info.name);
-    if (unwritten > 0 && is_contact_list(info))
-      throw ContestantFailure("it counted " + std::to_string(answer.contacts) + " contacts, and did not write all of them");
+    if (unwritten > 0 && info.list != List::none)
+      throw ContestantFailure("it counted " + std::to_string(answer.counts[static_cast<std::size_t>(info.list)]) + " " + std::string(list_name(info.list)) +
+                              ", and did not write all of them" + " (`" + std::string(info.name) + "`)");
     if (unwritten > 0) notes_.unwritten[name] += unwritten;
     if (not_a_number > 0) notes_.not_a_number[name] += not_a_number;
   }

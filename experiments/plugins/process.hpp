@@ -41,7 +41,7 @@ class PluginProcess {
 
   struct Answer {
     std::vector<std::vector<std::byte>> outputs;  ///< of the stage, in its order
-    std::size_t contacts = 0;
+    ListSizes counts{};
   };
   /// Throws ContestantFailure where there is no answer: what the plug-in did instead.
   Answer ask(std::string_view stage, const QuestionSizes& sizes, std::span<const Bytes> inputs);

@@ -40,22 +40,22 @@ int call_closest_points(void* function, CallArrays& a) {
 
 ogc_detect_in detect_in(CallArrays& a) { return {topology(a), a.in(), a.in(), a.sizes.first, a.sizes.second}; }
 
-constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::contact}, OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex},
+constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::one, List::vertex_facet}, OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex},
                                    OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle}};
 int call_detect_vertex_facet(void* function, CallArrays& a) {
   const ogc_detect_in in = detect_in(a);
-  ogc_detect_vertex_facet_out out{a.out(), a.capacity, -1, a.out(), a.out()};
+  ogc_detect_vertex_facet_out out{a.out(), a.capacity(List::vertex_facet), -1, a.out(), a.out()};
   const int status = call(function, in, out);
-  a.count = out.count;
+  a.count(List::vertex_facet) = out.count;
   return status;
 }
 
-constexpr std::array edge_outputs{OutputInfo{"contacts", Element::index, 6, Per::contact}, OutputInfo{"d_min_edge", Element::number, 1, Per::edge}};
+constexpr std::array edge_outputs{OutputInfo{"contacts", Element::index, 6, Per::one, List::edge_edge}, OutputInfo{"d_min_edge", Element::number, 1, Per::edge}};
 int call_detect_edge_edge(void* function, CallArrays& a) {
   const ogc_detect_in in = detect_in(a);
-  ogc_detect_edge_edge_out out{a.out(), a.capacity, -1, a.out()};
+  ogc_detect_edge_edge_out out{a.out(), a.capacity(List::edge_edge), -1, a.out()};
   const int status = call(function, in, out);
-  a.count = out.count;
+  a.count(List::edge_edge) = out.count;
   return status;
 }
 
@@ -104,6 +104,93 @@ int call_block(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
+// Of a scene, after its topology.
+constexpr std::size_t scene_inputs = topology_inputs + 5;
+ogc_scene scene(CallArrays& a) {
+  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs, a.in(), a.in(), a.in(), a.in(), a.in(), a.sizes.settings, a.sizes.gravity};
+}
+
+constexpr std::array rest_outputs{
+    OutputInfo{"mass", Element::number, 1, Per::vertex},
+    OutputInfo{"corner", Element::index, 3, Per::one, List::triangles},
+    OutputInfo{"triangle_body", Element::index, 1, Per::one, List::triangles},
+    OutputInfo{"area", Element::number, 1, Per::one, List::triangles},
+    OutputInfo{"gradient", Element::number, 4, Per::one, List::triangles},
+    OutputInfo{"hinge_vertex", Element::index, 4, Per::one, List::hinges},
+    OutputInfo{"hinge_body", Element::index, 1, Per::one, List::hinges},
+    OutputInfo{"rest_angle", Element::number, 1, Per::one, List::hinges},
+    OutputInfo{"hinge_stiffness", Element::number, 1, Per::one, List::hinges},
+    OutputInfo{"weight", Element::number, 3, Per::one, List::hinges},
+    OutputInfo{"edge_length_squared", Element::number, 1, Per::edge},
+    OutputInfo{"meeting_stiffness", Element::number, 1, Per::two_bodies},
+    OutputInfo{"meeting_friction", Element::number, 1, Per::two_bodies},
+};
+ogc_rest_state_out rest_out(CallArrays& a) {
+  return {a.out(), a.capacity(List::triangles), -1, a.capacity(List::hinges), -1, a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(),
+          a.out(), a.out()};
+}
+void take_counts(CallArrays& a, const ogc_rest_state_out& out) {
+  a.count(List::triangles) = out.triangle_count;
+  a.count(List::hinges) = out.hinge_count;
+}
+int call_rest_state(void* function, CallArrays& a) {
+  const ogc_scene in = scene(a);
+  ogc_rest_state_out out = rest_out(a);
+  const int status = call(function, in, out);
+  take_counts(a, out);
+  return status;
+}
+
+constexpr std::size_t rest_inputs = rest_outputs.size();
+ogc_rest rest(CallArrays& a) {
+  return {a.in(), a.sizes.rest_triangles, a.sizes.rest_hinges, a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in()};
+}
+
+constexpr std::array sweep_outputs{OutputInfo{"position", Element::number, 3, Per::vertex}, OutputInfo{"cut", Element::index, 1, Per::one}};
+int call_sweep(void* function, CallArrays& a) {
+  const ogc_sweep_in in{scene(a), rest(a), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.sizes.vertex_facet, a.sizes.edge_edge, a.in(), a.in()};
+  ogc_sweep_out out{a.out(), a.out()};
+  return call(function, in, out);
+}
+
+constexpr std::array trace_outputs{
+    OutputInfo{"colour", Element::index, 1, Per::vertex},
+    OutputInfo{"query_radius", Element::number, 1, Per::one},
+    OutputInfo{"target", Element::number, 3, Per::vertex},
+    OutputInfo{"position", Element::number, 3, Per::vertex},
+    OutputInfo{"velocity", Element::number, 3, Per::vertex},
+    OutputInfo{"kind", Element::index, 1, Per::one, List::events},
+    OutputInfo{"cut", Element::index, 1, Per::one, List::events},
+    OutputInfo{"event_position", Element::number, 3, Per::vertex, List::events},
+    OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex, List::detections},
+    OutputInfo{"bound", Element::number, 1, Per::vertex, List::detections},
+    OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle, List::detections},
+    OutputInfo{"d_min_edge", Element::number, 1, Per::edge, List::detections},
+    OutputInfo{"vertex_facet_end", Element::index, 1, Per::one, List::detections},
+    OutputInfo{"edge_edge_end", Element::index, 1, Per::one, List::detections},
+    OutputInfo{"vertex_facet", Element::index, 4, Per::one, List::vertex_facet},
+    OutputInfo{"edge_edge", Element::index, 6, Per::one, List::edge_edge},
+};
+template <std::size_t N, std::size_t M>
+constexpr std::array<OutputInfo, N + M> joined(const std::array<OutputInfo, N>& first, const std::array<OutputInfo, M>& second) {
+  std::array<OutputInfo, N + M> all{};
+  for (std::size_t k = 0; k < N + M; ++k) all[k] = k < N ? first[k] : second[k - N];
+  return all;
+}
+constexpr std::array step_outputs = joined(rest_outputs, trace_outputs);
+int call_step(void* function, CallArrays& a) {
+  const ogc_step_in in{scene(a), a.in(), a.in(), a.in()};
+  ogc_step_out out{rest_out(a), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::events), -1, a.out(), a.out(), a.out(), a.capacity(List::detections), -1,
+                   a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::vertex_facet), -1, a.capacity(List::edge_edge), -1, a.out(), a.out()};
+  const int status = call(function, in, out);
+  take_counts(a, out.rest);
+  a.count(List::events) = out.event_count;
+  a.count(List::detections) = out.detection_count;
+  a.count(List::vertex_facet) = out.vertex_facet_count;
+  a.count(List::edge_edge) = out.edge_edge_count;
+  return status;
+}
+
 constexpr std::array table{
     PluginStage{"closest_face", 2, face_outputs, call_closest_face},
     PluginStage{"closest_points", 2, points_outputs, call_closest_points},
@@ -119,18 +206,36 @@ constexpr std::array table{
     PluginStage{"bending", 1, force_outputs, call_force<ogc_bending_in>},
     PluginStage{"spring", 1, force_outputs, call_force<ogc_spring_in>},
     PluginStage{"truncate", 3, truncate_outputs, call_truncate},
+    PluginStage{"rest_state", scene_inputs, rest_outputs, call_rest_state},
+    PluginStage{"sweep", scene_inputs + rest_inputs + 8, sweep_outputs, call_sweep},
+    PluginStage{"step", scene_inputs + 3, step_outputs, call_step},
 };
 
 }  // namespace
 
-std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, std::int64_t contacts) {
-  switch (info.per) {
-    case Per::item: return static_cast<std::size_t>(sizes.cases);
-    case Per::vertex: return static_cast<std::size_t>(sizes.vertices);
-    case Per::edge: return static_cast<std::size_t>(sizes.edges);
-    case Per::triangle: return static_cast<std::size_t>(sizes.triangles);
-    default: return static_cast<std::size_t>(contacts);
-  }
+std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists) {
+  const auto of_each = [&]() -> std::int64_t {
+    switch (info.per) {
+      case Per::one: return 1;
+      case Per::item: return sizes.cases;
+      case Per::vertex: return sizes.vertices;
+      case Per::edge: return sizes.edges;
+      case Per::triangle: return sizes.triangles;
+      default: return std::int64_t{sizes.bodies} * sizes.bodies;
+    }
+  };
+  return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
+}
+
+// Contacts: a guess. Events and detections: all that Algorithm 3 can have, a detection before each round and each iteration.
+ListSizes first_capacities(const QuestionSizes& sizes) {
+  const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges), rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
+  return {1, contacts, contacts, sizes.triangles, sizes.hinges, 2 * rounds + 1, rounds + 1};
+}
+
+std::string_view list_name(List list) {
+  constexpr std::array<std::string_view, list_count> names{"", "contacts", "contacts", "triangles", "hinges", "events", "detections"};
+  return names[static_cast<std::size_t>(list)];
 }
 
 std::span<const PluginStage> plugin_stages() { return table; }

@@ -2,6 +2,7 @@
 // expects back. The judge's side (contestant.cpp) names the same arrays in the same order.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,25 +17,38 @@ struct QuestionSizes {
   std::int64_t cases = 0;
   std::int32_t vertices = 0, edges = 0, triangles = 0;
   float first = 0, second = 0;
-  friend bool operator==(const QuestionSizes&, const QuestionSizes&) = default;
+  std::int32_t hinges = 0, bodies = 0, springs = 0, rest_triangles = 0, rest_hinges = 0;  ///< of a scene, and of its rest state
+  std::int64_t vertex_facet = 0, edge_edge = 0;                                           ///< contacts that are given
+  ogc_settings settings{};
+  ogc_vec3 gravity{};
 };
 
 /// What the elements of an output are, and of what there is one group of them.
 enum class Element : std::uint8_t { number, byte, index };
-enum class Per : std::uint8_t { item, vertex, edge, triangle, contact };
+enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
+/// Outputs whose length the plug-in decides.
+enum class List : std::uint8_t { none, vertex_facet, edge_edge, triangles, hinges, events, detections };
+inline constexpr std::size_t list_count = 7;
+/// Of each list how many entries there are, or room for; 1 of `none`.
+using ListSizes = std::array<std::int64_t, list_count>;
 
 struct OutputInfo {
   std::string_view name;
   Element element;
   std::size_t elements;  ///< in a group
   Per per;
+  List list = List::none;  ///< so many groups for each entry of the list
 };
 
 /// Bytes of one element, and of one group.
 constexpr std::size_t bytes_of(Element element) { return element == Element::byte ? 1 : 4; }
 constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info.element) * info.elements; }
-/// How many groups there are; for contacts `contacts`.
-std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, std::int64_t contacts);
+/// How many groups there are.
+std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
+/// Room for the lists at the first call.
+ListSizes first_capacities(const QuestionSizes& sizes);
+/// What an entry of the list is called; in the plural.
+std::string_view list_name(List list);
 
 /// The arrays of one call, taken one after another.
 class CallArrays {
@@ -49,14 +63,17 @@ class CallArrays {
     }
   };
 
-  CallArrays(const QuestionSizes& of, std::span<const void* const> inputs, std::span<void* const> outputs, std::int64_t room)
-      : sizes(of), capacity(room), inputs_(inputs), outputs_(outputs) {}
+  CallArrays(const QuestionSizes& of, std::span<const void* const> inputs, std::span<void* const> outputs, const ListSizes& room)
+      : sizes(of), capacities(room), inputs_(inputs), outputs_(outputs) {}
   Any<const void> in() { return {inputs_[next_input_++]}; }
   Any<void> out() { return {outputs_[next_output_++]}; }
 
+  std::int64_t capacity(List list) const { return capacities[static_cast<std::size_t>(list)]; }
+  std::int64_t& count(List list) { return counts[static_cast<std::size_t>(list)]; }
+
   const QuestionSizes& sizes;
-  const std::int64_t capacity;  ///< of the list of contacts
-  std::int64_t count = 0;       ///< of contacts, as the plug-in says
+  const ListSizes& capacities;
+  ListSizes counts{1};  ///< as the plug-in says
 
  private:
   std::span<const void* const> inputs_;

@@ -4,10 +4,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,8 +24,6 @@ namespace {
 struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-std::string plural(std::int64_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
 /// The library, its stages, and the memory that it asks for.
 class Library {
@@ -57,7 +57,7 @@ class Call {
  public:
   Call(Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs)
       : library_(library), memory_(*library.memory), stage_(plugin_stages()[request.stage]), function_(library.functions[request.stage]), request_(request) {
-    capacity_ = 64 + 4 * (std::int64_t{request.sizes.vertices} + request.sizes.edges);
+    capacities_ = first_capacities(request.sizes);
     for (const auto& input : inputs) inputs_.push_back(memory_.input(input));
   }
   ~Call() {
@@ -72,20 +72,19 @@ class Call {
   /// Throws std::runtime_error that says what the plug-in did wrong.
   CallResult run() {
     CallResult result = attempt();
-    if (result.contacts > capacity_) {
-      const std::int64_t first = result.contacts;
-      capacity_ = first;
-      result = attempt();
-      if (result.contacts > capacity_)
-        throw std::runtime_error("it found " + plural(first, "contact") + ", and, given room for as many, " + std::to_string(result.contacts));
-    }
+    if (!too_long(result)) return result;
+    const ListSizes first = result.counts;
+    for (std::size_t k = 0; k < list_count; ++k) capacities_[k] = std::max(capacities_[k], first[k]);
+    result = attempt();
+    if (const auto k = too_long(result))
+      throw std::runtime_error("it found " + counted(first, *k) + ", and, given room for as many, " + counted(result.counts, *k));
     return result;
   }
 
   std::vector<std::vector<std::byte>> outputs(const CallResult& result) {
     std::vector<std::vector<std::byte>> all;
     for (std::size_t k = 0; k < stage_.outputs.size(); ++k)
-      all.push_back(memory_.content(first_ + k, group_bytes(stage_.outputs[k]) * groups(stage_.outputs[k], request_.sizes, result.contacts)));
+      all.push_back(memory_.content(first_ + k, group_bytes(stage_.outputs[k]) * groups(stage_.outputs[k], request_.sizes, result.counts)));
     return all;
   }
 
@@ -95,8 +94,8 @@ class Call {
     first_ += made_;
     made_ = stage_.outputs.size();
     for (const OutputInfo& info : stage_.outputs)
-      outputs.push_back(memory_.output(group_bytes(info) * groups(info, request_.sizes, capacity_), bytes_of(info.element)));
-    CallArrays arrays(request_.sizes, inputs_, outputs, capacity_);
+      outputs.push_back(memory_.output(group_bytes(info) * groups(info, request_.sizes, capacities_), bytes_of(info.element)));
+    CallArrays arrays(request_.sizes, inputs_, outputs, capacities_);
     memory_.synchronize();
     const auto start = std::chrono::steady_clock::now();
     const int status = stage_.call(function_, arrays);
@@ -104,9 +103,21 @@ class Call {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (status != 0) throw std::runtime_error("ogc_" + std::string(stage_.name) + " returned " + std::to_string(status) + " instead of 0");
     check_guards();
-    if (arrays.count < 0) throw std::runtime_error("it did not set `count`, or to a negative number (" + std::to_string(arrays.count) + ")");
-    return {CallResult::Status::answered, arrays.count, seconds};
+    for (std::size_t k = 0; k < list_count; ++k)
+      if (arrays.counts[k] < 0)
+        throw std::runtime_error("it did not set the count of " + std::string(list_name(static_cast<List>(k))) + ", or to a negative number (" +
+                                 std::to_string(arrays.counts[k]) + ")");
+    return {CallResult::Status::answered, arrays.counts, seconds};
   }
+
+  /// The first list that is longer than its room.
+  std::optional<std::size_t> too_long(const CallResult& result) const {
+    for (std::size_t k = 0; k < list_count; ++k)
+      if (result.counts[k] > capacities_[k]) return k;
+    return std::nullopt;
+  }
+
+  static std::string counted(const ListSizes& counts, std::size_t k) { return std::to_string(counts[k]) + " " + std::string(list_name(static_cast<List>(k))); }
 
   void check_guards() {
     for (std::size_t k = 0; k < stage_.outputs.size(); ++k) {
@@ -122,7 +133,7 @@ class Call {
   const PluginStage& stage_;
   void* function_;
   const CallRequest& request_;
-  std::int64_t capacity_ = 0;
+  ListSizes capacities_{};
   std::vector<const void*> inputs_;
   std::size_t first_ = 0, made_ = 0;
 };

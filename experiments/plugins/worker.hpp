@@ -22,7 +22,7 @@ enum class LoadStatus : std::uint8_t {
 /// What a call came to. A block of text follows (why it failed), then, where it was answered, the outputs.
 struct CallResult {
   enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;  ///< broken: a fresh process is needed
-  std::int64_t contacts = 0;  ///< length of the first output where the stage lists contacts
+  ListSizes counts{1};        ///< of the lists that the stage has
   double seconds = 0;         ///< of the plug-in's function, the device's work included
 };
 

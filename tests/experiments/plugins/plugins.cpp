@@ -19,6 +19,13 @@ ProgramResult compare_broken(const std::string& how, const std::string& argument
   return run_ogc("compare " + arguments + " --time-limit 3 --plugin " + broken, "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
+/// The same with our own kernels behind the C interface.
+ProgramResult compare_ours(const std::string& how, const std::string& arguments) {
+  static const TemporaryFolder scratch;
+  return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_ours.so",
+                 "cd '" + (scratch / "").string() + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
+}
+
 /// A case with d = r, at which it breaks, and one with d < r.
 const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'", harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
 
@@ -81,7 +88,7 @@ TEST_CASE("what a plug-in leaves unwritten or answers with NaN is a mismatch and
 
 TEST_CASE("lists of contacts that a plug-in miscounts or does not write are no answers", "[agreement]") {
   const std::string facet = "--problem 'stage=detect_vertex_facet gen=lattice seed=3 index=402'", edge = "--problem 'stage=detect_edge_edge gen=ladder.stack seed=3 index=16'";
-  CHECK(contains(compare_broken("no count", facet).out, {"no answer: it did not set `count`"}));
+  CHECK(contains(compare_broken("no count", facet).out, {"no answer: it did not set the count of contacts"}));
   CHECK(contains(compare_broken("growing", facet).out, {"and, given room for as many, "}));
   CHECK(contains(compare_broken("few", facet).out, {"it counted 3 contacts, and did not write all of them"}));
   CHECK(contains(compare_broken("", edge).out, {"a contact names a face of kind 7"}));
@@ -99,7 +106,7 @@ TEST_CASE("a library that is no plug-in for this program is refused with exit st
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 3");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 4");
   refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
   refuses(folder + "/libplugin_empty.so", "", "no stage's function");
   refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");
@@ -109,4 +116,47 @@ TEST_CASE("a library that is no plug-in for this program is refused with exit st
   CHECK(contains(crash.err, {"it crashed: signal 6"}));
   CHECK(hang.status == 1);
   CHECK(contains(hang.err, {"it hangs"}));
+}
+
+TEST_CASE("our own rest state, sweep and step pass as a plug-in, and are timed beside ours", "[agreement]") {
+  const ProgramResult result = compare_ours("", "--cases 1000 --json");
+  INFO(result.out << result.err);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  REQUIRE(json.at("stages").size() == 3);
+  for (const auto& stage : json.at("stages")) {
+    CHECK(stage.at("mismatches") == 0);
+    CHECK(stage.at("cases") >= 1000);
+  }
+  for (const auto& times : json.at("plugin").at("times")) {
+    CHECK(times.at("plugin_seconds") > 0);
+    CHECK(times.at("our_seconds") > 0);
+  }
+}
+
+TEST_CASE("wrong plug-ins of the stages with scenes are found, and each wrong answer is named", "[agreement]") {
+  const auto [how, stage, what] = GENERATE(table<std::string, std::string, std::string>(
+      {{"rest angle", "rest_state", "hinge 0: "},
+       {"area not a number", "rest_state", "ours returned NaN: "},
+       {"behind the list", "rest_state", "no answer: it wrote out of range: behind the end of `corner`"},
+       {"short list", "rest_state", "no answer: it "},
+       {"one contact dropped", "sweep", " m from the exact position"},
+       {"cut", "sweep", "cut: "},
+       {"crash", "sweep", "no answer: it crashed: signal 6"},
+       {"one iteration less", "step", "events: "},
+       {"threshold", "step", " is due"},
+       {"one detection too many", "step", "no answer: it counted "},
+       {"no end", "step", "no answer: the contacts of detection 0 are said to end at -1"},
+       {"odd event", "step", "no answer: event 0 is of kind 9"}}));
+  const ProgramResult result = compare_ours(how, stage + (stage == "step" ? " --cases 6000" : " --cases 1500"));
+  INFO(how << "\n" << result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {what}));
+}
+
+TEST_CASE("a sweep that hangs is ended", "[agreement]") {
+  const ProgramResult result = compare_ours("hang", "--problem 'stage=sweep gen=few seed=1 index=0' --time-limit 1");
+  INFO(result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {"no answer: it hangs"}));
 }

@@ -1,0 +1,43 @@
+#include "experiments/plugins/arrays.hpp"
+
+namespace ogc::experiments {
+
+using namespace ogc::compare;
+
+namespace {
+
+/// A face as the plug-in wrote it.
+Face face(std::int32_t kind, std::int32_t index) {
+  if (kind < 0 || kind > 2) throw ContestantFailure("a contact names a face of kind " + std::to_string(kind) + "; known: 0 vertex, 1 edge, 2 triangle");
+  return {static_cast<FaceKind>(kind), index};
+}
+
+}  // namespace
+
+QuestionSizes sizes_of(std::size_t cases) {
+  QuestionSizes sizes;
+  sizes.cases = static_cast<std::int64_t>(cases);
+  return sizes;
+}
+
+QuestionSizes sizes_of(const Topology& topology) {
+  return {0, topology.vertex_count, static_cast<std::int32_t>(topology.edges.size()), static_cast<std::int32_t>(topology.triangles.size())};
+}
+
+std::vector<Bytes> inputs_of(const Topology& topology) {
+  std::vector<Bytes> inputs{bytes_of(topology.edges), bytes_of(topology.triangles), bytes_of(topology.triangle_edges)};
+  for (const CompressedRows* rows : {&topology.vertex_edges, &topology.vertex_triangles, &topology.vertex_neighbours, &topology.edge_triangles,
+                                     &topology.edge_opposite}) {
+    inputs.push_back(bytes_of(rows->offsets));
+    inputs.push_back(bytes_of(rows->items));
+  }
+  return inputs;
+}
+
+VertexFacetContact contact_of(const ogc_vertex_facet_contact& c) { return {c.vertex, face(c.kind, c.face), c.owner}; }
+
+EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c) {
+  return {face(c.first_kind, c.first_face), face(c.second_kind, c.second_face), c.first_edge, c.second_edge};
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,43 @@
+// What all stages of a plug-in share on the judge's side: a topology as arrays, and arrays that come back as vectors and contacts.
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "compare/problem/contestant.hpp"
+#include "experiments/plugins/process.hpp"
+
+namespace ogc::experiments {
+
+QuestionSizes sizes_of(std::size_t cases);
+QuestionSizes sizes_of(const compare::Topology& topology);
+
+/// The arrays of ogc_topology, in its order.
+std::vector<Bytes> inputs_of(const compare::Topology& topology);
+
+/// Outputs become vectors one after another.
+class Outputs {
+ public:
+  explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
+  template <class... Items>
+  void to(Items&... items) {
+    (next(items), ...);
+  }
+
+ private:
+  template <class T>
+  void next(std::vector<T>& items) {
+    const auto& bytes = answer_.outputs[next_++];
+    items.resize(bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(items.data()), bytes.data(), items.size() * sizeof(T));
+  }
+
+  const PluginProcess::Answer& answer_;
+  std::size_t next_ = 0;
+};
+
+/// As the plug-in wrote them; throw compare::ContestantFailure for a kind of face that does not exist.
+compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
+compare::EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c);
+
+}  // namespace ogc::experiments
