@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
@@ -32,6 +33,24 @@ std::string names_of(const Rows& rows) {
   std::string names;
   for (const auto& row : rows) names += (names.empty() ? "" : ", ") + std::string(row.name);
   return names.empty() ? "none" : names;
+}
+
+/// Launches of a device as another one would cut them: small blocks, one multiprocessor (few blocks, teams run one after the other), a thousand (spread teams).
+constexpr std::array<fast::LaunchShape, 4> other_shapes{{{32, 0}, {96, 7}, {128, 1}, {64, 1000}}};
+
+std::string text_of(const fast::LaunchShape& shape) {
+  return "blocks of " + std::to_string(shape.block_threads) + (shape.multiprocessors > 0 ? ", as on " + counted(static_cast<std::size_t>(shape.multiprocessors), "multiprocessor") : "");
+}
+
+/// What a device changes where it launches otherwise, as lines of a report.
+std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases, std::uint64_t seed, const compare::Authority& authority) {
+  std::vector<std::string> changed;
+  for (const fast::LaunchShape& shape : other_shapes) {
+    const auto other = compare::check_determinism(report.stage, cases, seed, fast::contestant(fast::Backend::cuda, shape), authority, {});
+    for (const std::string& line : other.changed) changed.push_back(text_of(shape) + ", " + line);
+    if (other.digest != report.digest) changed.push_back(text_of(shape) + ": other bits");
+  }
+  return changed;
 }
 
 }  // namespace
@@ -77,6 +96,9 @@ std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, st
   for (const Stage stage : stages) {
     const std::uint64_t wanted = is_mesh_stage(stage) ? std::max<std::uint64_t>(cases / 50, 1) : cases;
     reports.push_back(compare::check_determinism(stage, wanted, seed, contestant, authority, surroundings));
+    if (backend == fast::Backend::cpu) continue;
+    const auto changed = changed_by_shape(reports.back(), wanted, seed, authority);
+    reports.back().changed.insert(reports.back().changed.end(), changed.begin(), changed.end());
   }
   return reports;
 }

@@ -16,7 +16,8 @@ std::string stage_list_markdown();
 /// The same for a terminal, with each stage's generators and parameters by name.
 std::string stage_list_text();
 
-/// Checks determinism of the stages on a backend; on the CPU with one and two threads beside all of them.
+/// Checks determinism of the stages on a backend; on the CPU with one and two threads beside all of them, on a
+/// device with other blocks and as on devices of other sizes.
 std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const compare::Stage> stages, std::uint64_t cases, std::uint64_t seed);
 
 Json determinism_json(std::span<const compare::DeterminismReport> reports);

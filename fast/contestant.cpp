@@ -23,10 +23,10 @@ BackendInfo device_info() {
 
 BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu_info() : device_info(); }
 
-compare::Contestant contestant(Backend backend) {
+compare::Contestant contestant(Backend backend, [[maybe_unused]] const LaunchShape& shape) {
   if (backend == Backend::cpu) return cpu_contestant();
 #if defined(OGC_HAS_CUDA)
-  return cuda_contestant();
+  return cuda_contestant(shape);
 #else
   throw compare::ResourceError("backend cuda: " + device_info().description + ", or use --backend cpu");
 #endif

@@ -10,9 +10,15 @@ namespace ogc::fast {
 
 enum class Backend { cpu, cuda };
 
+/// How the launches on a device are cut. No answer depends on it, which tests of determinism try out: with it one device launches as another would.
+struct LaunchShape {
+  int block_threads = 128;   ///< of launches that are one thread an item, or searches of a warp: 32, 64, 96 or 128
+  int multiprocessors = 0;   ///< that a launch reckons with; 0: those of the device
+};
+
 /// All stages that the backend has. Throws compare::ResourceError for Backend::cuda where the program was built without CUDA, or where no usable
 /// device is found, and says which.
-compare::Contestant contestant(Backend backend);
+compare::Contestant contestant(Backend backend, const LaunchShape& shape = {});
 
 /// Whether the program was built with the backend, and whether it can run here; the reason where it can't.
 struct BackendInfo {

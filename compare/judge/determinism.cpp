@@ -6,6 +6,7 @@
 
 #include "compare/judge/judge.hpp"
 #include "compare/judge/questions.hpp"
+#include "compare/judge/renumbered.hpp"
 #include "compare/judge/stage_table.hpp"
 #include "compare/judge/sweep_question.hpp"
 
@@ -229,6 +230,14 @@ DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint6
   std::vector<std::string> sorted(all.size());
   for (std::size_t i = 0; i < order.size() && i < answers.size(); ++i) sorted[order[i]] = answers[i];
   compare_with("shuffled", sorted);
+  if (is_free_of_order(stage)) {
+    std::vector<TestCase> generic;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(generic), [](const TestCase& test) { return find_generator(test.name.stage, test.name.generator).generic; });
+    const std::vector<bool> same = same_when_renumbered(stage, generic, contestant);
+    if (const auto wrong = std::find(same.begin(), same.end(), false); wrong != same.end())
+      report.changed.push_back("renumbered: " + std::to_string(std::count(same.begin(), same.end(), false)) + " cases, the first " +
+                               print_problem(generic[static_cast<std::size_t>(wrong - same.begin())].name));
+  }
   if (!is_mesh_stage(stage))
     for (const std::size_t size : {1u, 2u, 3u, 5u, 10u, 50u})
       compare_with("batches of " + std::to_string(size), in_batches(stage, all, size, contestant, authority));

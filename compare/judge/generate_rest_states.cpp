@@ -23,7 +23,7 @@ using namespace placement;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The legal part of a mesh, of a tiny one 2¹⁰ times as large: coordinates that are too small become 0; faces that are too short, flat or repeated go, and
+/// The legal part of a mesh, of a tiny one 2¹⁰ times as large, of a vast one (edges up to 2²⁰ m at twice the size) an eighth of it: coordinates that are too small become 0; faces that are too short, flat or repeated go, and
 /// vertices without a face with them.
 class Cleaner {
  public:
@@ -31,7 +31,7 @@ class Cleaner {
     // At 2⁻¹⁸ m whole triangles would fall onto a plane of coordinates, and be folded or flat by chance.
     float largest = 0;
     for (const Vec3f& p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    const float scale = largest < 0x1p-10f ? 0x1p10f : 1.0f;
+    const float scale = largest < 0x1p-10f ? 0x1p10f : largest > 0x1p17f ? 0.125f : 1.0f;
     for (const Vec3f& p : mesh.positions) points_.push_back({kept(scale * p.x), kept(scale * p.y), kept(scale * p.z)});
   }
 
@@ -129,6 +129,9 @@ CaseData finished(Scene scene) {
   return c;
 }
 
+constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan",
+                           book = "ladder.book", strands = "ladder.strands";
+
 /// Bodies of what the detections' generator of this name makes.
 template <const auto& family>
 CaseData of(Random& random) {
@@ -137,6 +140,18 @@ CaseData of(Random& random) {
   while (static_cast<int>(scene.bodies.size()) < bodies)
     add_body(random, scene, std::get<MeshCase>(find_generator(Stage::detect_vertex_facet, family).make(random)));
   return finished(std::move(scene));
+}
+
+/// The same of triangles whose coordinates are of any bits that a mesh may have, with such materials.
+CaseData bits(Random& random) {
+  RestStateCase test = std::get<RestStateCase>(of<any_bits>(random));
+  Scene scene = *test.scene;
+  for (Body& body : scene.bodies) {
+    body.material.friction = random.pattern(0x1p-20f, 0x1p10f);
+    for (double Material::*number : {&Material::density, &Material::bending_stiffness, &Material::contact_stiffness}) body.material.*number = random.pattern();
+  }
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
 }
 
 /// Heights of the two triangles in lengths of the edge, and the angle between them.
@@ -204,11 +219,9 @@ CaseData isometric(Random& random) {
   return test;
 }
 
-constexpr std::string_view soup = "soup", cloth = "cloth", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan",
-                           book = "ladder.book", strands = "ladder.strands";
-
-constexpr std::array<Generator, 15> table{{{soup, 15, true, of<soup>},
+constexpr std::array<Generator, 16> table{{{soup, 15, true, of<soup>},
                                            {cloth, 20, true, of<cloth>},
+                                           {any_bits, 8, false, bits},
                                            {lattice, 12, false, of<lattice>},
                                            {sheets, 6, false, of<sheets>},
                                            {fold, 8, false, of<fold>},

@@ -246,6 +246,35 @@ CaseData few(Random& random) {
   return builder.finish();
 }
 
+/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight and more powers of two (of the latter within
+/// what inertia allows), coordinates in their last bits.
+CaseData bits(Random& random) {
+  StepBuilder builder(random);
+  const auto single = [](double x) { return static_cast<float>(x); };
+  const int layers = 1 + random.below(2);
+  const double gap = 0.5 + 0.25 * random.below(5);
+  for (int layer = 0; layer < layers; ++layer) {
+    Mesh strip = triangle_strip(1 + random.below(3));
+    for (Vec3& p : strip.positions) p = scaled(sum(p, {2, 2, 2 + layer * gap}), builder.spacing);
+    builder.add(strip, {}, false);
+    const double density = random.pattern(0x1p-6f, 2);
+    Material& m = builder.scene.bodies.back().material;
+    const double inertia = density * builder.spacing * builder.spacing / std::pow(builder.scene.settings.time_step, 2);
+    m.density = density;
+    m.lame_mu = random.pattern(single(inertia / 8), single(256 * inertia));
+    m.lame_lambda = random.pattern(single(inertia / 8), single(256 * inertia));
+    m.bending_stiffness = builder.spacing * builder.spacing * random.pattern(single(inertia / 1024), single(inertia));
+    m.contact_stiffness = random.pattern(single(inertia / 8), single(512 * inertia));
+    m.friction = random.pattern(0x1p-6f, 1);
+  }
+  const auto number = [&] { return random.sign() * random.pattern(single(builder.speed(0x1p-8)), single(builder.speed(4))); };
+  for (Vec3& v : builder.scene.velocities) v = {number(), 0, 0}, v.y = number(), v.z = number();
+  for (auto* points : {&builder.scene.mesh.positions, &builder.scene.rest_positions})
+    for (Vec3& p : *points)
+      for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) p.*axis = random.last_bits(single(p.*axis), 18);
+  return builder.finish();
+}
+
 /// Other models than the default ones.
 CaseData models(Random& random) {
   StepCase test = std::get<StepCase>(random.one_in(2) ? onto(random) : handle(random));
@@ -255,14 +284,15 @@ CaseData models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 10> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 11> table{{{"fall", 12, true, fall},
                                           {"onto", 13, true, onto},
                                           {"collide", 13, true, collide},
                                           {"handle", 12, true, handle},
                                           {"few", 5, true, few},
-                                          {"ladder.count", 25, false, count_at_threshold},
+                                          {"ladder.count", 28, false, count_at_threshold},
                                           {"ladder.cap", 10, false, radius_at_cap},
-                                          {"ladder.rest", 15, false, at_rest},
+                                          {"ladder.rest", 18, false, at_rest},
+                                          {"bits", 6, false, bits},
                                           {"lattice", 10, false, lattice},
                                           {"models", 5, false, models}}};
 

@@ -316,6 +316,31 @@ CaseData at_bound(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
+/// Numbers of any bits, as far as a sweep can be held to an answer: materials and time step over twelve powers of two, coordinates and bounds in their last
+/// bits, as vertices must be near their places for stencils to have a shape and for contacts to be.
+CaseData bits(Random& random) {
+  constexpr int last = 17;
+  SweepCase test = std::get<SweepCase>(few(random));
+  Scene scene = *test.scene;
+  for (Body& b : scene.bodies)
+    for (double Material::*number : {&Material::density, &Material::lame_mu, &Material::lame_lambda, &Material::bending_stiffness, &Material::contact_stiffness})
+      b.material.*number = random.last_bits(static_cast<float>(b.material.*number), 23) * random.pattern(0x1p-6f, 0x1p6f);
+  scene.settings.time_step = random.pattern(0x1p-12f, 0x1p-4f);
+  scene.settings.friction_velocity = random.pattern(0x1p-12f, 1);
+  const auto replaced = [&](float x) { return x == 0 ? x : random.last_bits(x, last); };
+  const auto replace = [&](Vec3f p) -> Vec3f {
+    const float x = replaced(p.x), y = replaced(p.y);
+    return {x, y, replaced(p.z)};
+  };
+  for (auto* points : {&test.previous, &test.start, &test.old, &test.target})
+    for (Vec3f& p : *points) p = replace(p);
+  for (std::size_t v = 0; v < scene.rest_positions.size(); ++v) scene.rest_positions[v] = to_double({replace(to_single({scene.rest_positions[v]})[0])})[0];
+  for (float& bound : test.largest_bound) bound = bound < 1 ? replaced(bound) : bound;
+  round_to_single(scene);
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
 /// Other models than the default ones, with the colours that their springs ask for.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
@@ -327,16 +352,17 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 18> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 19> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
                                            {"alone", 5, true, alone},
                                            {"few", 3, false, few},
+                                           {"bits", 6, false, bits},
                                            {"lattice", 10, false, lattice},
-                                           {"ladder.rest", 6, false, at_rest},
-                                           {"ladder.radius", 7, false, at_radius},
-                                           {"ladder.stiff", 6, false, stiff},
+                                           {"ladder.rest", 8, false, at_rest},
+                                           {"ladder.radius", 9, false, at_radius},
+                                           {"ladder.stiff", 8, false, stiff},
                                            {"ladder.slip", 6, false, slip},
                                            {"ladder.crossing", 6, false, crossing},
                                            {"ladder.collapse", 5, false, collapse},

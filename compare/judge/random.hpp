@@ -34,9 +34,16 @@ class Random {
   /// 10^x for x uniform in [low, high).
   double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
   /// A positive single-precision number whose bit pattern is uniform over 2⁻²⁰ … 2²⁰.
-  constexpr float pattern() {
-    constexpr std::uint32_t low = 107u << 23, high = 147u << 23;
-    return std::bit_cast<float>(low + static_cast<std::uint32_t>(bits() % (high - low + 1)));
+  constexpr float pattern() { return pattern(0x1p-20f, 0x1p20f); }
+  /// Likewise over low … high, both positive.
+  constexpr float pattern(float low, float high) {
+    const std::uint32_t first = std::bit_cast<std::uint32_t>(low), last = std::bit_cast<std::uint32_t>(high);
+    return std::bit_cast<float>(first + static_cast<std::uint32_t>(bits() % (last - first + 1)));
+  }
+  /// x, its last `count` bits replaced.
+  constexpr float last_bits(float x, int count) {
+    const std::uint32_t kept = ~0u << count;
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(x) & kept) | (static_cast<std::uint32_t>(bits()) & ~kept));
   }
   /// A rung of a ladder towards a degeneracy: 0 in one of four, otherwise ±10⁻ᵏ with k = 1 … 12.
   constexpr double rung() {

@@ -11,14 +11,16 @@ void CudaRecording::clear() noexcept {
   graph_ = nullptr;
 }
 
-CudaBackend::CudaBackend() {
+CudaBackend::CudaBackend(const LaunchShape& shape) : block_threads_(shape.block_threads), multiprocessors_(shape.multiprocessors) {
   const BackendInfo info = cuda_info();
   if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
-  int device = 0, multiprocessors = 0;
-  OGC_CUDA_CHECK(cudaGetDevice(&device));
-  OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device));
-  most_blocks_ = static_cast<std::int64_t>(multiprocessors) * blocks_per_multiprocessor;
-  serial_team_lanes_ = static_cast<std::int64_t>(multiprocessors) * serial_lanes_per_multiprocessor;
+  if (block_threads_ % 32 != 0 || block_threads_ <= 0 || block_threads_ > cuda_block_size)
+    throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) + " threads a block; give a multiple of 32, at most " + std::to_string(cuda_block_size));
+  if (multiprocessors_ <= 0) {
+    int device = 0;
+    OGC_CUDA_CHECK(cudaGetDevice(&device));
+    OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors_, cudaDevAttrMultiProcessorCount, device));
+  }
   OGC_CUDA_CHECK(cudaStreamCreate(&stream_));
   current_ = stream_;
 }
@@ -26,8 +28,8 @@ CudaBackend::CudaBackend() {
 CudaBackend::CudaBackend(CudaBackend&& other) noexcept
     : stream_(std::exchange(other.stream_, nullptr)),
       current_(std::exchange(other.current_, nullptr)),
-      most_blocks_(other.most_blocks_),
-      serial_team_lanes_(other.serial_team_lanes_),
+      block_threads_(other.block_threads_),
+      multiprocessors_(other.multiprocessors_),
       scratch_(std::move(other.scratch_)),
       events_(std::exchange(other.events_, {})),
       repetitions_(std::exchange(other.repetitions_, 0)) {}

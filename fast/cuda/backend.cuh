@@ -18,6 +18,7 @@
 #include <cuda_runtime.h>
 
 #include "compare/problem/error.hpp"
+#include "fast/contestant.hpp"
 #include "fast/cuda/buffer.cuh"
 #include "fast/cuda/check.cuh"
 #include "fast/cuda/collectives.cuh"
@@ -27,24 +28,25 @@
 
 namespace ogc::fast {
 
+/// Threads of a block; tests take fewer (LaunchShape).
 inline constexpr int cuda_block_size = 128;
-/// Blocks a multiprocessor can hold at once (2048 threads), twice: enough to keep it busy, few enough that a long count-limited loop costs little.
-inline constexpr int blocks_per_multiprocessor = 2 * 2048 / cuda_block_size;
+/// What a multiprocessor can hold at once, twice: enough to keep it busy, few enough that a long count-limited loop costs little.
+inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
 /// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md); the bits are the same.
 inline constexpr int serial_lanes_per_multiprocessor = 240;
 
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
-  const int stride = static_cast<int>(gridDim.x) * cuda_block_size;
-  for (int i = static_cast<int>(blockIdx.x) * cuda_block_size + static_cast<int>(threadIdx.x); i < n; i += stride) f(i);
+  const int stride = static_cast<int>(gridDim.x * blockDim.x);
+  for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_counted(const int* n, int capacity, F f) {
-  const int stride = static_cast<int>(gridDim.x) * cuda_block_size;
+  const int stride = static_cast<int>(gridDim.x * blockDim.x);
   const int count = min(*n, capacity);
-  for (int i = static_cast<int>(blockIdx.x) * cuda_block_size + static_cast<int>(threadIdx.x); i < count; i += stride) f(i);
+  for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
 /// One thread that decides what a conditional node does.
@@ -92,7 +94,7 @@ class CudaBackend {
   using Recording = CudaRecording;
 
   /// Throws compare::ResourceError where there is no usable device, with cuda_info's reason.
-  CudaBackend();
+  explicit CudaBackend(const LaunchShape& shape = {});
   CudaBackend(CudaBackend&& other) noexcept;
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
@@ -100,21 +102,21 @@ class CudaBackend {
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
-    run_each<<<blocks(n), cuda_block_size, 0, current_>>>(n, f);
+    run_each<<<blocks(n), block_threads_, 0, current_>>>(n, f);
     check_launch(typeid(F));
   }
 
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     if (capacity <= 0) return;
-    run_each_counted<<<blocks(capacity), cuda_block_size, 0, current_>>>(n, capacity, f);
+    run_each_counted<<<blocks(capacity), block_threads_, 0, current_>>>(n, capacity, f);
     check_launch(typeid(F));
   }
 
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
-    const bool serial = static_cast<std::int64_t>(n) * W >= serial_team_lanes_;
+    const bool serial = static_cast<std::int64_t>(n) * W >= std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
     const int teams = (serial ? serial_block_size : 32) / W;  // of a block
     cudaLaunchAttribute overlap{};
     overlap.id = cudaLaunchAttributeProgrammaticStreamSerialization;
@@ -133,7 +135,7 @@ class CudaBackend {
   void search(const Searches<First>& first, const Searches<Second>& second) {
     require_searchable(first.tree);
     require_searchable(second.tree);
-    launch_searches(current_, first, search_group(first.count), second, search_group(second.count));
+    launch_searches(current_, std::min(search_warps, block_threads_ / 32), first, search_group(first.count), second, search_group(second.count));
     check_launch(typeid(SearchAlone<First, Second>));
   }
 
@@ -193,14 +195,15 @@ class CudaBackend {
 
  private:
   int blocks(std::int64_t threads) const {
-    return static_cast<int>(std::min<std::int64_t>((threads + cuda_block_size - 1) / cuda_block_size, most_blocks_));
+    const std::int64_t most = std::int64_t{multiprocessors_} * threads_per_multiprocessor / block_threads_;
+    return static_cast<int>(std::min<std::int64_t>((threads + block_threads_ - 1) / block_threads_, most));
   }
   static void require_searchable(const TreeView& tree) {
     if (tree.count > largest_searched_count) throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
   }
   /// Searches a warp: few while the device is not full (32 warps a multiprocessor), so that each is short; more spare it rounds that do not fill a warp.
   int search_group(int searches) const {
-    const std::int64_t warps = most_blocks_ * 32 / blocks_per_multiprocessor;
+    const std::int64_t warps = std::int64_t{multiprocessors_} * 32;
     return static_cast<int>(std::clamp<std::int64_t>((searches + warps - 1) / warps, 1, largest_group));
   }
   static void check_launch(const std::type_info& functor) {
@@ -223,8 +226,7 @@ class CudaBackend {
 
   cudaStream_t stream_ = nullptr, current_ = nullptr;
   bool recording_ = false;
-  std::int64_t most_blocks_ = 1;
-  std::int64_t serial_team_lanes_ = 1;  ///< launches of so many lanes or more fill the device: their teams are SerialLaneTeams
+  int block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_;
   std::vector<cudaEvent_t> events_;  // events_[k], events_[k + 1]: start and end of repetition k
   int repetitions_ = 0;

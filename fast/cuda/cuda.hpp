@@ -14,7 +14,7 @@ namespace ogc::fast {
 BackendInfo cuda_info();
 
 /// All stages on the device. Throws compare::ResourceError where cuda_info() says that it can't be used.
-compare::Contestant cuda_contestant();
+compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 
 /// A resident simulation on the device. Throws compare::ResourceError as cuda_contestant, and where the scene does not fit into the device's memory.
 /// `list_capacity`: contacts that fit at first; 0 for a guess by mesh size.

@@ -18,7 +18,7 @@
 
 namespace ogc::fast {
 
-inline constexpr int search_warps = 4;   ///< a block
+inline constexpr int search_warps = 4;   ///< a block, at most
 inline constexpr int largest_group = 8;  ///< searches a warp
 
 /// Primitives of a tree whose leaves have numbers of 25 bits.
@@ -156,20 +156,21 @@ template <class First, class Second>
 __global__ void __launch_bounds__(32 * search_warps, 8)
     run_searches(Searches<First> first, int first_group, int first_blocks, Searches<Second> second, int second_group) {
   __shared__ SearchMemory memory[search_warps];
-  const int warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
+  const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
   if (block < first_blocks) {
-    run_group(first, first_group, block * search_warps + warp, memory[warp]);
+    run_group(first, first_group, block * warps + warp, memory[warp]);
   } else {
-    run_group(second, second_group, (block - first_blocks) * search_warps + warp, memory[warp]);
+    run_group(second, second_group, (block - first_blocks) * warps + warp, memory[warp]);
   }
 }
 
-inline int search_blocks(int count, int group) { return (count + group * search_warps - 1) / (group * search_warps); }
+inline int search_blocks(int count, int searches) { return (count + searches - 1) / searches; }
 
+/// `warps` of a block: at most search_warps.
 template <class First, class Second>
-void launch_searches(cudaStream_t stream, const Searches<First>& first, int first_group, const Searches<Second>& second, int second_group) {
-  const int first_blocks = search_blocks(first.count, first_group), blocks = first_blocks + search_blocks(second.count, second_group);
-  if (blocks > 0) run_searches<<<blocks, 32 * search_warps, 0, stream>>>(first, first_group, first_blocks, second, second_group);
+void launch_searches(cudaStream_t stream, int warps, const Searches<First>& first, int first_group, const Searches<Second>& second, int second_group) {
+  const int first_blocks = search_blocks(first.count, first_group * warps), blocks = first_blocks + search_blocks(second.count, second_group * warps);
+  if (blocks > 0) run_searches<<<blocks, 32 * warps, 0, stream>>>(first, first_group, first_blocks, second, second_group);
 }
 
 }  // namespace ogc::fast

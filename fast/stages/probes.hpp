@@ -164,9 +164,9 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   return out;
 }
 
-/// A contestant with the stages of this header; `start` is left to the backend's own file.
-template <class Backend>
-compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> backend) {
+/// A contestant with the stages of this header; `start` is left to the backend's own file. A step takes a backend of its own.
+template <class Backend, class Fresh = Backend (*)()>
+compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> backend, Fresh fresh = [] { return Backend{}; }) {
   compare::Contestant contestant;
   contestant.name = std::move(name);
   contestant.closest_face = [backend](const compare::ClosestFaceIn& in) { return probe_closest_face(*backend, in); };
@@ -191,7 +191,7 @@ compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> 
   contestant.initial_guess = [backend](const compare::InitialGuessIn& in) { return probe_initial_guess(*backend, in); };
   contestant.rest_state = [](const compare::RestStateIn& in) { return rest_state_out(in); };
   contestant.sweep = [backend](const compare::SweepIn& in) { return probe_sweep(*backend, in); };
-  contestant.step = [](const compare::StepIn& in) { return probe_step<Backend>(in); };
+  contestant.step = [fresh](const compare::StepIn& in) { return probe_step<Backend>(in, 0, fresh()); };
   return contestant;
 }
 

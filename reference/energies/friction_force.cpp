@@ -36,7 +36,12 @@ Input potential(const Input& y, const Input& limit) {
   return y * y / limit - y * y * y / (Input(3.0) * limit * limit) + limit / Input(3.0);
 }
 
-compare::ForceAnswer acting(Meeting meeting, const compare::FrictionForceCase& q) {
+struct Friction {
+  compare::ForceAnswer answer;
+  bool near_limit = false;  ///< ‖u‖ lies within near_factor of ε
+};
+
+Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   const auto own = static_cast<std::size_t>(q.contact.own);
   Inputs& inputs = meeting.inputs;
   Triple<Input> moved;
@@ -60,7 +65,8 @@ compare::ForceAnswer acting(Meeting meeting, const compare::FrictionForceCase& q
   const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;
   result.force_scale += pull * over_slip * reach(inputs, u) / (compare::unit_roundoff * compare::friction_force_tolerance);
   result.block_scale += 2 * pull * over_slip / (compare::unit_roundoff * compare::friction_block_tolerance);
-  return result;
+  const Input beyond = y - limit;
+  return {result, std::abs(beyond.value) <= compare::near_factor * inputs.condition({&beyond, 1})};
 }
 
 /// f₁ is at most 1, f₁/y at most 2/ε; ‖I − n nᵀ‖ = √2.
@@ -71,19 +77,23 @@ compare::ForceAnswer largest(const compare::FrictionForceCase& q) {
   return bounds;
 }
 
-std::vector<compare::ForceAnswer> answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
-  return answers(all, largest(question), [&](const Meeting& meeting) { return acting(meeting, question); });
+/// Near where the contact is, or, if it acts, the slip.
+Accepted answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
+  bool near = is_near_decision(question.contact, all.front());
+  std::vector<compare::ForceAnswer> accepted = answers(all, largest(question), [&](const Meeting& meeting) {
+    const Friction friction = acting(meeting, question);
+    near = near || (&meeting == &all.front() && friction.near_limit);
+    return friction.answer;
+  });
+  return {std::move(accepted), near};
 }
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)); }
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)).answers; }
 
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {
-  return for_all(in.cases, [](const compare::FrictionForceCase& question) -> Accepted {
-    const std::vector<Meeting> all = meetings(question.contact);
-    return {answers_of(question, all), is_near_decision(question.contact, all.front())};
-  });
+  return for_all(in.cases, [](const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)); });
 }
 
 }  // namespace ogc::reference

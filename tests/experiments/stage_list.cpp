@@ -112,6 +112,21 @@ TEST_CASE("answers that depend on their company, or change from call to call, ar
     if (++call % 7 == 0 && !out.bound.empty()) out.bound[0] = -out.bound[0];
     return out;
   };
+  odd.detect_vertex_facet = [right = odd.detect_vertex_facet](const DetectIn& in) {
+    DetectVertexFacetOut out = right(in);
+    if (!out.contacts.empty() && out.contacts[0].vertex < 3) out.contacts.erase(out.contacts.begin());
+    return out;
+  };
+  odd.detect_edge_edge = [right = odd.detect_edge_edge](const DetectIn& in) {
+    DetectEdgeEdgeOut out = right(in);
+    std::erase_if(out.contacts, [](const EdgeEdgeContact& c) { return c.first_edge == 0; });
+    return out;
+  };
+  for (const Stage stage : {Stage::detect_vertex_facet, Stage::detect_edge_edge}) {
+    const auto by_number = check_determinism(stage, 100, 1, odd, authority, {});
+    REQUIRE(by_number.changed.size() == 1);
+    CHECK(by_number.changed[0].starts_with("renumbered: "));
+  }
   const auto company = check_determinism(Stage::truncate, 200, 1, odd, authority, {});
   CHECK(company.changed.size() >= 3);
   CHECK(check_determinism(Stage::bound, 60, 1, odd, authority, {}).changed.size() >= 1);

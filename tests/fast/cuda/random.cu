@@ -15,9 +15,9 @@ using namespace std::string_view_literals;
 
 namespace {
 
-constexpr int numbers_a_case = 8;
+constexpr int numbers_a_case = 10;
 
-/// Eight numbers of the case with this index, each of another sort.
+/// Ten numbers of the case with this index, each of another sort.
 struct NumbersOfCase {
   std::uint64_t* target;
   OGC_HD void operator()(int index) const {
@@ -31,7 +31,9 @@ struct NumbersOfCase {
     out[5] = std::bit_cast<std::uint64_t>(random.sign());
     random.be_fine();
     out[6] = std::bit_cast<std::uint64_t>(random.rung());
-    out[7] = random.bits();
+    out[7] = std::bit_cast<std::uint32_t>(random.pattern(0x1p-6f, 0x1p6f));
+    out[8] = std::bit_cast<std::uint32_t>(random.last_bits(0.3f, 17));
+    out[9] = random.bits();
   }
 };
 

@@ -142,3 +142,15 @@ TEST_CASE("no contact, no friction; at the radius both are accepted", "[unit]") 
   c.contact.contact_radius = std::nextafter(0.25f, 1.0f);
   REQUIRE(reference::friction_force(c).size() == 2);
 }
+
+TEST_CASE("a slip within 2^10 ulp of its limit lies near a decision, one beside it does not, nor one where nothing presses", "[unit]") {
+  const auto near = [](float slip, float radius) {
+    FrictionForceCase c = above(slip, 0);
+    c.contact.contact_radius = radius;
+    return reference::friction_force(compare::FrictionForceIn{{c}}).near[0] != 0;
+  };
+  constexpr float radius = 0.6f;  // 0.25 is neither it nor half of it
+  for (const float slip : {0.125f, 0.125f * (1 + 0x1p-15f), 0.125f * (1 - 0x1p-15f)}) CHECK(near(slip, radius));
+  for (const float slip : {0.0f, 0.1f, 0.124f, 0.126f, 0.2f}) CHECK_FALSE(near(slip, radius));
+  CHECK_FALSE(near(0.125f, 0.2f));
+}
