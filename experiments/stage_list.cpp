@@ -39,11 +39,13 @@ std::string names_of(const Rows& rows) {
 constexpr std::array<fast::LaunchShape, 4> other_shapes{{{32, 0}, {96, 7}, {128, 1}, {64, 1000}}};
 
 std::string text_of(const fast::LaunchShape& shape) {
-  return "blocks of " + std::to_string(shape.block_threads) + (shape.multiprocessors > 0 ? ", as on " + counted(static_cast<std::size_t>(shape.multiprocessors), "multiprocessor") : "");
+  const std::string blocks = "blocks of " + std::to_string(shape.block_threads);
+  return shape.multiprocessors > 0 ? blocks + ", as on " + counted(static_cast<std::size_t>(shape.multiprocessors), "multiprocessor") : blocks;
 }
 
 /// What a device changes where it launches otherwise, as lines of a report.
-std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases, std::uint64_t seed, const compare::Authority& authority) {
+std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases, std::uint64_t seed,
+                                          const compare::Authority& authority) {
   std::vector<std::string> changed;
   for (const fast::LaunchShape& shape : other_shapes) {
     const auto other = compare::check_determinism(report.stage, cases, seed, fast::contestant(fast::Backend::cuda, shape), authority, {});

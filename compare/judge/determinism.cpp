@@ -232,7 +232,8 @@ DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint6
   compare_with("shuffled", sorted);
   if (is_free_of_order(stage)) {
     std::vector<TestCase> generic;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(generic), [](const TestCase& test) { return find_generator(test.name.stage, test.name.generator).generic; });
+    const auto is_generic = [](const TestCase& test) { return find_generator(test.name.stage, test.name.generator).generic; };
+    std::copy_if(all.begin(), all.end(), std::back_inserter(generic), is_generic);
     const std::vector<bool> same = same_when_renumbered(stage, generic, contestant);
     if (const auto wrong = std::find(same.begin(), same.end(), false); wrong != same.end())
       report.changed.push_back("renumbered: " + std::to_string(std::count(same.begin(), same.end(), false)) + " cases, the first " +

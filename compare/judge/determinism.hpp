@@ -30,8 +30,8 @@ struct DeterminismReport {
   bool skipped = false;              ///< the contestant does not have the stage
 };
 
-/// Asks `cases` cases (whole meshes count one) of all generators again, shuffled, one by one and in batches of 2, 3, 5, 10 and 50, and in each surrounding; the generic cases of
-/// stages whose answers do not depend on numbers (compare/judge/renumbered.hpp) also under other numbers of vertices and triangles.
+/// Asks `cases` cases (whole meshes count one) of all generators again, shuffled, one by one and in batches of 2, 3, 5, 10 and 50, and in each surrounding; the
+/// generic cases of stages whose answers do not depend on numbers (compare/judge/renumbered.hpp) also under other numbers of vertices and triangles.
 DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant, const Authority& authority,
                                     std::span<const Surrounding> surroundings);
 

@@ -114,7 +114,8 @@ CaseData about(Random& random) {
 }
 
 constexpr std::string_view soup = "soup", cloth = "cloth", few = "few", bits = "bits", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold",
-                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands", boundary = "ladder.boundary", field = "ladder.field";
+                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands",
+                           boundary = "ladder.boundary", field = "ladder.field";
 
 constexpr std::array<Generator, 14> table{{{soup, 16, true, about<soup>},
                                            {cloth, 16, true, about<cloth>},

@@ -211,8 +211,8 @@ CaseData boundary(Random& random) {
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-/// 64 stacks side by side in one mesh, each with a rung of its own beside the radius: a device takes as long over twenty vertices as over a thousand. They stand
-/// on a lattice about the origin, no farther from it than a few of their sizes, so that single precision still tells the lower rungs apart.
+/// 64 stacks side by side in one mesh, each with a rung of its own beside the radius: a device takes as long over twenty vertices as over a thousand. They
+/// stand on a lattice about the origin, no farther from it than a few of their sizes, so that single precision still tells the lower rungs apart.
 CaseData field(Random& random) {
   constexpr int side = 4;
   constexpr double spacing = 5;  // a stack is 3 wide at most, and r below 1.5

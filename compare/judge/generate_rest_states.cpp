@@ -23,8 +23,8 @@ using namespace placement;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The legal part of a mesh, of a tiny one 2¹⁰ times as large, of a vast one (edges up to 2²⁰ m at twice the size) an eighth of it: coordinates that are too small become 0; faces that are too short, flat or repeated go, and
-/// vertices without a face with them.
+/// The legal part of a mesh, of a tiny one 2¹⁰ times as large, of a vast one (edges up to 2²⁰ m at twice the size) an eighth of it: coordinates that are too
+/// small become 0; faces that are too short, flat or repeated go, and vertices without a face with them.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
@@ -129,8 +129,8 @@ CaseData finished(Scene scene) {
   return c;
 }
 
-constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan",
-                           book = "ladder.book", strands = "ladder.strands";
+constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold",
+                           fan = "ladder.fan", book = "ladder.book", strands = "ladder.strands";
 
 /// Bodies of what the detections' generator of this name makes.
 template <const auto& family>

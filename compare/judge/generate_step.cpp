@@ -246,8 +246,8 @@ CaseData few(Random& random) {
   return builder.finish();
 }
 
-/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight and more powers of two (of the latter within
-/// what inertia allows), coordinates in their last bits.
+/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight and more powers of two (of the
+/// latter within what inertia allows), coordinates in their last bits.
 CaseData bits(Random& random) {
   StepBuilder builder(random);
   const auto single = [](double x) { return static_cast<float>(x); };

@@ -323,7 +323,8 @@ CaseData bits(Random& random) {
   SweepCase test = std::get<SweepCase>(few(random));
   Scene scene = *test.scene;
   for (Body& b : scene.bodies)
-    for (double Material::*number : {&Material::density, &Material::lame_mu, &Material::lame_lambda, &Material::bending_stiffness, &Material::contact_stiffness})
+    for (double Material::*number :
+         {&Material::density, &Material::lame_mu, &Material::lame_lambda, &Material::bending_stiffness, &Material::contact_stiffness})
       b.material.*number = random.last_bits(static_cast<float>(b.material.*number), 23) * random.pattern(0x1p-6f, 0x1p6f);
   scene.settings.time_step = random.pattern(0x1p-12f, 0x1p-4f);
   scene.settings.friction_velocity = random.pattern(0x1p-12f, 1);

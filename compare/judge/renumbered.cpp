@@ -22,11 +22,12 @@ std::vector<Index> shuffled(Random& random, std::size_t count) {
 
 class Renumbering {
  public:
-  Renumbering(Random& random, const Topology& from) : vertex_(shuffled(random, static_cast<std::size_t>(from.vertex_count))), triangle_(shuffled(random, from.triangles.size())) {
+  Renumbering(Random& random, const Topology& from)
+      : vertex_(shuffled(random, static_cast<std::size_t>(from.vertex_count))), triangle_(shuffled(random, from.triangles.size())) {
     std::vector<Triangle> triangles(from.triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto first = static_cast<std::size_t>(random.below(3));
-      for (std::size_t k = 0; k < 3; ++k) triangles[static_cast<std::size_t>(triangle_[t])][k] = vertex_[static_cast<std::size_t>(from.triangles[t][(first + k) % 3])];
+      for (std::size_t k = 0; k < 3; ++k) triangles[static_cast<std::size_t>(triangle_[t])][k] = vertex(from.triangles[t][(first + k) % 3]);
     }
     std::vector<Edge> loose;
     for (std::size_t e = 0; e < from.edges.size(); ++e)
@@ -93,8 +94,9 @@ bool is_same(const DetectEdgeEdgeOut& a, const DetectEdgeEdgeOut& b, const Renum
 }
 
 bool is_same(Stage stage, const TestCase& a, const TestCase& b, const Renumbering& to, const Contestant& contestant) {
-  if (stage == Stage::detect_vertex_facet) return is_same(contestant.detect_vertex_facet(detect_question(a)), contestant.detect_vertex_facet(detect_question(b)), to);
-  if (stage == Stage::detect_edge_edge) return is_same(contestant.detect_edge_edge(detect_question(a)), contestant.detect_edge_edge(detect_question(b)), to);
+  const auto by = [&](const auto& detect) { return is_same(detect(detect_question(a)), detect(detect_question(b)), to); };
+  if (stage == Stage::detect_vertex_facet) return by(contestant.detect_vertex_facet);
+  if (stage == Stage::detect_edge_edge) return by(contestant.detect_edge_edge);
   return to.by_vertex(contestant.bound(bound_question(a)).bound) == contestant.bound(bound_question(b)).bound;
 }
 

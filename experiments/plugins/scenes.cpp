@@ -23,7 +23,8 @@ ogc_settings settings_of(const Settings& s) {
 
 ogc_body body_of(const Body& b) {
   const Material& m = b.material;
-  return {b.first_vertex, b.vertex_count, b.first_triangle, b.triangle_count, b.fixed, static_cast<std::int32_t>(m.membrane), static_cast<std::int32_t>(m.bending),
+  return {b.first_vertex, b.vertex_count, b.first_triangle, b.triangle_count, b.fixed,
+          static_cast<std::int32_t>(m.membrane), static_cast<std::int32_t>(m.bending),
           single(m.density), single(m.lame_lambda), single(m.lame_mu), single(m.membrane_damping), single(m.bending_stiffness), single(m.bending_damping),
           single(m.contact_stiffness), single(m.friction)};
 }
@@ -32,7 +33,8 @@ ogc_body body_of(const Body& b) {
 class SceneArrays {
  public:
   SceneArrays(const Scene& scene, const Topology& topology)
-      : topology_(topology), settings_(scene.settings), gravity_(to_single({scene.gravity})[0]), rest_(to_single(scene.rest_positions)), groups_(rigid_groups(scene)) {
+      : topology_(topology), settings_(scene.settings), gravity_(to_single({scene.gravity})[0]), rest_(to_single(scene.rest_positions)),
+        groups_(rigid_groups(scene)) {
     for (const Body& body : scene.bodies) bodies_.push_back(body_of(body));
     for (const Spring& s : scene.springs) springs_.push_back({{s.first, s.second}, single(s.stiffness), single(s.rest_length), single(s.damping)});
   }
@@ -230,8 +232,8 @@ StepOut ask_step(PluginProcess& plugin, const StepIn& in) {
   Trace t;
   Outputs outputs(answer);
   rest.visit([&](auto&... items) { outputs.to(items...); });
-  outputs.to(out.colour, t.query_radius, out.target, out.position, out.velocity, t.kind, t.cut, t.position, t.d_min_vertex, t.bound, t.d_min_triangle, t.d_min_edge,
-             t.vertex_facet_end, t.edge_edge_end, t.vertex_facet, t.edge_edge);
+  outputs.to(out.colour, t.query_radius, out.target, out.position, out.velocity, t.kind, t.cut, t.position, t.d_min_vertex, t.bound, t.d_min_triangle,
+             t.d_min_edge, t.vertex_facet_end, t.edge_edge_end, t.vertex_facet, t.edge_edge);
   out.rest = rest.rest();
   out.query_radius = t.query_radius.at(0);
   out.events = events_of(t, *in.topology);

@@ -40,8 +40,8 @@ int call_closest_points(void* function, CallArrays& a) {
 
 ogc_detect_in detect_in(CallArrays& a) { return {topology(a), a.in(), a.in(), a.sizes.first, a.sizes.second}; }
 
-constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::one, List::vertex_facet}, OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex},
-                                   OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle}};
+constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::one, List::vertex_facet},
+                                   OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex}, OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle}};
 int call_detect_vertex_facet(void* function, CallArrays& a) {
   const ogc_detect_in in = detect_in(a);
   ogc_detect_vertex_facet_out out{a.out(), a.capacity(List::vertex_facet), -1, a.out(), a.out()};
@@ -50,7 +50,8 @@ int call_detect_vertex_facet(void* function, CallArrays& a) {
   return status;
 }
 
-constexpr std::array edge_outputs{OutputInfo{"contacts", Element::index, 6, Per::one, List::edge_edge}, OutputInfo{"d_min_edge", Element::number, 1, Per::edge}};
+constexpr std::array edge_outputs{OutputInfo{"contacts", Element::index, 6, Per::one, List::edge_edge},
+                                  OutputInfo{"d_min_edge", Element::number, 1, Per::edge}};
 int call_detect_edge_edge(void* function, CallArrays& a) {
   const ogc_detect_in in = detect_in(a);
   ogc_detect_edge_edge_out out{a.out(), a.capacity(List::edge_edge), -1, a.out()};
@@ -126,8 +127,8 @@ constexpr std::array rest_outputs{
     OutputInfo{"meeting_friction", Element::number, 1, Per::two_bodies},
 };
 ogc_rest_state_out rest_out(CallArrays& a) {
-  return {a.out(), a.capacity(List::triangles), -1, a.capacity(List::hinges), -1, a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(),
-          a.out(), a.out()};
+  return {a.out(), a.capacity(List::triangles), -1, a.capacity(List::hinges), -1, a.out(), a.out(), a.out(), a.out(),
+          a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out()};
 }
 void take_counts(CallArrays& a, const ogc_rest_state_out& out) {
   a.count(List::triangles) = out.triangle_count;
@@ -180,8 +181,8 @@ constexpr std::array<OutputInfo, N + M> joined(const std::array<OutputInfo, N>& 
 constexpr std::array step_outputs = joined(rest_outputs, trace_outputs);
 int call_step(void* function, CallArrays& a) {
   const ogc_step_in in{scene(a), a.in(), a.in(), a.in()};
-  ogc_step_out out{rest_out(a), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::events), -1, a.out(), a.out(), a.out(), a.capacity(List::detections), -1,
-                   a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::vertex_facet), -1, a.capacity(List::edge_edge), -1, a.out(), a.out()};
+  ogc_step_out out{rest_out(a), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::events), -1, a.out(), a.out(), a.out(),
+                   a.capacity(List::detections), -1, a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::vertex_facet), -1, a.capacity(List::edge_edge), -1, a.out(), a.out()};
   const int status = call(function, in, out);
   take_counts(a, out.rest);
   a.count(List::events) = out.event_count;

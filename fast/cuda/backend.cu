@@ -15,7 +15,8 @@ CudaBackend::CudaBackend(const LaunchShape& shape) : block_threads_(shape.block_
   const BackendInfo info = cuda_info();
   if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
   if (block_threads_ % 32 != 0 || block_threads_ <= 0 || block_threads_ > cuda_block_size)
-    throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) + " threads a block; give a multiple of 32, at most " + std::to_string(cuda_block_size));
+    throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) + " threads a block; give a multiple of 32, at most " +
+                              std::to_string(cuda_block_size));
   if (multiprocessors_ <= 0) {
     int device = 0;
     OGC_CUDA_CHECK(cudaGetDevice(&device));

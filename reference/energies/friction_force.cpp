@@ -90,7 +90,9 @@ Accepted answers_of(const compare::FrictionForceCase& question, const std::vecto
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)).answers; }
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) {
+  return answers_of(question, meetings(question.contact)).answers;
+}
 
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {
   return for_all(in.cases, [](const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)); });

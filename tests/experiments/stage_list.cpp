@@ -145,7 +145,7 @@ TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision bo
   }
 }
 
-TEST_CASE("of the meshes that large runs are made of, half of the cases lie within 1024 ulp of a decision boundary too, and the reference passes", "[agreement]") {
+TEST_CASE("of the meshes that large runs are made of half of the cases lie within 1024 ulp of a boundary too, and the reference passes", "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant exact = tests::exact_contestant(authority);
   for (const Stage stage : {Stage::block, Stage::detect_vertex_facet, Stage::detect_edge_edge}) {

@@ -96,7 +96,10 @@ void write(const RestStateOut& rest, ogc_rest_state_out& out) {
     std::copy(h.weight.begin(), h.weight.end(), out.weight[k]);
   }
   std::copy(rest.edge_length_squared.begin(), rest.edge_length_squared.end(), out.edge_length_squared);
-  for (std::size_t k = 0; k < rest.meetings.size(); ++k) out.meeting_stiffness[k] = rest.meetings[k].stiffness, out.meeting_friction[k] = rest.meetings[k].friction;
+  for (std::size_t k = 0; k < rest.meetings.size(); ++k) {
+    out.meeting_stiffness[k] = rest.meetings[k].stiffness;
+    out.meeting_friction[k] = rest.meetings[k].friction;
+  }
 }
 
 RestStateOut rest_of(const ogc_sweep_in& in) {
@@ -138,8 +141,8 @@ std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& 
 class Step {
  public:
   explicit Step(const ogc_step_in& in)
-      : count_(static_cast<std::size_t>(in.scene.topology.vertex_count)), scene_(scene_of(in.scene)), topology_(build_topology(scene_)), groups_(rigid_groups(scene_)),
-        start_(points(in.start, count_)), velocity_(points(in.velocity, count_)), x_(start_) {
+      : count_(static_cast<std::size_t>(in.scene.topology.vertex_count)), scene_(scene_of(in.scene)), topology_(build_topology(scene_)),
+        groups_(rigid_groups(scene_)), start_(points(in.start, count_)), velocity_(points(in.velocity, count_)), x_(start_) {
     rest = ours().rest_state({&scene_, &topology_});
     colour = colours(rest, scene_.springs, groups_);
     set_targets(in);
@@ -225,8 +228,8 @@ class Step {
   }
 
   Index sweep() {
-    const SweepOut out = ours().sweep({&scene_, &topology_, &rest, colour, x_, start_, target, detected_.position, detected_.bound, detected_.vertex_facet.contacts,
-                                       detected_.edge_edge.contacts});
+    const SweepOut out = ours().sweep({&scene_, &topology_, &rest, colour, x_, start_, target, detected_.position, detected_.bound,
+                                       detected_.vertex_facet.contacts, detected_.edge_edge.contacts});
     x_ = out.position;
     events.push_back({StepEventKind::sweep, x_, out.cut, {}, {}, {}});
     return out.cut;
@@ -279,7 +282,8 @@ class Trace {
     for (const VertexFacetContact& c : event.vertex_facet.contacts)
       out_.vertex_facet[facets_++] = {c.vertex, static_cast<std::int32_t>(c.face.kind), c.face.index, c.owner};
     for (const EdgeEdgeContact& c : event.edge_edge.contacts)
-      out_.edge_edge[edges_++] = {static_cast<std::int32_t>(c.first.kind), c.first.index, static_cast<std::int32_t>(c.second.kind), c.second.index, c.first_edge, c.second_edge};
+      out_.edge_edge[edges_++] = {static_cast<std::int32_t>(c.first.kind), c.first.index, static_cast<std::int32_t>(c.second.kind), c.second.index,
+                                   c.first_edge, c.second_edge};
     out_.vertex_facet_end[detections_] = static_cast<std::int32_t>(facets_);
     out_.edge_edge_end[detections_] = breaks("no end") ? -1 : static_cast<std::int32_t>(edges_);
     ++detections_;
@@ -315,7 +319,8 @@ int ogc_sweep(const ogc_sweep_in* in, ogc_sweep_out* out) {
   for (const ogc_vertex_facet_contact* c = in->vertex_facet; c != in->vertex_facet + in->vertex_facet_count; ++c)
     facets.push_back({c->vertex, {static_cast<FaceKind>(c->kind), c->face}, c->owner});
   for (const ogc_edge_edge_contact* c = in->edge_edge; c != in->edge_edge + in->edge_edge_count; ++c)
-    edges.push_back({{static_cast<FaceKind>(c->first_kind), c->first_face}, {static_cast<FaceKind>(c->second_kind), c->second_face}, c->first_edge, c->second_edge});
+    edges.push_back({{static_cast<FaceKind>(c->first_kind), c->first_face}, {static_cast<FaceKind>(c->second_kind), c->second_face}, c->first_edge,
+                     c->second_edge});
   if (breaks("one contact dropped") && !facets.empty()) facets.pop_back();
   const SweepOut sweep = ours().sweep({&scene, &topology, &rest, {in->colour, n}, old, start, target, previous, {in->bound, n}, facets, edges});
   std::transform(sweep.position.begin(), sweep.position.end(), out->position, plain);
