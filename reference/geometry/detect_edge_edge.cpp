@@ -10,6 +10,7 @@
 #include "reference/geometry/box_tree.hpp"
 #include "reference/geometry/closest_points.hpp"
 #include "reference/geometry/generated_pairs.hpp"
+#include "reference/geometry/separation.hpp"
 #include "reference/geometry/smallest.hpp"
 
 namespace ogc::reference {
@@ -149,10 +150,19 @@ std::vector<Box> edge_boxes(const compare::DetectIn& in) {
   return boxes;
 }
 
-EdgeAnswer query_edge(const compare::DetectIn& in, const BoxTree& tree, const Box& box, Index e, Smallest& of_edge) {
+/// Whether a pair, too far apart for a contact, grey ones included, lowers no smallest distance either.
+bool changes_nothing(const compare::DetectIn& in, Index e, Index other, Smallest& of_edge) {
+  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(other)];
+  const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };
+  const double known = double{std::max(of_edge.so_far(static_cast<std::size_t>(e)), of_edge.so_far(static_cast<std::size_t>(other)))};
+  return surely_beyond_edge({at(a[0]), at(a[1]), at(b[0]), at(b[1])}, std::max(known, in.contact_radius * search_margin));
+}
+
+EdgeAnswer query_edge(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, const Box& box, Index e, Smallest& of_edge) {
   EdgeQuery query(in, e);
   tree.query(widened(box, in.query_radius * search_margin), [&](Index other) {
     if (other <= e || !is_candidate_pair(in, e, other)) return;
+    if (extent == DetectionExtent::exact && changes_nothing(in, e, other, of_edge)) return;
     const float d = query.visit(other);
     of_edge.lower(static_cast<std::size_t>(e), d);
     of_edge.lower(static_cast<std::size_t>(other), d);
@@ -160,15 +170,13 @@ EdgeAnswer query_edge(const compare::DetectIn& in, const BoxTree& tree, const Bo
   return query.finish();
 }
 
-}  // namespace
-
-compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) {
+compare::DetectEdgeEdgeTruth detected(const compare::DetectIn& in, DetectionExtent extent) {
   const std::vector<Box> boxes = edge_boxes(in);
   const BoxTree tree(boxes);
   Smallest of_edge(boxes.size(), in.query_radius);
   std::vector<EdgeAnswer> answers(boxes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t e = range.begin(); e < range.end(); ++e) answers[e] = query_edge(in, tree, boxes[e], static_cast<Index>(e), of_edge);
+    for (std::size_t e = range.begin(); e < range.end(); ++e) answers[e] = query_edge(in, extent, tree, boxes[e], static_cast<Index>(e), of_edge);
   });
   compare::DetectEdgeEdgeTruth truth;
   std::vector<Generated> generated;
@@ -188,5 +196,10 @@ compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) {
   truth.grey = std::move(assembled.grey);
   return truth;
 }
+
+}  // namespace
+
+compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) { return detected(in, DetectionExtent::judged); }
+compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in) { return detected(in, DetectionExtent::exact).exact; }
 
 }  // namespace ogc::reference

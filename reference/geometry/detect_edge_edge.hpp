@@ -9,4 +9,7 @@ namespace ogc::reference {
 /// below r: the points of the contact are projections of each other, so only the slope separates them from the blocks.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 
+/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not examined.
+compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in);
+
 }  // namespace ogc::reference

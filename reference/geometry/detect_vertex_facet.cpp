@@ -13,6 +13,7 @@
 #include "reference/geometry/box_tree.hpp"
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/grey_groups.hpp"
+#include "reference/geometry/separation.hpp"
 #include "reference/geometry/smallest.hpp"
 
 namespace ogc::reference {
@@ -188,13 +189,22 @@ BoxTree triangle_tree(const compare::DetectIn& in) {
   return BoxTree(std::move(boxes));
 }
 
-VertexAnswer query_vertex(const compare::DetectIn& in, const BoxTree& tree, Index v, Smallest& of_vertex, Smallest& of_triangle) {
+/// Whether a pair, too far apart for a contact, grey ones included, lowers no smallest distance either.
+bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of_vertex, Smallest& of_triangle) {
+  const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
+  const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };
+  const double known = double{std::max(of_vertex.so_far(static_cast<std::size_t>(v)), of_triangle.so_far(static_cast<std::size_t>(t)))};
+  return surely_beyond_triangle({at(v), at(corners[0]), at(corners[1]), at(corners[2])}, std::max(known, in.contact_radius * search_margin));
+}
+
+VertexAnswer query_vertex(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, Index v, Smallest& of_vertex, Smallest& of_triangle) {
   VertexQuery query(in, v);
   Box box;
   include(box, in.positions[static_cast<std::size_t>(v)]);
   tree.query(widened(box, in.query_radius * search_margin), [&](Index t) {
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
     if (std::find(corners.begin(), corners.end(), v) != corners.end() || in_one_group(in.rigid_groups, {&v, 1}, corners)) return;
+    if (extent == DetectionExtent::exact && changes_nothing(in, v, t, of_vertex, of_triangle)) return;
     const float d = query.visit(t);
     of_vertex.lower(static_cast<std::size_t>(v), d);
     of_triangle.lower(static_cast<std::size_t>(t), d);
@@ -202,15 +212,13 @@ VertexAnswer query_vertex(const compare::DetectIn& in, const BoxTree& tree, Inde
   return query.finish();
 }
 
-}  // namespace
-
-compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in) {
+compare::DetectVertexFacetTruth detected(const compare::DetectIn& in, DetectionExtent extent) {
   const BoxTree tree = triangle_tree(in);
   const std::size_t count = in.positions.size();
   Smallest of_vertex(count, in.query_radius), of_triangle(in.topology->triangles.size(), in.query_radius);
   std::vector<VertexAnswer> answers(count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t v = range.begin(); v < range.end(); ++v) answers[v] = query_vertex(in, tree, static_cast<Index>(v), of_vertex, of_triangle);
+    for (std::size_t v = range.begin(); v < range.end(); ++v) answers[v] = query_vertex(in, extent, tree, static_cast<Index>(v), of_vertex, of_triangle);
   });
   compare::DetectVertexFacetTruth truth;
   for (VertexAnswer& answer : answers) {
@@ -223,5 +231,10 @@ compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in)
   truth.exact.d_min_triangle = of_triangle.take();
   return truth;
 }
+
+}  // namespace
+
+compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in) { return detected(in, DetectionExtent::judged); }
+compare::DetectVertexFacetOut exact_vertex_facet(const compare::DetectIn& in) { return detected(in, DetectionExtent::exact).exact; }
 
 }  // namespace ogc::reference

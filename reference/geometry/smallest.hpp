@@ -20,6 +20,9 @@ class Smallest {
     }
   }
 
+  /// The smallest so far; later ones are no larger.
+  float so_far(std::size_t i) { return std::atomic_ref<float>(values_[i]).load(std::memory_order_relaxed); }
+
   std::vector<float> take() { return std::move(values_); }
 
  private:

@@ -52,7 +52,11 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
 }
 
 void ContactStep::detect_here() {
-  detected_ = timed(detection_stage, [&] { return detect(scene_, topology_, groups_, rounded(x_), query_radius_); });
+  detected_ = timed(detection_stage, [&] {
+    std::vector<Vec3f> here = rounded(x_);
+    const float radius = sufficient_query_radius(topology_, groups_, movable_, here, static_cast<float>(settings_.contact_radius), query_radius_);
+    return detect(scene_, topology_, groups_, std::move(here), radius);
+  });
   balls_ = Balls(detected_);
   for (const std::size_t v : movable_) x_[v] = balls_.inside(v, x_[v]).x;
   potential_.set_contacts(detected_.sets, widened(detected_.previous));
@@ -71,10 +75,12 @@ bool ContactStep::detection_due(std::size_t cut) const {
   return many(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
 }
 
-void ContactStep::guess() {
+bool ContactStep::in_contact() const { return !detected_.sets.vertex_facet.empty() || !detected_.sets.edge_edge.empty(); }
+
+void ContactStep::guess(GuessEnd end) {
   detect_here();
   potential_.lag_friction(x_);
-  for (std::int64_t round = 1;; ++round) {
+  for (std::int64_t round = 1; end == GuessEnd::rounds || !in_contact(); ++round) {
     const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.sets, topology_) : std::vector<bool>(x_.size(), false);
     std::size_t cut = 0;
     for (const std::size_t v : movable_) {
@@ -89,7 +95,7 @@ void ContactStep::guess() {
     detect_here();
   }
   detect_next_ = !fresh_;
-  metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
+  if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
 }
 
 /// Two vertices that were d apart and moved by at most m each are now at least d − 2m apart, and so are all faces.

@@ -26,6 +26,12 @@ class StepSolver {
   virtual std::vector<std::string> stage_names() const = 0;
 };
 
+/// What ends the guess loop, besides few cut vertices and `guess_rounds`.
+enum class GuessEnd {
+  rounds,  ///< nothing else: vertices in contact stay where they are, the others go on (method.md §5)
+  contact  ///< the first contact, if it is at xᵗ before the first round: none is passed by in part, so that nothing is distorted
+};
+
 class ContactStep {
  public:
   ContactStep(const ContactStep&) = delete;
@@ -42,7 +48,8 @@ class ContactStep {
   void begin(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
   void detect_here();
   /// Friction is lagged to xᵗ in it, where contact forces are those of a converged step.
-  void guess();
+  void guess(GuessEnd end);
+  bool in_contact() const;  ///< at the last detection
   bool many(std::size_t cut) const;
   bool nothing_near() const;  ///< the contacts at x are none, without asking
   std::size_t move_prescribed();

@@ -3,11 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/geometry/blocks.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 namespace ogc::reference {
+namespace {
+
+Triple<double> wide(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
+
+double distance_to_segment(const Triple<double>& x, const Triple<double>& a, const Triple<double>& b) {
+  const Triple<double> along = b - a, away = x - a;
+  const double length = dot(along, along), share = length > 0 ? std::clamp(dot(away, along) / length, 0.0, 1.0) : 0;
+  const Triple<double> gap = away - share * along;
+  return std::hypot(gap[0], gap[1], gap[2]);
+}
+
+}  // namespace
 
 std::vector<compare::Vec3f> rounded(const State& x) {
   std::vector<compare::Vec3f> positions;
@@ -16,12 +29,35 @@ std::vector<compare::Vec3f> rounded(const State& x) {
   return positions;
 }
 
+float sufficient_query_radius(const compare::Topology& topology, const std::vector<compare::Index>& groups, const std::vector<std::size_t>& movable,
+                              const std::vector<compare::Vec3f>& positions, float contact_radius, float most) {
+  double radius = double{contact_radius};
+  const auto at = [&](compare::Index v) { return wide(positions[static_cast<std::size_t>(v)]); };
+  for (const std::size_t v : movable) {
+    const auto vertex = static_cast<compare::Index>(v);
+    double nearest = double{most};
+    for (const compare::Index t : topology.vertex_triangles[v])
+      for (const compare::Index e : topology.triangle_edges[static_cast<std::size_t>(t)]) {
+        const compare::Edge& side = topology.edges[static_cast<std::size_t>(e)];
+        if (side[0] == vertex || side[1] == vertex) continue;
+        for (const compare::Index other : topology.edge_triangles[static_cast<std::size_t>(e)]) {
+          const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(other)];
+          if (std::find(corners.begin(), corners.end(), vertex) != corners.end() || in_one_group(groups, {&vertex, 1}, corners)) continue;
+          nearest = std::min(nearest, distance_to_segment(at(vertex), at(side[0]), at(side[1])));
+        }
+      }
+    radius = std::max(radius, nearest);
+  }
+  // Rounding moves a distance by some 2⁻⁵⁰ of the coordinates: a part in 2²⁰ of r and more covers that up to coordinates of 2³⁰ r.
+  return std::min(most, static_cast<float>(radius * (1 + 0x1p-20)));
+}
+
 Detected detect(const compare::Scene& scene, const compare::Topology& topology, const std::vector<compare::Index>& groups,
                 std::vector<compare::Vec3f> positions, float query_radius) {
   const auto radius = static_cast<float>(scene.settings.contact_radius);
   const compare::DetectIn in{&topology, groups, positions, radius, query_radius};
-  compare::DetectVertexFacetOut facets = detect_vertex_facet(in).exact;
-  compare::DetectEdgeEdgeOut edges = detect_edge_edge(in).exact;
+  compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
+  compare::DetectEdgeEdgeOut edges = exact_edge_edge(in);
   const auto relaxation = static_cast<float>(scene.settings.bound_relaxation);
   Detected result;
   result.bound = bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;

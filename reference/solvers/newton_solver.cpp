@@ -41,7 +41,7 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   begin(start, velocity, number);
   judgements_ = 0;
   pattern_stale_ = true;
-  guess();
+  guess(GuessEnd::contact);
   return finish(status_of(solve()));
 }
 
@@ -73,6 +73,8 @@ NewtonSolver::Outcome NewtonSolver::solve_once() {
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
   return Outcome::iteration_limit;
 }
+
+bool NewtonSolver::to_convergence() const { return settings_.newton_tolerance > 0 || settings_.newton_step_tolerance > 0; }
 
 double NewtonSolver::mean_force() const {
   double sum = 0;
@@ -120,7 +122,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
     if (options_.condition) rows_.back().condition_number = condition_number(matrix_, factor_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
-  detect_next_ = share == 0 || detection_due(cut_) || (settings_.newton_tolerance > 0 && cut_ > 0);
+  detect_next_ = share == 0 || detection_due(cut_) || (to_convergence() && cut_ > 0);
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step) return Outcome::converged;
   return {};

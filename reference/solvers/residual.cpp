@@ -24,7 +24,7 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
 
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) {
     begin(start, velocity, number);
-    guess();
+    guess(GuessEnd::rounds);
     at(x_);
   }
 

@@ -45,7 +45,7 @@ StepResult VbdSolver::step(const std::vector<Vec3f>& start, const std::vector<Ve
   begin(start, velocity, number);
   measuring_ms_ = 0;
   residual_ = std::numeric_limits<double>::quiet_NaN();
-  guess();
+  guess(GuessEnd::rounds);
   systems_.read_contacts();
   detect_next_ = false;
   measured([&] {
