@@ -8,6 +8,7 @@
 namespace ogc::reference {
 namespace {
 
+using compare::HessianProjection;
 using compare::Vec3f;
 
 constexpr int most_halvings = 20;
@@ -89,7 +90,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   if (detects) detect_here();
   pattern_stale_ = pattern_stale_ || detects;
   const std::size_t prescribed_cut = move_prescribed();
-  timed(derivation, [&] { derivatives_ = potential_.derivatives(x_, settings_.projection, std::move(derivatives_)); });
+  derive(cut_ > 0 ? settings_.projection : HessianProjection::none);
   const double force = mean_force();
   if (!std::isfinite(force)) return Outcome::not_finite;
   set_residual(force);
@@ -108,7 +109,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
 
 /// Solves, truncates, searches along the line.
 std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribed_cut) {
-  if (!factorized()) return Outcome::indefinite;
+  if (!factorized_definite()) return Outcome::indefinite;
   const Direction direction = direction_of();
   if (!std::isfinite(direction.largest)) return Outcome::not_finite;
   const double share = timed(line_search, [&] { return searched(direction); });
@@ -126,6 +127,18 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step) return Outcome::converged;
   return {};
+}
+
+void NewtonSolver::derive(HessianProjection projection) {
+  projection_ = projection;
+  timed(derivation, [&] { derivatives_ = potential_.derivatives(x_, projection, std::move(derivatives_)); });
+}
+
+bool NewtonSolver::factorized_definite() {
+  if (factorized()) return true;
+  if (projection_ == settings_.projection) return false;
+  derive(settings_.projection);
+  return factorized();
 }
 
 bool NewtonSolver::factorized() {
