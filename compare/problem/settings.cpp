@@ -40,7 +40,7 @@ constexpr std::array<SettingInfo, 30> table{{
     {"newton_tolerance", "1", "Newton: residual (Eq. 29) at which a step has converged; 0: all iterations are done", 0, 1, &Settings::newton_tolerance},
     {"newton_step_tolerance", "m/s", "Newton: converged, too, where no vertex wants to move faster than this", 0, 0x1p10, &Settings::newton_step_tolerance},
     {"friction_solves", "1", "Newton: solves a step, each with friction lagged to the one before", 1, 1 << 20, &Settings::friction_solves},
-    {"projection", "1", "Newton, where the whole matrix is not positive definite: what becomes of negative eigenvalues of a stencil's Hessian", 0, 2, &Settings::projection, projection_names},
+    {"projection", "1", "Newton: what becomes of stencils' negative eigenvalues where the sum has some, too", 0, 2, &Settings::projection, projection_names},
     {"activation", "1", "contact energy over distance", 0, 4, &Settings::activation, activations},
     {"damping", "1", "damping acts on the change of strains, or on the motion of each vertex alone (vbd)", 0, 1, &Settings::damping, damping_forms},
     {"ipc_distance", "m", "IPC: barrier distance; 0: by ipc_relative_distance", 0, most_length, &Settings::ipc_distance},

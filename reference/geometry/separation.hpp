@@ -1,5 +1,5 @@
-// A cheap question before the exact ones: are two primitives certainly farther apart than this? Two parallel planes with nothing between them prove it, whatever
-// direction they were given, so that only the width of the slab needs an error bound.
+// A cheap question before the exact ones: are two primitives certainly farther apart than this? Two parallel planes with nothing between them prove it, in
+// whatever direction they were drawn, so that only the width of the slab needs an error bound.
 #pragma once
 
 #include <array>

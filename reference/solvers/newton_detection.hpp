@@ -19,9 +19,9 @@ struct Detected {
 /// Rounds to nearest.
 std::vector<compare::Vec3f> rounded(const State& x);
 
-/// A query radius, between r and `most`, that gives the `movable` vertices the contacts and bounds of `most` at these positions: b_v comes from v's own distances
-/// to triangles too, and beyond the sides opposite v lie triangles without it. So no distance above the largest of those smallest ones lowers a bound. `most`
-/// itself where a vertex has no such triangle. Both radii in metres, r ≤ most.
+/// A query radius, between r and `most`, that gives the `movable` vertices the contacts and bounds of `most` at these positions. Beyond a side opposite v lies a
+/// triangle without v, so b_v is γ_p times the distance to the nearest such side at most, and the largest of these distances is enough; `most` where a vertex
+/// has no such triangle. Both radii in metres, r ≤ most.
 float sufficient_query_radius(const compare::Topology& topology, const std::vector<compare::Index>& groups, const std::vector<std::size_t>& movable,
                               const std::vector<compare::Vec3f>& positions, float contact_radius, float most);
 

@@ -7,12 +7,12 @@
 //                        ▲                                                                                          │
 //                        └─────────────── detect again when vertices were cut, or to judge the residual ──────┘
 //
-// Choices that the paper leaves open. The guess loop ends at the first contact; a step that begins with contacts begins at xᵗ. The loop moves vertices one by one:
-// those in contact stay while the others cross several balls, and what is left is crumpled, with distances so small that no ball lets it unfold. Newton's own
-// steps cross as many balls, but move everything together. Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged step; after the guess loop
-// they are not. Contacts are detected once more after the guess loop: the reference residual f* of Eq. 29 asks for them, and the solve begins with full balls.
+// Choices that the paper leaves open. The guess loop ends at the first contact; a step that begins with contacts begins at xᵗ. The loop moves vertices one by
+// one: those in contact stay while the others cross several balls, and what is left is crumpled, with distances so small that no ball lets it unfold. Newton's
+// own steps cross as many balls, but move everything together. Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged step.
+// Contacts are detected once more after a guess: the reference residual f* of Eq. 29 asks for them, and the solve begins with full balls.
 // A solve to a tolerance detects again as soon as one vertex was cut, as method.md §6 asks of all that is run to convergence: a vertex that its ball holds back
-// would keep the residual up for good. Without a tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where
+// would keep the residual up for good. Without any tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where
 // bounds keep one from its target it lags, as in the fast path.
 //
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far from the solution it rarely is. Always
