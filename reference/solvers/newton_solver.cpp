@@ -75,8 +75,6 @@ NewtonSolver::Outcome NewtonSolver::solve_once() {
   return Outcome::iteration_limit;
 }
 
-bool NewtonSolver::to_convergence() const { return settings_.newton_tolerance > 0 || settings_.newton_step_tolerance > 0; }
-
 double NewtonSolver::mean_force() const {
   double sum = 0;
   for (const Triple<double>& g : derivatives_.gradient) sum += length(g);
@@ -123,7 +121,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
     if (options_.condition) rows_.back().condition_number = condition_number(matrix_, factor_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
-  detect_next_ = share == 0 || detection_due(cut_) || (to_convergence() && cut_ > 0);
+  detect_next_ = share == 0 || detection_due(cut_) || (settings_.newton_tolerance > 0 && cut_ > 0);
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step) return Outcome::converged;
   return {};

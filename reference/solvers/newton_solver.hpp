@@ -12,7 +12,7 @@
 // own steps cross as many balls, but move everything together. Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged step.
 // Contacts are detected once more after a guess: the reference residual f* of Eq. 29 asks for them, and the solve begins with full balls.
 // A solve to a tolerance detects again as soon as one vertex was cut, as method.md §6 asks of all that is run to convergence: a vertex that its ball holds back
-// would keep the residual up for good. Without any tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where
+// would keep the residual up for good. Without a tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where
 // bounds keep one from its target it lags, as in the fast path.
 //
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far from the solution it rarely is. Always
@@ -58,7 +58,6 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// One round of the loop; empty where it goes on.
   std::optional<Outcome> iterate();
   std::optional<Outcome> advance(std::size_t prescribed_cut);
-  bool to_convergence() const;
   double mean_force() const;
   void derive(compare::HessianProjection projection);
   /// With stencils projected where the matrix of these derivatives is not positive definite.

@@ -108,7 +108,7 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
   add_sheet(scene, 5, 0.05, 4.99e-3, false, material);
   for (compare::Vec3& velocity : scene.velocities) velocity = {1, -3, 0.5};
   scene.gravity = {};
-  scene.settings.newton_tolerance = 0;
+  scene.settings.redetect_fraction = scene.settings.newton_tolerance = 0;
   scene.settings.newton_step_tolerance = 1e-3;
   const Run result = run(scene, 4);
   REQUIRE(clean(result));
