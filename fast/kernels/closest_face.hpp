@@ -16,14 +16,17 @@ struct Corners {
   OGC_HD const Vec& operator[](int k) const { return k == 0 ? a : (k == 1 ? b : c); }
 };
 
-/// Part of x on the inner side of the edge e from its first end, u = x − first end, w = third corner − first end: of the sign of Side.
-OGC_HD inline double inner_side(const Real& u, const Real& w, const Real& e) { return perpendicular_product(u, w, e).value; }
+/// Whether x is surely on the inner side of the edge e from its first end, u = x − first end, w = third corner − first end: Side beyond its 16 roundings.
+OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {
+  return perpendicular_product(u, w, e).value > mul(mul(mul(0x1p-48, norm_1(u)), norm_1(w)), squared(e));
+}
 
 /// Distance of x and the closed triangle.
 ///
-/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: a side errs by 16 roundings of ‖u‖‖w‖‖e‖², which moves the foot across that edge
-/// by 16 ‖u‖‖w‖‖e‖/‖n‖, and the normal's 4 roundings tilt the plane by as much: under 2⁻⁴⁸ S L²/‖n‖ together. A triangle lower than 2⁻²⁴ L counts as its
-/// edges, no point of it being farther from them. Both limits stay under 2 u S.
+/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: where a side is in doubt the outline counts. A foot inside is then nearer to that
+/// edge's line, and so to the outline, than 2⁻⁴⁸ ‖u‖₁‖w‖₁‖e‖/‖n‖ ≤ √3 2⁻⁴⁸ S L²/‖n‖; a foot outside is not moved at all, which matters at a sharp corner, where one that
+/// is a rounding beyond two edges can be far from the triangle. The normal's 4 roundings tilt the plane by less than 2⁻⁵¹ S L²/‖n‖: under 2⁻⁴⁷ together. A triangle lower than
+/// 2⁻²⁴ L counts as its outline, no point of it being farther from that. Both limits stay under 2 u S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a);
   const Real f = difference<Rounded>(t.c, t.b), n = cross(e, w);
@@ -31,13 +34,13 @@ OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   const double size = add(add(norm_1(u), norm_1(e)), norm_1(w));
   const bool has_inside = nn > mul(0x1p-48, longest_4);
 
-  double slack = mul(0x1p-40, size);  // L²/‖n‖ ≤ 2⁸: nearly all triangles
+  double slack = mul(0x1p-39, size);  // L²/‖n‖ ≤ 2⁸: nearly all triangles
   if (!has_inside) {
     slack = add(mul(0x1p-46, size), mul(0x1p-24, square_root(longest)));
   } else if (nn < mul(0x1p-16, longest_4)) {
     slack = mul(mul(0x1p-47, size), square_root(divide(longest_4, nn)));
   }
-  if (has_inside && inner_side(u, w, e) > 0 && inner_side(u, e, w) > 0 && inner_side(v, -e, f) > 0) {
+  if (has_inside && is_inside(u, w, e) && is_inside(u, e, w) && is_inside(v, -e, f)) {
     return {divide(modulus(dot(u, n).value), square_root(nn)), slack};
   }
   const double nearest = smaller(smaller(squared_to_segment(u, e), squared_to_segment(u, w)), squared_to_segment(v, f));
