@@ -45,6 +45,6 @@ class DeviceMemory:
 
 
 def taken(path):
-    """What was in use at most beyond what was in use before [MiB]; "" where nobody sampled it."""
+    """What was in use at most beyond what was in use before [MiB]; "" where nobody sampled it, or only once: before the run took any."""
     sampled = json.loads(path.read_text()) if path.is_file() else None
-    return sampled["largest [MiB]"] - sampled["before [MiB]"] if sampled else ""
+    return sampled["largest [MiB]"] - sampled["before [MiB]"] if sampled and sampled["samples"] > 1 else ""

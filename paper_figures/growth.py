@@ -105,7 +105,10 @@ def in_words(rows):
 def draw(rows, out):
     from plots import style  # here, so that runs and table need no matplotlib
     plt = style.use()
-    figure, (time, density, cores) = plt.subplots(1, 3, figsize=(12, 4), width_ratios=[1.6, 1, 1.2])
+    alone = [row for row in rows if row["over"] == "threads"]
+    widths = [1.6, 1] + [1.2] * bool(alone)
+    figure, panels = plt.subplots(1, len(widths), figsize=(3.2 * sum(widths), 4), width_ratios=widths)
+    time, density = panels[:2]
     for backend, colour in zip(("cuda", "cpu"), style.COLOURS):
         line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
         if line:
@@ -116,16 +119,17 @@ def draw(rows, out):
             slope, factor = exponent(line)
             time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1, label=f"∝ vertices^{slope:.2f}")
     time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]", title="Time a step at one contact density")
-    density.set(xscale="log", xlabel="free vertices", ylabel="contacts a vertex", title="The density, measured", ylim=(0, None))
-    alone = [row for row in rows if row["over"] == "threads"]
-    cores.set(xlabel="threads", ylabel="median time a step [ms]", title="CPU" + (f", {alone[0]['vertices']:,} vertices" if alone else ": no run"))
+    density.set(xscale="log", xlabel="free vertices", ylabel="contacts a vertex", title="The density, measured")
+    density.set_ylim(0, 1.1 * density.get_ylim()[1])
     if alone:
+        cores = panels[2]
+        cores.set(xlabel="threads", ylabel="median time a step [ms]", title=f"CPU, {alone[0]['vertices']:,} vertices")
         numbers, best = [row["threads"] for row in alone], alone[0]["median [ms]"] * alone[0]["threads"]
         cores.plot(numbers, [row["median [ms]"] for row in alone], "o-", label="measured")
         cores.plot(numbers, [best / n for n in numbers], ":", color="black", label="shared out perfectly")
         cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers)
         cores.minorticks_off()
-    for axes in (time, density, cores):
+    for axes in panels:
         if axes.has_data():
             axes.legend(fontsize=7)
     figure.suptitle("\n".join([*in_words(rows), "commit " + ", ".join(sorted({row["commit"] for row in rows}))]), fontsize=8)

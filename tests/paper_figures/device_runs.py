@@ -98,7 +98,8 @@ class Parts(Scratch):
 
     def test_the_memory_of_a_row_is_what_it_took_beyond_what_was_in_use(self):
         (self.folder / "twist_device_memory.json").write_text(json.dumps({"before [MiB]": 500, "largest [MiB]": 2500, "samples": 3}))
-        self.assertEqual([device_memory.taken(self.folder / f"{row}_device_memory.json") for row in ("twist", "knot")], [2000, ""])
+        (self.folder / "short_device_memory.json").write_text(json.dumps({"before [MiB]": 0, "largest [MiB]": 0, "samples": 1}))
+        self.assertEqual([device_memory.taken(self.folder / f"{row}_device_memory.json") for row in ("twist", "knot", "short")], [2000, "", ""])
 
 
 class Growth(Scratch):
