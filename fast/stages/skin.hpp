@@ -1,5 +1,5 @@
-// Memory of the list with a skin (fast/kernels/skin.hpp). Unlike the other lists it may be too small: then a detection searches, and the host, which looks
-// after each frame, gives it more room.
+// Memory of the list with a skin (fast/kernels/skin.hpp). Unlike the other lists it may be too small: then a detection searches, and the host, when it looks
+// the next time, gives the list more room. It begins with room for few pairs, since many callers never need it.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,14 @@ template <class Backend>
 class Skin {
  public:
   /// `share`: largest m/r; 0 for none, every detection searches.
-  Skin(const SurfaceView& surface, float share) : share_(share), capacity_(16 * (surface.vertex_count + surface.edge_count) + 1) {
+  Skin(const SurfaceView& surface, float share) : share_(share) {
     const auto size = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
     state_.resize(1);
     forget();
+    if (!is_used()) return;
     anchor_.resize(size(surface.vertex_count));
     vertex_.resize(size(surface.vertex_count)), edge_.resize(size(surface.edge_count)), triangle_.resize(size(surface.triangle_count));
-    if (is_used()) pairs_.resize(size(capacity_));
+    pairs_.resize(size(capacity_));
   }
 
   SkinView view(float contact_radius) {
@@ -61,7 +62,7 @@ class Skin {
   using Buffer = typename Backend::template Buffer<T>;
 
   float share_;
-  int capacity_;
+  int capacity_ = 1 << 14;  // 128 KiB
   Buffer<SkinState> state_;
   Buffer<NotedPair> pairs_;
   Buffer<Vec> anchor_;
