@@ -173,8 +173,6 @@ struct Reach {
   const float* query_radius;
   const SkinState* skin = nullptr;  ///< null: a search that keeps no pairs
 
-  OGC_HD bool is_needed() const { return skin == nullptr || skin->mode != SkinMode::recheck; }
-
   OGC_HD float of_edge(int e) const {
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
@@ -218,7 +216,7 @@ struct RefitPrimitives {
   float* vertex_limit;
 
   OGC_HD void operator()(int i) const {
-    if (!reach.is_needed()) return;
+    if (!needs_trees(reach.skin)) return;
     const int edge_place = i - facets.count, v = edge_place - edges.count;
     if (edge_place < 0) {
       const int t = facets.order[i];
@@ -255,7 +253,7 @@ struct RefitInner {
   const SkinState* skin;  ///< as in Reach
 
   OGC_HD void operator()(int i) const {
-    if (skin != nullptr && skin->mode == SkinMode::recheck) return;
+    if (!needs_trees(skin)) return;
     const bool is_facet = i < facet_nodes;
     const TreeView& tree = is_facet ? facets : edges;
     const int j = is_facet ? i : i - facet_nodes;

@@ -52,6 +52,9 @@ struct SkinView {
   OGC_HD float bound(float anchored) const { return anchored < state->listed_radius ? add(anchored, state->bound) : __builtin_huge_valf(); }
 };
 
+/// Whether a detection needs its trees; null: one that keeps no pairs.
+OGC_HD inline bool needs_trees(const SkinState* skin) { return skin == nullptr || skin->mode != SkinMode::recheck; }
+
 /// As atomic_max, for values that seldom raise the target.
 OGC_HD inline void raise_bits(int* target, float value) {
   const int bits = float_bits(value >= 0 ? value : __builtin_huge_valf());
@@ -95,7 +98,7 @@ struct ChooseSkinMode {
     }
     if (s.has_list != 0) s.most = s.count > s.most ? s.count : s.most;
     if (s.has_list != 0) s.patience = s.wait = s.rechecks_of_list > 0 ? 0 : (s.patience < 31 ? 2 * s.patience + 1 : 63);
-    const float least = mul(skin.largest_margin, 0x1p-3F), wanted = larger(least, drift * (6 / drift_of_margin));
+    const float least = larger(mul(skin.largest_margin, 0x1p-3F), mul(extent, 0x1p-12F)), wanted = larger(least, drift * (6 / drift_of_margin));
     const float margin = smaller(skin.largest_margin, wanted);
     const bool lists = s.wait == 0 && s.has_anchor != 0 && margin > 0 && drift * (3 / drift_of_margin) <= margin && is_wide_enough(margin, extent);
     if (s.wait > 0) --s.wait;

@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Largest m as a part of r: a list outlives displacements of up to 7/32 of m, and grows with it.
-inline constexpr float usual_skin = 2.0F;
+/// Largest m as a part of r: a list outlives displacements of up to 7/32 of m, and grows with it (fast/PERFORMANCE.md).
+inline constexpr float usual_skin = 1.0F;
 
 template <class Backend>
 class Skin {

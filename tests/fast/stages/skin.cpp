@@ -94,23 +94,24 @@ TEST_CASE("skin: detections along a walk are those of a search, through all chan
 TEST_CASE("skin: nothing is looked at again beyond the drift, for a larger r_q, or where coordinates are too large for the margin", "[unit]") {
   const TestMesh mesh = surfaces();
   const compare::Topology topology = mesh.topology();
-  const auto rechecks_after = [&](const compare::Vec3f& shift, float r_q) {
+  const auto looks_again_after = [&](const compare::Vec3f& shift, float r_q) {
     CpuBackend backend;
     BackendContactEngine<CpuBackend> engine(backend, topology, {});
     Positions positions = mesh.positions;
     if (shift.y != 0) for (auto& x : positions) x.y += shift.y;
-    for (int k = 0; k < 2; ++k) engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F});
+    for (int k = 0; k < 4; ++k) engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F});  // until the list has room
     positions[5].x += shift.x;
     engine.find(positions, {.contact_radius = radius, .query_radius = r_q});
-    return engine.detection().skin_state().rechecks;
+    return engine.detection().skin_state().mode == SkinMode::recheck;
   };
-  CHECK(rechecks_after({0, 0, 0}, 0.8F) == 1);
-  CHECK(rechecks_after({0.99F * farthest, 0, 0}, 0.8F) == 1);
-  CHECK(rechecks_after({1.01F * farthest, 0, 0}, 0.8F) == 0);
-  CHECK(rechecks_after({0, 0, 0}, 0.8F + 0.49F * margin) == 1);
-  CHECK(rechecks_after({0, 0, 0}, 0.8F + 0.51F * margin) == 0);
-  CHECK(rechecks_after({0, 3900 * margin, 0}, 0.8F) == 1);
-  CHECK(rechecks_after({0, 4200 * margin, 0}, 0.8F) == 0);
+  CHECK(looks_again_after({0, 0, 0}, 0.8F));
+  CHECK(looks_again_after({0.99F * farthest, 0, 0}, 0.8F));
+  CHECK_FALSE(looks_again_after({1.01F * farthest, 0, 0}, 0.8F));
+  CHECK(looks_again_after({0, 0, 0}, 0.8F + 0.49F * margin));
+  CHECK_FALSE(looks_again_after({0, 0, 0}, 0.8F + 0.51F * margin));
+  constexpr float largest = 4096 * usual_skin * radius;
+  CHECK(looks_again_after({0, 0.97F * largest, 0}, 0.8F));
+  CHECK_FALSE(looks_again_after({0, 1.03F * largest, 0}, 0.8F));
 }
 
 TEST_CASE("skin: a list without room for its pairs is not used, and is given room", "[unit]") {
