@@ -1,5 +1,5 @@
 // Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few searches to hide the chain node →
-// child → primitive → arithmetic, and the longest of 32 different searches holds up the others. Here a warp takes `group` neighbouring searches and
+// child → primitive → arithmetic, and the longest of 32 different searches holds up the others. Here a warp takes a few searches and
 // keeps their open ends in lists of its own in shared memory; in each round all lanes take one item each, of whichever search:
 //
 //   nodes       still to be opened: four lanes open one, a box each
@@ -36,9 +36,14 @@ struct SearchNode {
   __device__ int place() const { return static_cast<int>(bits & 0x1ffffffU); }
 };
 
+/// A primitive that a leaf offered: search of the group, place.
 struct SearchItem {
-  int place;
+  unsigned bits;
   float gap;
+
+  __device__ static SearchItem of(int slot, int place, float gap) { return {static_cast<unsigned>(slot) << 28 | static_cast<unsigned>(place), gap}; }
+  __device__ int slot() const { return static_cast<int>(bits >> 28); }
+  __device__ int place() const { return static_cast<int>(bits & 0xfffffffU); }
 };
 
 /// Open ends of one warp. A list from which 32 could be taken gets nothing, and no round adds more than 32.
@@ -47,7 +52,6 @@ struct SearchMemory {
   Search searches[largest_group];
   SearchItem candidates[most_items], pairs[most_items];
   SearchNode nodes[most_nodes];
-  unsigned char candidate_slots[most_items], pair_slots[most_items];
 };
 
 template <class Query>
@@ -56,9 +60,10 @@ class WarpSearch {
   __device__ WarpSearch(const Searches<Query>& searches, SearchMemory& memory)
       : tree_(searches.tree), query_(searches.query), memory_(memory), lane_(static_cast<int>(threadIdx.x) % 32) {}
 
-  __device__ void run(int first, int count) {
+  /// Searches first, first + stride, …, `count` of them.
+  __device__ void run(int first, int stride, int count) {
     if (lane_ < count) {
-      memory_.searches[lane_] = query_.begin(first + lane_);
+      memory_.searches[lane_] = query_.begin(first + lane_ * stride);
       memory_.nodes[lane_] = SearchNode::of(tree_.levels - 1, lane_, 0);
     }
     node_count_ = count;
@@ -84,9 +89,9 @@ class WarpSearch {
     const int take = min(32, pair_count_);
     pair_count_ -= take;
     if (lane_ >= take) return;
-    Search& search = memory_.searches[memory_.pair_slots[pair_count_ + lane_]];
     const SearchItem pair = memory_.pairs[pair_count_ + lane_];
-    const float limit = query_.meet(search, pair.place, pair.gap);
+    Search& search = memory_.searches[pair.slot()];
+    const float limit = query_.meet(search, pair.place(), pair.gap);
     if (limit < search.limit) atomicMin(reinterpret_cast<int*>(&search.limit), __float_as_int(limit));
   }
 
@@ -94,19 +99,13 @@ class WarpSearch {
     const int take = min(32, candidate_count_);
     candidate_count_ -= take;
     SearchItem item{};
-    unsigned char slot = 0;
     bool keep = false;
     if (lane_ < take) {
       item = memory_.candidates[candidate_count_ + lane_];
-      slot = memory_.candidate_slots[candidate_count_ + lane_];
-      keep = query_.is_pair(memory_.searches[slot], item.place, item.gap);
+      keep = query_.is_pair(memory_.searches[item.slot()], item.place(), item.gap);
     }
     const unsigned kept = __ballot_sync(everyone_, keep);
-    if (keep) {
-      const int to = pair_count_ + __popc(kept & before());
-      memory_.pairs[to] = item;
-      memory_.pair_slots[to] = slot;
-    }
+    if (keep) memory_.pairs[pair_count_ + __popc(kept & before())] = item;
     pair_count_ += __popc(kept);
   }
 
@@ -119,7 +118,7 @@ class WarpSearch {
     if (own < take) {
       const SearchNode node = memory_.nodes[node_count_ + own];
       level = node.level(), slot = node.slot(), j = 4 * node.place() + child;
-      const Search& search = memory_.searches[slot];
+      const Search search = memory_.searches[slot];
       const Quad& quad = tree_.node(level, node.place());
       gap = squared_gap(quad.box(child), search.box);
       is_near = gap <= larger(search.limit, quad.reach[child]) && j >= search.from >> (2 * level);
@@ -128,9 +127,7 @@ class WarpSearch {
     const bool is_leaf = level == 0;
     const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
     if (is_near && is_leaf) {
-      const int to = candidate_count_ + __popc(near & leaves & before());
-      memory_.candidates[to] = {j, gap};
-      memory_.candidate_slots[to] = static_cast<unsigned char>(slot);
+      memory_.candidates[candidate_count_ + __popc(near & leaves & before())] = SearchItem::of(slot, j, gap);
     } else if (is_near) {
       memory_.nodes[node_count_ + __popc(near & ~leaves & before())] = SearchNode::of(level - 1, slot, j);
     }
@@ -145,32 +142,40 @@ class WarpSearch {
   int node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
 };
 
+/// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches lie side by side, and a warp that got them all
+/// would hold up the launch.
+struct SearchGroups {
+  int group, warps;
+
+  SearchGroups(int count, int searches) : group(searches), warps((count + searches - 1) / searches) {}
+  int blocks(int block_warps) const { return (warps + block_warps - 1) / block_warps; }
+};
+
 template <class Query>
-__device__ void run_group(const Searches<Query>& searches, int group, int number, SearchMemory& memory) {
-  const int first = group * number;
-  if (first < searches.count && !searches.query.is_off()) WarpSearch<Query>(searches, memory).run(first, min(group, searches.count - first));
+__device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
+  if (warp >= groups.warps || searches.query.is_off()) return;
+  WarpSearch<Query>(searches, memory).run(warp, groups.warps, min(groups.group, (searches.count - warp + groups.warps - 1) / groups.warps));
 }
 
 /// The first kind in the first blocks.
 template <class First, class Second>
 __global__ void __launch_bounds__(32 * search_warps, 8)
-    run_searches(Searches<First> first, int first_group, int first_blocks, Searches<Second> second, int second_group) {
+    run_searches(Searches<First> first, SearchGroups first_groups, int first_blocks, Searches<Second> second, SearchGroups second_groups) {
   __shared__ SearchMemory memory[search_warps];
   const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
   if (block < first_blocks) {
-    run_group(first, first_group, block * warps + warp, memory[warp]);
+    run_group(first, first_groups, block * warps + warp, memory[warp]);
   } else {
-    run_group(second, second_group, (block - first_blocks) * warps + warp, memory[warp]);
+    run_group(second, second_groups, (block - first_blocks) * warps + warp, memory[warp]);
   }
 }
-
-inline int search_blocks(int count, int searches) { return (count + searches - 1) / searches; }
 
 /// `warps` of a block: at most search_warps.
 template <class First, class Second>
 void launch_searches(cudaStream_t stream, int warps, const Searches<First>& first, int first_group, const Searches<Second>& second, int second_group) {
-  const int first_blocks = search_blocks(first.count, first_group * warps), blocks = first_blocks + search_blocks(second.count, second_group * warps);
-  if (blocks > 0) run_searches<<<blocks, 32 * warps, 0, stream>>>(first, first_group, first_blocks, second, second_group);
+  const SearchGroups first_groups(first.count, first_group), second_groups(second.count, second_group);
+  const int first_blocks = first_groups.blocks(warps), blocks = first_blocks + second_groups.blocks(warps);
+  if (blocks > 0) run_searches<<<blocks, 32 * warps, 0, stream>>>(first, first_groups, first_blocks, second, second_groups);
 }
 
 }  // namespace ogc::fast

@@ -79,7 +79,7 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
   using Scan = cub::BlockScan<int, serial_block_size>;
   __shared__ typename Scan::TempStorage scan;
   __shared__ int begins[teams], offsets[teams + 1];  // of the teams' items: in their arrays; in the order of the block
-  __shared__ unsigned memory[serial_block_size][words<Accumulator>()];
+  __shared__ unsigned memory[2][serial_block_size][words<Accumulator>()];  // in turn: who writes the next terms waits for nobody who reads these
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
   __syncthreads();  // whoever still reads what stood here
@@ -89,16 +89,15 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
   __syncthreads();
   const int end = offsets[team + 1];
   int next = offsets[team] + lane;
-  for (int base = 0; base < total; base += serial_block_size) {
+  for (int base = 0, turn = 0; base < total; base += serial_block_size, turn ^= 1) {
     const int item = base + thread;
     if (item < total) {
       int owner = 0;
       for (int half = teams / 2; half > 0; half /= 2) owner += offsets[owner + half] <= item ? half : 0;
-      *reinterpret_cast<Accumulator*>(memory[thread]) = part.term(part.load(begins[owner] + item - offsets[owner]));
+      *reinterpret_cast<Accumulator*>(memory[turn][thread]) = part.term(part.load(begins[owner] + item - offsets[owner]));
     }
     __syncthreads();
-    for (const int here = min(end, base + serial_block_size); next < here; next += W) own += *reinterpret_cast<const Accumulator*>(memory[next - base]);
-    __syncthreads();
+    for (const int here = min(end, base + serial_block_size); next < here; next += W) own += *reinterpret_cast<const Accumulator*>(memory[turn][next - base]);
   }
 }
 

@@ -1,4 +1,4 @@
-// A tree of boxes over primitives in Morton order, four to a node. Level 0 holds the primitives' own boxes, each level above one lane for every node
+// A tree of boxes over primitives in the order of a Hilbert curve, four to a node. Level 0 holds the primitives' own boxes, each level above one lane for every node
 // below, so that node j of level l has the children 4j … 4j + 3 of level l − 1 and nothing but the start of each level is stored. A refit needs no
 // atomics; a traversal keeps the lanes that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
 // positions, not inflated: the query brings its radius.
@@ -29,7 +29,11 @@ struct Box {
 };
 
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
+#if defined(__CUDA_ARCH__)
+  return fmaxf(fmaxf(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);  // one instruction each; another zero has the same square
+#else
   return larger(larger(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
+#endif
 }
 
 /// Squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one product, two sums. Never smaller for a box inside.
@@ -276,8 +280,33 @@ OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
   return (n | n << 2) & 0x1249249249249249ULL;
 }
 
-/// Morton keys of all vertices, edges and facets for one sort; the two highest bits keep the three kinds apart.
-struct MortonKeys {
+/// A cell of a grid of 2²⁰ in each direction.
+struct Cell {
+  std::uint32_t axis[3];
+};
+
+/// The place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Cells one after the other touch, so that each four primitives in this
+/// order lie close together; Morton's order jumps, and its nodes overlap more (fast/PERFORMANCE.md).
+OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
+  constexpr std::uint32_t top = 1U << 19;
+  std::uint32_t* x = cell.axis;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t exchanged = (x[k] & bit) != 0 ? 0 : (x[0] ^ x[k]) & below;
+      x[0] ^= (x[k] & bit) != 0 ? below : exchanged;
+      x[k] ^= exchanged;
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t flips = 0;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) flips ^= (x[2] & bit) != 0 ? bit - 1 : 0;
+  return spread_bits(x[0] ^ flips) << 2 | spread_bits(x[1] ^ flips) << 1 | spread_bits(x[2] ^ flips);
+}
+
+/// Hilbert keys of all vertices, edges and facets for one sort; the two highest bits keep the three kinds apart.
+struct HilbertKeys {
   SurfaceView surface;
   const Vec* positions;
   TreeView facets, edges;  ///< refitted: their roots give the extent
@@ -296,23 +325,22 @@ struct MortonKeys {
       for (const int corner : surface.facets[t].corner) box.include(positions[corner]);
     }
     values[i] = e < 0 ? i : (t < 0 ? e : t);
-    keys[i] = static_cast<std::uint64_t>(e < 0 ? 0 : (t < 0 ? 1 : 2)) << 62 | key(box);
+    keys[i] = static_cast<std::uint64_t>(e < 0 ? 0 : (t < 0 ? 1 : 2)) << 62 | hilbert_key(cell(box));
   }
 
  private:
-  OGC_HD std::uint64_t key(const Box& box) const {
+  OGC_HD Cell cell(const Box& box) const {
     Box root = edges.node(edges.levels - 1, 0).whole();
     root.include(facets.node(facets.levels - 1, 0).whole());
     const auto length = [](float low, float high) { return sub(static_cast<double>(high), static_cast<double>(low)); };
     const double extent = larger(larger(length(root.lower.x, root.upper.x), length(root.lower.y, root.upper.y)), length(root.lower.z, root.upper.z));
     const double scale = extent > 0 ? divide(0x1p20 - 1, extent) : 0;
-    const auto cell = [scale](float low, float high, float origin) {
+    const auto along = [scale](float low, float high, float origin) {
       const double middle = mul(0.5, add(static_cast<double>(low), static_cast<double>(high)));
       const double place = mul(sub(middle, static_cast<double>(origin)), scale);
-      return spread_bits(place > 0 ? static_cast<std::uint64_t>(smaller(place, 0x1p20 - 1)) : 0);
+      return place > 0 ? static_cast<std::uint32_t>(smaller(place, 0x1p20 - 1)) : 0U;
     };
-    return cell(box.lower.x, box.upper.x, root.lower.x) << 2 | cell(box.lower.y, box.upper.y, root.lower.y) << 1 |
-           cell(box.lower.z, box.upper.z, root.lower.z);
+    return {{along(box.lower.x, box.upper.x, root.lower.x), along(box.lower.y, box.upper.y, root.lower.y), along(box.lower.z, box.upper.z, root.lower.z)}};
   }
 };
 

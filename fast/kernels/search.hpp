@@ -13,7 +13,7 @@
 namespace ogc::fast {
 
 /// All primitives at a place ≥ `from` whose box lies within the squared gap `limit` of `box`, or within their own reach.
-struct Search {
+struct alignas(16) Search {  // read whole, by few instructions
   Box box;
   int owner = -1;  ///< whose search it is: number of a vertex or an edge
   int from = 0;

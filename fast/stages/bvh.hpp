@@ -1,5 +1,5 @@
 // The two trees, over facets and over edges, and the order of the vertices. A refit is one launch for the primitives and one for every two levels;
-// a rebuild is a refit in the old order, whose roots give the extent, and one sort of the Morton keys of all three kinds together (a sort's time hardly
+// a rebuild is a refit in the old order, whose roots give the extent, and one sort of the Hilbert keys of all three kinds together (a sort's time hardly
 // depends on its length on a device).
 #pragma once
 
@@ -51,7 +51,7 @@ class Bvh {
   void rebuild(Backend& backend, const Vec* positions) {
     refit(backend, positions, no_radius_.data());
     const int total = facets_at() + surface_.triangle_count;
-    backend.for_each(total, MortonKeys{surface_, positions, facets_, edges_, keys_.data(), order_.data()});
+    backend.for_each(total, HilbertKeys{surface_, positions, facets_, edges_, keys_.data(), order_.data()});
     backend.sort_pairs(keys_.data(), order_.data(), total);
   }
 

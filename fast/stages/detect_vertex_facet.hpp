@@ -1,4 +1,4 @@
-// Algorithm 1 as searches: one for each vertex, in Morton order, so that neighbours walk the same nodes. Launched together with those of Algorithm 2, as
+// Algorithm 1 as searches: one for each vertex, in the order of a Hilbert curve. Launched together with those of Algorithm 2, as
 // neither fills a device; needs refitted trees, prepared lists and reset minima (fast/stages/detection.hpp).
 #pragma once
 
