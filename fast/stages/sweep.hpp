@@ -197,11 +197,12 @@ class Sweep {
 
   /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each cut counted.
   void iterate(const SweepView& view) {
-    backend_.for_each(static_cast<int>(prescribed_host_.size()), UpdatePrescribed{view, prescribed_.data()});
+    const int prescribed = static_cast<int>(prescribed_host_.size());
+    backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});  // writes what a colour reads after its wait alone
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const int count = colour_begin_[k + 1] - colour_begin_[k];
-      const Start start = c == 0 ? Start::after_previous : Start::overlapping;
+      const Start start = c == 0 && prescribed == 0 ? Start::after_previous : Start::overlapping;
       if (every_model_) update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k]}, start);
       else update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k]}, start);
     }
