@@ -5,7 +5,7 @@ Every comparison, sum, product, sign, index, coordinate, number and condition of
 (tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same cases, whose exact answers are found once; what the judge
 lets through meets the kernels' own tests (tests/fast/kernels).
 
-    tests/mutants.py BUILD [--kernels a,b,…] [--stages a,b,…] [--cases N] [--limit N] [--minutes M] [--only IDS] [--flags F] [--out FILE]
+    tests/mutants.py BUILD [--kernels a,b,…] [--stages a,b,…] [--cases N] [--limit N] [--minutes M] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
 
 BUILD is a folder in which `ogc` was built by ninja. Not a part of tests/run: it takes minutes. FILE gets one line a mutant, and the survivors go to standard output.
 """
@@ -211,6 +211,18 @@ def link(build, folder, rewritten):
     return program
 
 
+def lines_since(commit, kernels):
+    """The lines (kernel, number) that `commit` did not have, as they stand in the working tree."""
+    lines = set()
+    for name in kernels:
+        diff = subprocess.run(["git", "-C", str(ROOT), "diff", "--unified=0", commit, "--", f"fast/kernels/{name}.hpp"], capture_output=True, text=True)
+        if diff.returncode != 0:
+            sys.exit(f"--since {commit}: {diff.stderr.strip()}")
+        for first, count in re.findall(r"^@@ -\S+ \+(\d+)(?:,(\d+))? @@", diff.stdout, re.MULTILINE):
+            lines |= {(name, int(first) + i) for i in range(int(count or 1))}
+    return lines
+
+
 def numbers_after(word, line):
     """The mutants that a line of the judge names after its first word."""
     words = line.split()
@@ -253,6 +265,7 @@ def main():
     parser.add_argument("--limit", type=int, default=None, help="only so many, drawn at random")
     parser.add_argument("--minutes", type=float, default=25)
     parser.add_argument("--only", default="", help="only these ids, separated by commas: to see whether a survivor is caught by more cases")
+    parser.add_argument("--since", metavar="COMMIT", help="only in lines that this commit did not have")
     parser.add_argument("--flags", default="", help="for the compiler, such as -fsanitize=address,undefined")
     parser.add_argument("--out", type=Path)
     options = parser.parse_args()
@@ -267,6 +280,9 @@ def main():
         if options.only:
             ids = set(map(int, options.only.split(",")))
             mutants = [m for m in mutants if m.id in ids]
+        if options.since:
+            lines = lines_since(options.since, options.kernels.split(","))
+            mutants = [m for m in mutants if (m.kernel, m.line) in lines]
         log(f"{len(mutants)} mutants of {len(options.kernels.split(','))} kernels compiled")
         results, unreached, wanted = judge(link(options.build, folder, rewritten), mutants, options, log)
     judged = sum(found not in ("", "test") for _, found in results)
