@@ -40,15 +40,10 @@ void check_program(const std::string& folder, const Provenance& run) {
 
 }  // namespace
 
-bool resumable(const std::string& solver) { return solver != "ipc"; }
-
 ResumedRun resumed_run(const std::filesystem::path& folder) {
   const compare::RunReader run(folder);
   const Provenance& provenance = run.provenance();
   check_end(folder.string(), run);
-  if (!resumable(provenance.solver))
-    throw compare::InputError(folder.string() + ": is a run of --solver " + provenance.solver + ", which can't be resumed to the same bits: its positions and " +
-                              "velocities are in double precision, a run folder holds single. Run it again");
   check_program(folder.string(), provenance);
   ResumedRun resumed;
   resumed.options.solver = provenance.solver;

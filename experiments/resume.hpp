@@ -6,16 +6,13 @@
 
 namespace ogc::experiments {
 
-/// Whether all of the solver's state between two steps is what a snapshot holds. IPC's is in double.
-bool resumable(const std::string& solver);
-
 /// What a run that goes on is computed by, and what it is asked.
 struct ResumedRun {
   RunOptions options;   ///< for contestant_of
   RunRequest request;
 };
 
-/// Of the folder. Throws compare::InputError that says what to do: no run, finished, another program, a solver that can't, scene or checkpoint changed or damaged.
+/// Of the folder. Throws compare::InputError that says what to do: no run, finished, another program, scene or checkpoint changed or damaged.
 ResumedRun resumed_run(const std::filesystem::path& folder);
 
 }  // namespace ogc::experiments

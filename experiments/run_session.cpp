@@ -262,7 +262,7 @@ void RunSession::accept(Offered offered) {
 
 /// After rows and frames up to its step, so that a run that goes on from it misses none.
 void RunSession::save_checkpoint() {
-  if (last_good_.step == saved_step_ || !resumable(request_.solver)) return;
+  if (last_good_.step == saved_step_) return;
   writer_->save({last_good_, static_cast<std::int64_t>(summary_.audited_states)});
   saved_step_ = last_good_.step;
   saved_at_ = std::chrono::steady_clock::now();

@@ -34,7 +34,7 @@ def on(backend):
 def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
     """OGC's run and IPC's of Fig. 2 and 20."""
     base, profile = (scene, *shared(scale, membrane), "--audit", "frame"), ("--profile",) if scene == TWIST else ()
-    return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc", *profile), resumable=False)
+    return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc", *profile))
 
 
 def three_cloths(scale, backends):

@@ -29,7 +29,6 @@ class Job:
     state: tuple = ()
     scene: str = ""
     may_fail: bool = False
-    resumable: bool = True
 
     def words(self, root):
         """Arguments with the frame that the run begins with. Throws RunFailure where it is missing."""
@@ -109,7 +108,7 @@ def make(program, job, root, limit):
         return KEPT
     if limit.left() == 0:
         return STOPPED
-    goes_on = alike and job.resumable and not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
+    goes_on = alike and not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
     again = [str(program), "run", "--resume", str(folder)] if goes_on else None
     if not again:
         shutil.rmtree(folder, ignore_errors=True)

@@ -63,7 +63,7 @@ struct Mismatch {
 
 struct GeneratorTally {
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
-  std::uint64_t not_exact = 0;  ///< grey decisions of a discrete answer that was accepted and is not the exact one
+  std::uint64_t not_exact = 0;  ///< grey decisions whose accepted answer is not the exact one, or not one of its side of a jump
 };
 
 /// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge (detect_edge_edge) or question (block),

@@ -87,6 +87,7 @@ class RestVerdict {
     const double angle = out_.hinges[i].rest_angle, exact = truth_.rest_angle[i], scale = truth_.rest_angle_scale[i];
     const double turned = exact - std::copysign(2 * std::numbers::pi, exact);
     const bool is_turned = is_folded(exact, scale) && std::abs(angle - turned) < std::abs(angle - exact);
+    if (is_turned && in_units(std::abs(angle - turned), scale) <= rest_state_angle_tolerance) tally_.answered_not_exactly();
     one(of_rest_angle, "hinge", i, angle, is_turned ? turned : exact, scale);
     one(of_stiffness, "hinge", i, out_.hinges[i].stiffness, truth_.stiffness[i], truth_.stiffness_scale[i]);
     const auto &weight = out_.hinges[i].weight;

@@ -85,6 +85,7 @@ struct Snapshot {
   std::vector<float> bounds;                  ///< b_v of the last detection
   float query_radius = 0;                     ///< r_q of the last detection
   std::vector<std::int64_t> capacities{};     ///< of lists that grow, in the contestant's own order: no position depends on them, but which step is repeated does
+  std::vector<Vec3> exact_positions{}, exact_velocities{};  ///< of a solver whose state is in double: what positions and velocities are rounded from; else none
 };
 
 struct SimulationOptions {

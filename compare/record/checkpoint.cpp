@@ -24,8 +24,27 @@ std::string_view bytes_of(const std::vector<T>& values) {
 std::string state_digest(const Checkpoint& checkpoint) {
   const Snapshot& state = checkpoint.state;
   std::string all;
-  for (const std::string_view part : {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities)}) all += part;
+  for (const std::string_view part : {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities), bytes_of(state.exact_positions),
+                                      bytes_of(state.exact_velocities)})
+    all += part;
   return digest(all + std::to_string(state.step) + "," + std::to_string(checkpoint.audited_states));
+}
+
+void write_vectors(Hdf5File& file, const std::string& name, std::span<const Vec3> vectors) {
+  if (vectors.empty()) return;
+  std::vector<double> values;
+  values.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors) values.insert(values.end(), {v.x, v.y, v.z});
+  file.write(name, std::span<const double>(values), 3);
+}
+
+std::vector<Vec3> read_vectors(const Hdf5File& file, const std::string& name) {
+  if (!file.has(name)) return {};
+  const std::vector<double> values = file.read<double>(name);
+  std::vector<Vec3> vectors;
+  vectors.reserve(values.size() / 3);
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3) vectors.push_back({values[i], values[i + 1], values[i + 2]});
+  return vectors;
 }
 
 struct Stored {
@@ -49,6 +68,8 @@ Stored content(const Hdf5File& file) {
   state.velocities = as_vectors(file.read<float>("velocities"));
   state.bounds = file.read<float>("bounds");
   state.capacities = file.read<std::int64_t>("capacities");
+  state.exact_positions = read_vectors(file, "exact_positions");
+  state.exact_velocities = read_vectors(file, "exact_velocities");
   stored.checkpoint.audited_states = file.attribute<std::int64_t>("audited_states");
   stored.digest = file.read_text("digest");
   stored.scene_digest = file.read_text("scene");
@@ -67,6 +88,8 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint, cons
   file.write("velocities", as_floats(state.velocities), 3);
   file.write("bounds", std::span(state.bounds));
   file.write("capacities", std::span(state.capacities));
+  write_vectors(file, "exact_positions", state.exact_positions);
+  write_vectors(file, "exact_velocities", state.exact_velocities);
   file.write_text("scene", scene_digest);
   file.write_text("digest", state_digest(checkpoint));
   write_durably(path_in(folder), file.image());

@@ -9,11 +9,11 @@
 
 namespace ogc::compare {
 
-inline constexpr std::int64_t checkpoint_format_version = 1;
+inline constexpr std::int64_t checkpoint_format_version = 2;
 
 /// A state that was judged, where states are judged at all.
 struct Checkpoint {
-  Snapshot state;                   ///< step, positions, velocities, bounds, capacities
+  Snapshot state;                   ///< step, positions, velocities, bounds, capacities; from version 2 on the exact ones, where a solver has them
   std::int64_t audited_states = 0;  ///< judged so far
 };
 

@@ -181,6 +181,8 @@ std::string Hdf5File::read_text(const std::string& name) const {
   return text;
 }
 
+bool Hdf5File::has(const std::string& name) const { return H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT) > 0; }
+
 std::vector<std::size_t> Hdf5File::shape(const std::string& name) const {
   const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.valid()) refuse_read("dataset '" + name + "' is missing");

@@ -60,6 +60,8 @@ class Hdf5File {
   template <class T>
   std::vector<T> read(const std::string& name) const;
   std::string read_text(const std::string& name) const;
+  /// Whether the root holds an object of this name.
+  bool has(const std::string& name) const;
   std::vector<std::size_t> shape(const std::string& name) const;
 
   /// One value becomes a scalar, more a one-dimensional attribute. `object` "/" is the root.

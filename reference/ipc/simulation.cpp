@@ -15,11 +15,25 @@ compare::Scene rounded_scene(compare::Scene scene) {
   return scene;
 }
 
+std::vector<compare::Vec3> as_vectors(const State& state) {
+  std::vector<compare::Vec3> vectors;
+  vectors.reserve(state.size());
+  for (const Triple<double>& a : state) vectors.push_back({a[0], a[1], a[2]});
+  return vectors;
+}
+
+State as_state(const std::vector<compare::Vec3>& vectors) {
+  State state;
+  state.reserve(vectors.size());
+  for (const compare::Vec3& v : vectors) state.push_back({v.x, v.y, v.z});
+  return state;
+}
+
 class IpcSimulation : public compare::Simulation {
  public:
   IpcSimulation(const compare::Scene& scene, const compare::SimulationOptions& options)
       : scene_(rounded_scene(scene)), topology_(compare::build_topology(scene_)), profile_(options.profile), solver_(scene_, topology_, options) {
-    set_state(0, compare::to_single(scene_.mesh.positions), compare::to_single(scene_.velocities));
+    set_state(0, widened(compare::to_single(scene_.mesh.positions)), widened(compare::to_single(scene_.velocities)));
   }
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
@@ -39,19 +53,23 @@ class IpcSimulation : public compare::Simulation {
   /// Without bounds: IPC has none, so that its certificate says nothing.
   compare::Snapshot snapshot() override {
     const std::vector<compare::Vec3f> position = rounded(position_);
-    return {number_, position, rounded(velocity_), position, std::vector<float>(position.size(), 0), 0};
+    return {number_, position, rounded(velocity_), position, std::vector<float>(position.size(), 0), 0, {}, as_vectors(position_), as_vectors(velocity_)};
   }
 
-  void restore(const compare::Snapshot& snapshot) override { set_state(snapshot.step, snapshot.positions, snapshot.velocities); }
+  /// To the last bit where the snapshot is one of ours; a frame holds what was rounded.
+  void restore(const compare::Snapshot& snapshot) override {
+    if (snapshot.exact_positions.empty()) return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities));
+    set_state(snapshot.step, as_state(snapshot.exact_positions), as_state(snapshot.exact_velocities));
+  }
 
   std::vector<std::string> stage_names() const override { return profile_ ? ipc_stage_names() : std::vector<std::string>{}; }
   std::string device() const override { return std::to_string(tbb::this_task_arena::max_concurrency()) + " threads"; }
 
  private:
-  void set_state(std::int64_t number, const std::vector<compare::Vec3f>& position, const std::vector<compare::Vec3f>& velocity) {
+  void set_state(std::int64_t number, State position, State velocity) {
     number_ = number;
-    position_ = widened(position);
-    velocity_ = widened(velocity);
+    position_ = std::move(position);
+    velocity_ = std::move(velocity);
     solver_.check_start(position_);
   }
 

@@ -130,6 +130,8 @@ void IpcSolver::begin(const State& start, const State& velocity, std::int64_t nu
   stage_ms_ = {};
   descend_ = false;
   guard_.forget();
+  free_.matrix.forget_pattern();
+  if (pulled_) pulled_->matrix.forget_pattern();
   x_ = start_ = target_ = start;
   const double h = settings_.time_step;
   const std::vector<Mobility>& mobility = forces_.potential().mobility();

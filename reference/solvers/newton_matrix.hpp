@@ -21,6 +21,9 @@ class BlockMatrix {
 
   /// Finds the blocks of these stencils, of which the first `steady` are the same in every call that gives this number. Returns whether the pattern changed.
   bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
+  /// The next stencils get a pattern of their own. A kept one may hold more blocks than they need, and decides the order of elimination: with it a step's
+  /// last bits would depend on the steps before, and a run that goes on from a state could not have those of one that was never cut off.
+  void forget_pattern() { blocks_.clear(); }
   /// Sums the stencils' Hessians and, by vertex, what stands on the diagonal (m/h²) [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 

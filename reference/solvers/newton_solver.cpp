@@ -41,6 +41,7 @@ NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology&
 StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
   begin(start, velocity, number);
   judgements_ = 0;
+  matrix_.forget_pattern();
   pattern_stale_ = true;
   guess(GuessEnd::contact);
   return finish(status_of(solve()));

@@ -150,6 +150,22 @@ TEST_CASE("grey decisions that are answered otherwise than exactly are counted, 
   CHECK(set.tally().total().not_exact == 2);
 }
 
+TEST_CASE("of forces next to a jump those of the other side are counted, unless they fit the exact side as well", "[unit]") {
+  const std::vector<TestCase> cases{{{Stage::contact_force, "ladder.radius", 0, 0, "", {}}, ContactForceCase{}}};
+  const auto answer = [](double force) { return ForceAnswer{{force, 0, 0}, {force, 0, 0, 0, 0, 0}, 1, 1}; };
+  const auto tally_of = [&](double exact, double other, float given) {
+    Tally tally(Stage::contact_force);
+    judge_force(cases, {{{answer(exact), answer(other)}}, {1}}, {{{given, 0, 0}}, {{given, 0, 0, 0, 0, 0}}}, tally);
+    return tally;
+  };
+  CHECK(tally_of(1, 0, 1).total().not_exact == 0);
+  CHECK(tally_of(1, 0, 0).total().not_exact == 1);
+  CHECK(tally_of(1, 1 + 0x1p-24, 1 + 0x1p-23F).total().not_exact == 0);  // a jump of one rounding
+  const Tally wrong = tally_of(1, 0, 0.1F);
+  CHECK(wrong.total().not_exact == 0);
+  CHECK(wrong.mismatched > 0);
+}
+
 TEST_CASE("contacts are compared in canonical order", "[unit]") {
   SetFixture test;
   test.truth.exact.contacts = {test.corner, test.face};

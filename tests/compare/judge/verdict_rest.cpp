@@ -32,10 +32,14 @@ struct RestFixture {
     truth.meeting_friction = {0.5};
     out = truth.exact;
   }
-  std::string verdict() const {
+  Tally tally() const {
     Tally tally(Stage::rest_state);
     judge_rest_state({{Stage::rest_state, "soup", 0, 0, "", {}}, RestStateCase{}}, truth, out, tally);
-    return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
+    return tally;
+  }
+  std::string verdict() const {
+    const Tally judged = tally();
+    return judged.mismatches.empty() ? "" : judged.mismatches[0].message;
   }
   /// The verdict after a change to the right answer.
   static std::string after(const std::function<void(RestStateOut&)>& change) {
@@ -92,8 +96,10 @@ TEST_CASE("rest_state: an angle that cannot be told from a half turn may have ei
   test.truth.rest_angle = {std::numbers::pi - 1e-7};
   test.out.hinges[0].rest_angle = std::numbers::pi_v<float>;
   CHECK(test.verdict().empty());
+  CHECK(test.tally().total().not_exact == 0);
   test.out.hinges[0].rest_angle = -std::numbers::pi_v<float>;
   CHECK(test.verdict().empty());
+  CHECK(test.tally().total().not_exact == 1);
   test.truth.rest_angle = {std::numbers::pi - 1e-5};
   CHECK(test.verdict().starts_with("rest_angle"));
 }
