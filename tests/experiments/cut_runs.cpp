@@ -61,7 +61,8 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
   Cuts cuts;
   std::string arguments = command + " --out " + run.string();
   for (int attempt = 0; attempt < 40; ++attempt) {
-    const std::string before = cuts.in_time < 3 && cuts.killed < 20 ? "timeout --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
+    // In the foreground it waits for what it kills: else it ends by its own SIGKILL, maybe before the run's lock is given back.
+    const std::string before = cuts.in_time < 3 && cuts.killed < 20 ? "timeout --foreground --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
     // A signal may also meet a run whose last step is written, and leave the trajectory to `ogc export`.
     if (result.status == 0 || is_finished(run)) {
