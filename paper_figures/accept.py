@@ -1,7 +1,8 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
 and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits. A run made in parts
+(paper_figures.in_time) is finished where its last part is.
 """
 
 import argparse
@@ -14,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from paper_figures import recipes
+from paper_figures import in_time, recipes
 from paper_figures.evidence import RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
@@ -36,14 +37,21 @@ def manifests(folder):
     return [("_".join(path.parent.relative_to(folder).parts), json.loads(path.read_text())) for path in sorted(folder.rglob("run.json"))]
 
 
-def check(name, manifest):
-    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did."""
+def check(name, manifest, earlier_part=False):
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did. A part that others
+    went on from was interrupted."""
     if manifest.get("dirty") is not False:
         raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
     if manifest.get("guarantee_kept") is False:
         raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted result")
-    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
+    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton", *(["interrupted"] if earlier_part else []))):
         raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run experiments/reproduce again, it goes on where it was")
+
+
+def next_part(name):
+    """The name of the part that goes on where the part of this name was stopped; of another run, a name that no run has."""
+    run, part, number = name.rpartition("part_")
+    return f"{run}part_{int(number) + 1:02d}" if part and number.isdigit() else ""
 
 
 def program(ogc):
@@ -58,8 +66,9 @@ def program(ogc):
 def origin(recipe, folder, ogc):
     """Commit, compiler, device and end of the figure's runs, or of the program where it has none."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
+    names = {name for name, _ in runs}
     for name, manifest in runs:
-        check(f"{folder.name}/{name}", manifest)
+        check(f"{folder.name}/{name}", manifest, next_part(name) in names)
     if not runs:
         return {**program(ogc), "device": "exact reference", "ended": ""}
     commits = sorted({manifest["commit"] for _, manifest in runs})
@@ -96,10 +105,11 @@ def compressed(name, data):
 
 
 def run_files(path, stem):
-    """Manifest, rows and iterations of the run whose manifest is `path`."""
+    """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
     manifest["command"] = relative(manifest["command"])
-    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in ("steps.csv", "iterations.csv") if path.with_name(name).is_file()]
+    names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if path.with_name(name).is_file()]
+    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 
 

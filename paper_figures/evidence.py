@@ -155,6 +155,8 @@ class Evidence:
             cells = [_cell(table, row, spec["column"]) for row in rows]
             if len({row["commit"] for row in rows}) > 1:
                 raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one program")
+            if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
+                continue
             return Measured(cells[0] / cells[1] if len(cells) > 1 else cells[0], table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""))
         return None
 
