@@ -19,6 +19,7 @@ from paper_figures import in_time, recipes
 from paper_figures.evidence import RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
+NOT_RUN = "not run"  # the status of a row about a run that a figure was drawn without
 # A file above this is no small data; the folder as a whole stays under 30 MiB. Rows above half of it are kept compressed.
 LARGEST = 2 * 2**20
 
@@ -78,6 +79,13 @@ def origin(recipe, folder, ogc):
     return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
 
 
+def left_out(folder):
+    """The first cells of rows that say that a run was left out of a figure: it is not whole."""
+    for path in sorted(folder.glob("*.csv")):
+        with path.open(newline="") as file:
+            yield from (next(iter(row.values())) for row in csv.DictReader(file) if row.get("status") == NOT_RUN)
+
+
 def pieces(recipe, scale, backend, runs):
     """(name in results, bytes) of what is kept of a figure."""
     folder, picture = runs / recipe.folder(scale, backend), runs / recipe.picture(scale, backend)
@@ -113,10 +121,14 @@ def run_files(path, stem):
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 
 
-def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS):
-    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted."""
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False):
+    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
+    says itself that runs were left out can be."""
     folder, kept, rows = Path(results) / machine, [], []
     for recipe in chosen:
+        missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
+        if missing:
+            raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
         words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
         for name, data in pieces(recipe, scale, backend, Path(runs)):
             if len(data) > LARGEST:
@@ -166,9 +178,11 @@ def main():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without")
     options = parser.parse_args()
     try:
-        rows = accept(recipes.choose(options.figures, recipes.load(), options.backend), options.scale, options.backend, options.runs, options.machine, str(options.ogc))
+        chosen = recipes.choose(options.figures, recipes.load(), options.backend)
+        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
     print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m paper_figures.verdicts --write, and look at what changed")

@@ -205,6 +205,14 @@ class Accepting(Scratch):
             shutil.rmtree(self.runs)
         self.assertFalse(self.results.exists())
 
+    def test_half_a_figure_is_not_taken_for_a_whole_one(self):
+        self.finished()
+        (self.runs / "fig18-paper-cuda/fig18.csv").write_text(f"activation,status\nogc,finished\ncubic,{accept.NOT_RUN}\nquadratic,{accept.NOT_RUN}\n")
+        with self.assertRaisesRegex(accept.AcceptError, "fig18 was drawn without cubic, quadratic: run them"):
+            self.accept("fig18")
+        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True)
+        self.assertTrue((self.results / "machine/fig18_paper.csv").is_file())
+
     def test_runs_of_the_same_name_in_different_folders_stay_apart(self):
         for name in ("twist/whole", "knot/whole"):
             folder = self.make_run(f"table1-paper-cuda/{name}")

@@ -15,7 +15,7 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
-from paper_figures import device_memory, device_runs, growth, layers, table1, timed_runs  # noqa: E402
+from paper_figures import commands, device_memory, device_runs, growth, layers, table1, timed_runs  # noqa: E402
 from paper_figures.timed_runs import Job, Limit  # noqa: E402
 
 
@@ -98,6 +98,11 @@ class Parts(Scratch):
         self.assertEqual(sorted(begun), [("ipc", half), ("newton", half)])
         self.assertEqual(machine.in_parts(part, Limit(1e-9)), timed_runs.STOPPED)
         self.assertEqual(len(begun), 2)
+
+    def test_fewer_iterations_before_the_step_of_fig_17_change_its_start_alone(self):
+        whole, fewer = commands.three_cloths("paper", ["cpu"]), commands.three_cloths("paper", ["cpu"], 40)
+        self.assertEqual(fewer[0][0].arguments, (*whole[0][0].arguments, "--set", "iterations=40"))
+        self.assertEqual((fewer[0][1:], fewer[1]), (whole[0][1:], whole[1]))
 
     def test_frames_are_the_first_evenly_on_to_the_last(self):
         (self.folder / "frames").mkdir()
