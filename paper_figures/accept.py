@@ -1,7 +1,8 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
 and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits. A run made in parts
+(paper_figures.in_time) is finished where its last part is.
 """
 
 import argparse
@@ -14,10 +15,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-from paper_figures import recipes
+from paper_figures import in_time, recipes
 from paper_figures.evidence import RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
+NOT_RUN = "not run"  # the status of a row about a run that a figure was drawn without
 # A file above this is no small data; the folder as a whole stays under 30 MiB. Rows above half of it are kept compressed.
 LARGEST = 2 * 2**20
 
@@ -36,14 +38,21 @@ def manifests(folder):
     return [("_".join(path.parent.relative_to(folder).parts), json.loads(path.read_text())) for path in sorted(folder.rglob("run.json"))]
 
 
-def check(name, manifest):
-    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did."""
+def check(name, manifest, earlier_part=False):
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did. A part that others
+    went on from was interrupted."""
     if manifest.get("dirty") is not False:
         raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
     if manifest.get("guarantee_kept") is False:
         raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted result")
-    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
+    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton", *(["interrupted"] if earlier_part else []))):
         raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run experiments/reproduce again, it goes on where it was")
+
+
+def next_part(name):
+    """The name of the part that goes on where the part of this name was stopped; of another run, a name that no run has."""
+    run, part, number = name.rpartition("part_")
+    return f"{run}part_{int(number) + 1:02d}" if part and number.isdigit() else ""
 
 
 def program(ogc):
@@ -58,8 +67,9 @@ def program(ogc):
 def origin(recipe, folder, ogc):
     """Commit, compiler, device and end of the figure's runs, or of the program where it has none."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
+    names = {name for name, _ in runs}
     for name, manifest in runs:
-        check(f"{folder.name}/{name}", manifest)
+        check(f"{folder.name}/{name}", manifest, next_part(name) in names)
     if not runs:
         return {**program(ogc), "device": "exact reference", "ended": ""}
     commits = sorted({manifest["commit"] for _, manifest in runs})
@@ -67,6 +77,13 @@ def origin(recipe, folder, ogc):
         raise AcceptError(f"{folder} mixes runs of commits {', '.join(commit[:10] for commit in commits)}: remove it and run again")
     last = max((manifest for _, manifest in runs), key=lambda manifest: manifest["ended"])
     return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
+
+
+def left_out(folder):
+    """The first cells of rows that say that a run was left out of a figure: it is not whole."""
+    for path in sorted(folder.glob("*.csv")):
+        with path.open(newline="") as file:
+            yield from (next(iter(row.values())) for row in csv.DictReader(file) if row.get("status") == NOT_RUN)
 
 
 def pieces(recipe, scale, backend, runs):
@@ -96,17 +113,22 @@ def compressed(name, data):
 
 
 def run_files(path, stem):
-    """Manifest, rows and iterations of the run whose manifest is `path`."""
+    """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
     manifest["command"] = relative(manifest["command"])
-    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in ("steps.csv", "iterations.csv") if path.with_name(name).is_file()]
+    names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if path.with_name(name).is_file()]
+    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 
 
-def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS):
-    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted."""
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False):
+    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
+    says itself that runs were left out can be."""
     folder, kept, rows = Path(results) / machine, [], []
     for recipe in chosen:
+        missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
+        if missing:
+            raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
         words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
         for name, data in pieces(recipe, scale, backend, Path(runs)):
             if len(data) > LARGEST:
@@ -156,9 +178,11 @@ def main():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without")
     options = parser.parse_args()
     try:
-        rows = accept(recipes.choose(options.figures, recipes.load(), options.backend), options.scale, options.backend, options.runs, options.machine, str(options.ogc))
+        chosen = recipes.choose(options.figures, recipes.load(), options.backend)
+        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
     print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m paper_figures.verdicts --write, and look at what changed")

@@ -37,11 +37,13 @@ def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
     return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc", *profile))
 
 
-def three_cloths(scale, backends):
-    """Fig. 17: the run up to the step before, then that step by VBD in single precision; and by VBD and Newton in double."""
+def three_cloths(scale, backends, start_iterations=None):
+    """Fig. 17: the run up to the step before, then that step by VBD in single precision; and by VBD and Newton in double. `start_iterations`: of each step before,
+    where the scene's own take too long."""
     step = THREE_CLOTHS_STEP[scale]
     base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
-    start = Job("start", (*base, "--backend", backends[-1], "--steps", step - 1))
+    fewer = ("--set", f"iterations={start_iterations}") if start_iterations else ()
+    start = Job("start", (*base, "--backend", backends[-1], "--steps", step - 1, *fewer))
     solve = (*base, "--steps", step, "--iterations", "--profile")
     state = ("start", -1)
     variants = (("", ()), ("_any", ANY))

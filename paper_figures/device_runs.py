@@ -23,7 +23,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures import commands, growth
+from paper_figures import commands, growth, in_time
 from paper_figures.device_memory import DeviceMemory
 from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, command_in, last_lines, make, manifest_of
 
@@ -35,7 +35,8 @@ LEFT_FOR_THE_NEXT = 75  # exit status of experiments/table1 at its limit
 
 @dataclass(frozen=True)
 class Part:
-    """Runs of one figure, or of one row of Table 1; chains may run side by side. Of each run `frames` are packed, evenly over it, and the `last` ones."""
+    """Runs of one figure, or of one row of Table 1; chains may run side by side. Of each run `frames` are packed, evenly over it, and the `last` ones.
+    `groups`: solvers of paper_figures.in_time; those of a group at once, each on its half of the cores."""
 
     folder: str
     chains: tuple = ()
@@ -45,6 +46,7 @@ class Part:
     frames: int = 4
     last: int = 0
     gpu: bool = True
+    groups: tuple = ()
     prepare: Callable | None = None  # of (program, folder), before the first run
 
 
@@ -64,10 +66,13 @@ def parts(scale, backend):
     wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
               "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
               "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot")}
+    groups = (("ipc", "newton"), ("vbd",), *([("vbd_cuda",)] if backend == "cuda" else []))
     on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
                 "fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), frames=0, last=2),
                 "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False),
-                "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False)}
+                "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False),
+                # A figure of the CPU, as its recipe says. VBD after the others, on as many cores: its steps want the memory's whole bandwidth.
+                "fig18_solvers": Part(f"fig18_solvers-{scale}-cpu", frames=21, groups=groups)}
     cores = os.cpu_count() or 1
     over = {name: Part(figure("growth"), (tuple(jobs),), frames=0, gpu=name == "growth_cuda", prepare=growth.scenes_of(jobs))
             for name, jobs in (*((f"growth_{kind}", growth.sizes(scale, kind)) for kind in reversed(both)), ("threads", growth.threads(scale, cores)))}
@@ -105,6 +110,31 @@ class Machine:
         ends = [task.result() for task in tasks]
         return next(end for end in (STOPPED, FINISHED, KEPT) if end in ends)
 
+    def in_parts(self, part, limit):
+        """By paper_figures.in_time, which keeps and goes on by itself; a process a solver, which so knows its processor time."""
+        cores = sorted(os.sched_getaffinity(0))
+        half, folder = max(1, len(cores) // 2), self.out / part.folder
+        if all(in_time.ended(folder / name) for group in part.groups for name in group):
+            return KEPT
+        for group in part.groups:
+            if limit.left() == 0:
+                return STOPPED
+            with ThreadPoolExecutor(max_workers=len(group)) as pool:
+                list(pool.map(lambda name, share: self.in_time(folder, name, share, part, limit), group, (cores[:half], cores[-half:])))
+            if not all(in_time.ended(folder / name) for name in group):
+                return STOPPED
+        return FINISHED
+
+    def in_time(self, folder, name, cores, part, limit):
+        if in_time.ended(folder / name):
+            return
+        log = folder / f"{name}.log"
+        options = ["--ogc", self.program, "--scale", self.options.scale, "--seconds", limit.left(), "--solvers", name, "--cores", *cores]
+        with DeviceMemory(folder / f"{name}_device_memory.json", part.gpu and name == "vbd_cuda"):
+            code = command_in([sys.executable, "-m", "paper_figures.in_time", folder, *options], log, Limit())
+        if code != 0:
+            raise RunFailure(f"paper_figures.in_time {name}: exit status {code}\n  {last_lines(log)}")
+
     def table(self, part, limit):
         """By experiments/table1, which keeps and resumes by itself; the figure of the row's scene is drawn of the whole run."""
         o, log = self.options, self.out / part.folder / f"{part.row}_{'windows' if part.windows else 'whole'}.log"
@@ -137,7 +167,7 @@ class Machine:
             print(f"{name:24} not begun: no time is left; call again to go on")
             return False
         try:
-            end = self.table(part, limit) if part.row else self.chains(part, limit)
+            end = self.table(part, limit) if part.row else self.in_parts(part, limit) if part.groups else self.chains(part, limit)
         except RunFailure as problem:
             end, words = FAILED, f"\n  {problem}"
         print(f"{name:24} {time.monotonic() - begun:7.1f} s  {end}{words}", flush=True)
@@ -145,7 +175,10 @@ class Machine:
 
 
 def run_folders(out, part):
-    """Finished run folders of a part, or failed ones where to fail is a result."""
+    """Finished run folders of a part, or failed ones where to fail is a result; of runs made in parts all, where the last is finished."""
+    if part.groups:
+        solvers = [out / part.folder / name for group in part.groups for name in group]
+        return [made for solver in solvers if in_time.ended(solver) for made in in_time.parts(solver)]
     if part.row:
         found = sorted((out / part.folder / part.row).glob("cpu_*" if part.windows else "whole*"))
     else:
@@ -164,7 +197,7 @@ def files_of(out, part):
     """What is packed of a part."""
     for folder in run_folders(out, part):
         frames = chosen_frames(folder, part)
-        yield from (folder / name for name in ("run.json", "steps.csv", "iterations.csv") if (folder / name).is_file())
+        yield from (folder / name for name in ("run.json", "steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if (folder / name).is_file())
         yield from frames
         if frames:
             yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())

@@ -59,11 +59,16 @@ class RunEvidence:
         return self.manifest.get("dirty") is False and self.manifest.get("guarantee_kept") is False
 
     def matches(self, wanted):
-        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and steps, profiled, audited."""
+        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane, and steps: so many from the scene's start, not a window."""
         m = self.manifest
-        special = {"steps": lambda n: len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
-                   "audited": lambda yes: (m.get("audit", "off") != "off") == yes, "scene": lambda name: m["scene"]["name"] == name}
+        special = {"steps": lambda n: self.column("step")[:1] == [1] and len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
+                   "membrane": lambda name: self.membranes == {name}, "audited": lambda yes: (m.get("audit", "off") != "off") == yes, "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
+
+    @property
+    def membranes(self):
+        """Of the moving bodies: two figures may have one scene with different materials."""
+        return {body["material"]["membrane"] for body in self.manifest["scene"]["bodies"] if not body["fixed"]}
 
     def measured(self, value):
         m = self.manifest
@@ -126,14 +131,14 @@ class Evidence:
             return self._ratio(spec, wanted)
         wanted = {**wanted, **spec.get("run", {})}
         runs = [run for run in self.runs if run.matches(wanted)]
-        if "manifest" in spec:  # one failed audit outweighs every run that kept the guarantee, whatever step it stopped at
-            runs += [run for run in self.failed if run.matches({key: value for key, value in wanted.items() if key != "steps"})]
+        if "manifest" in spec:  # one failed audit outweighs every run that kept the guarantee, whatever step it stopped at and whatever the material
+            runs += [run for run in self.failed if run.matches({key: value for key, value in wanted.items() if key not in ("steps", "membrane")})]
         return runs[-1].measured(value_of(runs[-1], spec)) if runs else None
 
     def _ratio(self, spec, wanted):
-        """Of two runs of one commit, and of one machine unless the ratio is about two."""
+        """Of two runs of one commit and of the same materials, and of one machine unless the ratio is about two."""
         over, under = ([run for run in self.runs if run.matches({**wanted, **part.get("run", {})})] for part in spec["ratio"])
-        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"]
+        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"] and a.membranes == b.membranes
                  and (spec.get("devices") == "differ" or a.manifest["device"] == b.manifest["device"])]
         if not alike:
             return None
@@ -150,6 +155,8 @@ class Evidence:
             cells = [_cell(table, row, spec["column"]) for row in rows]
             if len({row["commit"] for row in rows}) > 1:
                 raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one program")
+            if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
+                continue
             return Measured(cells[0] / cells[1] if len(cells) > 1 else cells[0], table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""))
         return None
 

@@ -1,4 +1,11 @@
-"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene, frames of the first run, and the ratios beside the paper's."""
+"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene, frames of the first run, and the ratios beside the paper's.
+
+VBD-OGC on CUDA is a fourth curve where its run lies in the folder (or with --cuda). Where a command may last so long only, the runs are made in parts:
+
+    python3 -m paper_figures.device_runs --program bundle/ogc --out runs --seconds 300 fig18_solvers     # there; again until it says finished
+    python3 -m paper_figures.fig18_solvers runs/fig18_solvers-paper-cpu --scale paper                    # at home, after --unpack: draws them
+    python3 -m paper_figures.accept h200 fig18_solvers --scale paper --runs runs
+"""
 
 import json
 import sys
@@ -7,17 +14,13 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures import in_time
-from paper_figures.common import baseline_arguments, options_of
+from paper_figures.common import CLAIMS, baseline_arguments, options_of
 from paper_figures.common import label as solver_of
 from paper_figures.fig18_cloth_on_sphere import CAMERA
 from paper_figures.runs import provenance, run_once, write_table
 from plots import style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import draw_frames
-
-# How much slower IPC is on average (CPU), as the paper says in the text beside Fig. 18.
-CLAIMS = {"newton": 9.2, "vbd": 128.0}
-
 
 SCENE = "cloth_on_sphere"
 
@@ -56,21 +59,30 @@ def processor_times(run):
     return wall * getattr(run, "processor_ms", np.nan) / np.sum(wall)
 
 
+def claimed(run):
+    """How much longer than this run IPC takes on average, as the paper says in the text beside Fig. 18; None where it says nothing, as of CUDA."""
+    if run.manifest["backend"] != "cpu":
+        return None
+    claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
+    return next((claim["value"] for claim in claims if claim["id"] == f"{SCENE}.ipc_over_{run.manifest['solver']}"), None)
+
+
 def ratios(runs):
-    """[(label, IPC's time a step over this run's, what was measured, the paper's claim or None)] over the steps that both have. Processor time if there is one:
-    on a machine that does other work the clock says nothing."""
+    """[(label, IPC's time a step over this run's, what was measured, the paper's claim or None)] over the steps that both have: on the clock, which says nothing
+    where the machine does other work, and where it was measured of processor time, which says nothing of a GPU and little of threads that wait."""
     baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
-    if baseline is None:
-        return []
     result = []
-    for run in runs:
+    for run in runs if baseline else []:
         if run is baseline:
             continue
         steps = min(len(run.column("step")), len(baseline.column("step")))
-        ratio, unit = np.sum(processor_times(baseline)[:steps]) / np.sum(processor_times(run)[:steps]), "processor time"
-        if not np.isfinite(ratio) or run.manifest["backend"] != "cpu":
-            ratio, unit = np.mean(baseline.column("wall")[:steps]) / np.mean(run.column("wall")[:steps]), "time on the clock"
-        result.append((label(run), ratio, f"{unit} of {steps} steps", CLAIMS.get(run.manifest["solver"]) if run.manifest["backend"] == "cpu" else None))
+        times = {"time on the clock": (baseline.column("wall"), run.column("wall"))}
+        if run.manifest["backend"] == "cpu":
+            times["processor time"] = (processor_times(baseline), processor_times(run))
+        for measured, (theirs, ours) in times.items():
+            ratio = np.sum(theirs[:steps]) / np.sum(ours[:steps])
+            if np.isfinite(ratio):
+                result.append((label(run), ratio, f"{measured} of {steps} steps", claimed(run)))
     return result
 
 
@@ -81,10 +93,11 @@ def summary(runs):
         wall, found = run.column("wall"), detections(run)
         used = np.mean(processor_times(run))
         processor = f", {used:.4g} ms of processor time" if np.isfinite(used) else ""
-        lines.append(f"{label(run)}: {np.mean(wall):.4g} ms a step on the clock (median {np.median(wall):.4g}, worst {wall.max():.4g}){processor}, "
-                     f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step")
+        clock = f"{np.mean(wall):.4g} ms a step on the clock (median {np.median(wall):.4g}, worst {wall.max():.4g})"
+        counts = f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step"
+        lines.append(f"{label(run)} ({run.manifest['device']}): {clock}{processor}, {counts}")
     for name, ratio, measured, claim in ratios(runs):
-        lines.append(f"IPC takes {ratio:.3g} times the {measured} that {name} takes" + (f" (paper: {claim:g})" if claim else ""))
+        lines.append(f"IPC takes {ratio:.3g} times the {measured} that {name} takes" + (f" (paper: {claim:g})" if claim else " (the paper has none)"))
     return lines
 
 
@@ -93,8 +106,10 @@ def rows(runs):
     result = []
     for run in runs:
         wall = run.column("wall")
-        row = {**provenance(run), "steps": len(wall), "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)), "worst [ms]": float(wall.max()),
-               "processor time [ms]": getattr(run, "processor_ms", np.nan) / len(wall), "iterations a step": float(np.mean(run.column("iterations")))}
+        row = {**provenance(run), "steps": len(wall), "of steps": int(run.setting("steps")),
+               "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)), "worst [ms]": float(wall.max()),
+               "processor time [ms]": getattr(run, "processor_ms", np.nan) / len(wall), "iterations a step": float(np.mean(run.column("iterations"))),
+               "detections an iteration": float(np.sum(detections(run)) / np.sum(run.column("iterations")))}
         for kind in ("vertex_facet_contacts", "edge_edge_contacts", "broad_phases", "discrete_detections", "continuous_detections"):
             row[f"{kind.replace('_', ' ')} a step"] = float(np.mean(run.column(kind)))
         row["stages [% of the time]"] = "; ".join(f"{name} {100 * np.sum(times) / np.sum(wall):.3g}" for name, times in run.stage_columns().items())
@@ -129,15 +144,25 @@ def draw(runs, out):
     style.save(figure, out)
 
 
+def run_of(folder, name, ogc, base):
+    """The run of one solver: made in parts before, or made once now. Throws RunError where parts don't reach the end."""
+    made = in_time.parts(folder / name)
+    if not made:
+        return run_once(ogc, [*base, *in_time.SOLVERS[name]], folder / name)
+    if not in_time.ended(folder / name):
+        raise RunError(f"{folder / name} has not reached its end: call paper_figures.in_time again to go on, or draw what there is with --parts")
+    return Joined(made)
+
+
 def runs_of(arguments):
-    """IPC's run first; each is done once, or taken from the parts that there are."""
+    """IPC's run first; VBD's on CUDA where it lies in the folder or is asked for."""
     folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "end"]
     if arguments.parts:
         found = [Joined(in_time.parts(folder / name)) for name in in_time.SOLVERS if in_time.parts(folder / name)]
         if not found:
             raise RunError(f"{folder} has no parts; make them with: python3 -m paper_figures.in_time {folder}")
         return found
-    return [run_once(arguments.ogc, [*base, *more], folder / name) for name, more in in_time.SOLVERS.items() if name != "vbd_cuda" or arguments.cuda]
+    return [run_of(folder, name, arguments.ogc, base) for name in in_time.SOLVERS if name != "vbd_cuda" or arguments.cuda or (folder / name).is_dir()]
 
 
 if __name__ == "__main__":
@@ -151,4 +176,4 @@ if __name__ == "__main__":
         draw(found, Path(options.folder) / "fig18_solvers.png")
         print("\n".join(summary(found)))
     except RunError as error:
-        sys.exit(f"{Path(sys.argv[0]).name}: {error}")
+        sys.exit(f"fig18_solvers: {error}")

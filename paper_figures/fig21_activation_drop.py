@@ -1,21 +1,23 @@
 """Fig. 21 and the ablation that the paper does not have: a cloth falls onto a sphere and the ground, 40 steps solved to convergence with each contact energy.
 
-`ogc ablate` runs all five energies with Newton's method; one that does not converge (Eq. 19 as printed has a force that jumps at τ) keeps its row. Step 40 is then taken again from each energy's own state 39: by Newton with the condition number of each
-matrix, and, for the paper's two energies, by VBD in double, whose convergence is the paper's panel c. Both energies' states are compared vertex by vertex.
+All five energies are solved with Newton's method; one that does not converge (Eq. 19 as printed has a force that jumps at τ) keeps its row. Step 40 is then taken
+again from each energy's own state 39: by Newton with the condition number of each matrix, and, for the paper's two energies, by VBD in double, whose convergence is
+the paper's panel c. Both energies' states are compared vertex by vertex. With --without the paper's two can be drawn before the others are run; picture and table
+then name what was not run, and `accept` takes them with --incomplete only.
 """
 
 import argparse
 import csv
 import json
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures import commands
+from paper_figures import accept, commands
 from paper_figures.runs import iterations, provenance, run_job, write_table
+from paper_figures.timed_runs import Limit, RunFailure, make
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
@@ -24,25 +26,20 @@ SCENE, STEPS, ENERGIES, PAPER = commands.ACTIVATIONS, commands.ACTIVATION_STEPS,
 CAMERA = ((1.6, 0.9, 1.9), (-0.08, -0.12, 0.0), (0, 1, 0))
 
 
-def status_of(folder):
-    manifest = folder / "run.json"
-    return json.loads(manifest.read_text()).get("status", "") if manifest.is_file() else "missing"
-
-
-def ablation(folder, ogc, scale):
-    """The run of each energy, by `ogc ablate`: finished, or failed for good."""
-    folders = {energy: folder / "runs" / f"activation={energy}" for energy in ENERGIES}
-    if not all(status_of(path).startswith(("finished", "failed")) for path in folders.values()):
-        if (folder / "runs").exists():  # an ablation that was interrupted: its table needs all of its runs
-            shutil.rmtree(folder / "runs")
-        command = [str(ogc), "ablate", SCENE, "--scale", scale, "--steps", str(STEPS[scale]), *commands.ABLATION, "--vary", "activation=" + ",".join(ENERGIES),
-                   "--out", str(folder / "runs")]
-        print(" ".join(command), file=sys.stderr, flush=True)
-        subprocess.run(command, stdout=subprocess.DEVNULL)
+def ablation(folder, ogc, scale, energies):
+    """The run of each energy, as `ogc ablate` makes them: finished, or failed for good."""
+    jobs = {energy: commands.ablation(scale, energy) for energy in energies}
+    for job in jobs.values():
+        print(" ".join(job.command(ogc, folder)), file=sys.stderr, flush=True)
+        try:
+            make(ogc, job, folder, Limit())
+        except RunFailure as error:
+            raise RunError(str(error)) from error
+    runs = {energy: Run(folder / job.name) for energy, job in jobs.items()}
     for energy in PAPER:
-        if status_of(folders[energy]) != "finished":
-            raise RunError(f"{folders[energy]} is not finished ({status_of(folders[energy])}); its last lines say why")
-    return {energy: Run(path) for energy, path in folders.items()}
+        if runs[energy].status != "finished":
+            raise RunError(f"{runs[energy].folder} is not finished ({runs[energy].status}); its last lines say why")
+    return runs
 
 
 def force_curves(folder, ogc):
@@ -110,6 +107,11 @@ def draw_forces(axes, curves):
     axes.legend(fontsize=7)
 
 
+def not_run(energy, columns):
+    """The row of an energy that was left out: its name, that it was not run, and nothing else."""
+    return {**dict.fromkeys(columns, ""), "activation": energy, "status": accept.NOT_RUN, "commit": "-"}
+
+
 def draw(runs, newton, vbd, on_device, curves, rows, step, scale, out):
     plt = style.use()
     figure, axes = plt.subplots(2, 2, figsize=(11, 8))
@@ -119,21 +121,24 @@ def draw(runs, newton, vbd, on_device, curves, rows, step, scale, out):
     draw_forces(axes[1, 1], curves)
     ogc, ipc = rows[0], rows[1]
     ratio = float(ipc["condition_number_at_end [1]"]) / float(ogc["condition_number_at_end [1]"])
+    left_out = [energy for energy in ENERGIES if energy not in runs]
+    missing = f"; NOT RUN: {', '.join(left_out)}" if left_out else ""
     figure.suptitle(f"{SCENE} ({scale}): the two states are at most {ipc['largest_distance_from_ogc [mm]']} mm apart; condition number of ipc_log {ratio:.3g} × "
                     f"that of ogc (paper: 5 ×)\nVBD iterations to 10⁻³: {ogc['vbd_iterations_to_1e-3 [1]']} and {ipc['vbd_iterations_to_1e-3 [1]']} "
-                    f"(paper: 2 ×); {commits_in_words([*runs.values(), *newton.values(), *vbd.values(), *on_device.values()])}", fontsize=8)
+                    f"(paper: 2 ×){missing}; {commits_in_words([*runs.values(), *newton.values(), *vbd.values(), *on_device.values()])}", fontsize=8)
     style.save(figure, out)
 
 
-def main(folder, ogc, scale="small", backend="cpu"):
-    """Does the runs that are missing in `folder`, and writes fig21.png and fig21.csv there; `backend`: of VBD in single precision. Returns the picture's path."""
+def main(folder, ogc, scale="small", backend="cpu", without=()):
+    """Does the runs that are missing in `folder`, and writes fig21.png and fig21.csv there; `backend`: of VBD in single precision, `without`: energies that are
+    neither run nor drawn. Returns the picture's path."""
     folder, step = Path(folder), STEPS[scale]
-    runs = ablation(folder, ogc, scale)
-    newton = {e: run_job(ogc, commands.by_newton(scale, e), folder) for e in ENERGIES if runs[e].status == "finished"}
+    runs = ablation(folder, ogc, scale, [energy for energy in ENERGIES if energy not in without])
+    newton = {e: run_job(ogc, commands.by_newton(scale, e), folder) for e in runs if runs[e].status == "finished"}
     vbd = {e: run_job(ogc, commands.by_vbd(scale, e), folder) for e in PAPER}
     on_device = {e: run_job(ogc, commands.by_vbd_on(scale, e, backend), folder) for e in PAPER}
-    rows = [row_of(energy, runs, newton, vbd, on_device, step) for energy in ENERGIES]
-    write_table(folder / "fig21.csv", rows)
+    rows = [row_of(energy, runs, newton, vbd, on_device, step) for energy in runs]
+    write_table(folder / "fig21.csv", [*rows, *(not_run(energy, rows[0]) for energy in ENERGIES if energy in without)])
     draw(runs, newton, vbd, on_device, force_curves(folder, ogc), rows, step, scale, folder / "fig21.png")
     return folder / "fig21.png"
 
@@ -144,8 +149,9 @@ if __name__ == "__main__":
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="small", choices=STEPS)
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of VBD in single precision")
+    parser.add_argument("--without", nargs="+", default=(), choices=ENERGIES[len(PAPER):], help="energies that are left out; the figure says so")
     arguments = parser.parse_args()
     try:
-        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend))
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend, arguments.without))
     except (RunError, csv.Error) as error:
         sys.exit(f"fig21: {error}")

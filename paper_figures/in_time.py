@@ -7,6 +7,7 @@ A part that continues starts from positions rounded to single precision, so its 
 
 import argparse
 import json
+import os
 import resource
 import signal
 import subprocess
@@ -33,6 +34,12 @@ def status(part):
     return json.loads((part / "run.json").read_text()).get("status")
 
 
+def ended(folder):
+    """Whether the run in this folder has reached its end."""
+    done = parts(folder)
+    return bool(done) and status(done[-1]) == "finished"
+
+
 def last_frame(folder):
     """The latest frame of all parts; None where there is none."""
     frames = [frame for part in parts(folder) for frame in (part / "frames").glob("frame_*.h5")]
@@ -42,7 +49,7 @@ def last_frame(folder):
 def run_for(ogc, arguments, folder, seconds):
     """Runs at most so long, from the last frame if there is one; True when the run has reached its end. Throws RuntimeError where ogc fails."""
     done = parts(folder)
-    if done and status(done[-1]) == "finished":
+    if ended(folder):
         return True
     part = Path(folder) / f"part_{len(done):02d}"
     state = last_frame(folder)
@@ -76,7 +83,10 @@ def main():
     parser.add_argument("--membrane", default="stable_neo_hookean", help="of all solvers alike")
     parser.add_argument("--seconds", type=float, default=120, help="for each solver")
     parser.add_argument("--solvers", nargs="+", default=["ipc", "newton", "vbd"], choices=tuple(SOLVERS))
+    parser.add_argument("--cores", nargs="+", type=int, help="run on these alone, so that two calls can go on side by side (default: on all)")
     options = parser.parse_args()
+    if options.cores:
+        os.sched_setaffinity(0, options.cores)  # what is started from here inherits it
     base = [options.scene, "--scale", options.scale, "--set", f"membrane={options.membrane}", "--audit", AUDIT[options.scene]]
     for name in options.solvers:
         try:

@@ -186,6 +186,33 @@ class Accepting(Scratch):
             self.make_run("fig12-paper-cuda/run")
             self.accept("fig12")
 
+    def in_parts(self, *statuses):
+        for number, status in enumerate(statuses):
+            folder = self.make_run(f"fig18_solvers-paper-cpu/ipc/part_{number:02d}", status=status)
+            (folder / "processor_time.json").write_text('{"user [s]": 1, "system [s]": 0}')
+        (folder.parent.parent / "fig18_solvers.png").write_bytes(b"picture")
+        return accept.accept([self.BOOK["fig18_solvers"]], "paper", "cpu", self.runs, "machine", "no program", self.results)
+
+    def test_a_run_in_parts_is_accepted_where_its_last_part_is_finished(self):
+        self.in_parts("interrupted", "interrupted", "finished")
+        kept = {path.name for path in (self.results / "machine/fig18_solvers_paper").iterdir()}
+        self.assertEqual(kept, {f"ipc_part_{number:02d}_{name}" for number in range(3) for name in ("run.json", "steps.csv", "processor_time.json")})
+
+    def test_a_run_in_parts_that_did_not_reach_its_end_is_refused(self):
+        for statuses, which in ((("interrupted", "interrupted"), "01"), (("running", "finished"), "00"), (("interrupted", "failed: no convergence"), "01")):
+            with self.assertRaisesRegex(accept.AcceptError, f"ipc_part_{which} is not finished"):
+                self.in_parts(*statuses)
+            shutil.rmtree(self.runs)
+        self.assertFalse(self.results.exists())
+
+    def test_half_a_figure_is_not_taken_for_a_whole_one(self):
+        self.finished()
+        (self.runs / "fig18-paper-cuda/fig18.csv").write_text(f"activation,status\nogc,finished\ncubic,{accept.NOT_RUN}\nquadratic,{accept.NOT_RUN}\n")
+        with self.assertRaisesRegex(accept.AcceptError, "fig18 was drawn without cubic, quadratic: run them"):
+            self.accept("fig18")
+        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True)
+        self.assertTrue((self.results / "machine/fig18_paper.csv").is_file())
+
     def test_runs_of_the_same_name_in_different_folders_stay_apart(self):
         for name in ("twist/whole", "knot/whole"):
             folder = self.make_run(f"table1-paper-cuda/{name}")

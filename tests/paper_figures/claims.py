@@ -101,6 +101,63 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.judged(lambda m: None, **{**guarantee, "run": {"scale": "paper", "steps": 100}}), "reproduced")
 
 
+class OneSceneOfTwoFigures(unittest.TestCase):
+    """Table 1's sphere and Fig. 18's are one scene; Fig. 18's cloth has IPC's membrane. Its runs, the newer ones here, judge no claim of the table."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def make(self, name, membrane, times, begin=1, **changes):
+        """A copy of an accepted run with another membrane, steps that take `times` as long, and another first step."""
+        manifest = json.loads((RESULTS / "h200/sphere_cuda_run.json").read_text())
+        for body in manifest["scene"]["bodies"]:
+            body["material"]["membrane"] = membrane
+        (self.folder / name).mkdir()
+        (self.folder / name / "run.json").write_text(json.dumps({**manifest, "ended": name, **changes}))
+        head, *rows = [line.split(",") for line in (RESULTS / "h200/sphere_cuda_steps.csv").read_text().splitlines()]
+        step, wall = (next(i for i, title in enumerate(head) if title.partition(" ")[0] == name) for name in ("step", "wall"))
+        for row in rows:
+            row[step], row[wall] = str(int(row[step]) - 1 + begin), repr(float(row[wall]) * times)
+        (self.folder / name / "steps.csv").write_text("\n".join(map(",".join, [head, *rows])) + "\n")
+
+    def sources(self, place=""):
+        """The run that each claim about the scene whose place begins so is judged by."""
+        evidence = Evidence(self.folder)
+        found = (verdicts.judge(each, evidence) for each in verdicts.load() if each["scene"] == "cloth_on_sphere" and each["place"].startswith(place))
+        return {j.claim["id"].partition(".")[2]: j.measured and j.measured.source for j in found}
+
+    def test_the_table_is_judged_by_its_own_runs_alone(self):
+        self.make("2_fig18", "stable_neo_hookean", 3)
+        self.assertEqual(set(self.sources("Table 1").values()), {None})
+        self.make("1_table", "st_venant_kirchhoff", 1)
+        sources = self.sources("Table 1")
+        self.assertEqual(set(sources.values()), {"1_table/run.json", None})
+        self.assertEqual({name for name, source in sources.items() if not source}, {"cpu_average", "cpu_maximum", "cpu_steady"})
+        self.assertEqual(self.sources("§5, first")["penetration_free"], "1_table/run.json")
+
+    def test_a_failed_audit_counts_with_any_material(self):
+        self.make("1_table", "st_venant_kirchhoff", 1)
+        self.make("2_fig18", "stable_neo_hookean", 1, guarantee_kept=False, status="failed: intersection")
+        self.assertEqual(self.sources("§5, first")["penetration_free"], "2_fig18/run.json")
+
+    def test_a_window_is_no_whole_run(self):
+        self.make("1_table", "st_venant_kirchhoff", 1)
+        self.make("2_window", "st_venant_kirchhoff", 3, begin=101)
+        self.assertEqual(self.sources("Table 1")["cuda_average"], "1_table/run.json")
+
+    def test_a_ratio_is_of_the_same_materials(self):
+        cpu = {"backend": "cpu", "device": "8 threads"}
+        self.make("1_ipc", "stable_neo_hookean", 6, solver="ipc", **cpu)
+        self.make("2_fig18", "stable_neo_hookean", 2, **cpu)
+        self.make("3_table", "st_venant_kirchhoff", 1, **cpu)
+        ratio = next(each for each in verdicts.load() if each["id"] == "cloth_on_sphere.ipc_over_vbd")
+        found = verdicts.judge(ratio, Evidence(self.folder)).measured
+        self.assertAlmostEqual(found.value, 3)
+        self.assertEqual(found.source, "1_ipc/run.json / 2_fig18/run.json")
+
+
 class Files(unittest.TestCase):
     def test_faulty_claim_files_are_refused(self):
         for change, words in (({"place": None}, "lacks place"), ({"measure": None}, "nothing is measured"), ({"band": None}, "must name the claim that is comparable")):

@@ -4,6 +4,7 @@ Usage: device_runs.py SOURCE_DIR OGC. The standard library is enough.
 """
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -14,7 +15,7 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
-from paper_figures import device_memory, device_runs, growth, layers, table1, timed_runs  # noqa: E402
+from paper_figures import commands, device_memory, device_runs, growth, layers, table1, timed_runs  # noqa: E402
 from paper_figures.timed_runs import Job, Limit  # noqa: E402
 
 
@@ -75,6 +76,33 @@ class Parts(Scratch):
         for path in (home / part.folder / job.name, home / "fig18-smoke-cpu/run"):
             self.assertTrue((path / "trajectory.vtkhdf").is_file() and not path.is_symlink(), path)
         self.assertEqual([(row["scene"], row["backend"]) for row in table1.rows_of(home / "table1-smoke-cpu")], [("cloth_on_sphere", "cpu")] * 2)
+
+    def test_solvers_side_by_side_in_parts_are_kept_and_packed_with_their_processor_time(self):
+        there, home = self.folder / "there", self.folder / "home"
+        for word in ("finished", "kept"):
+            self.assertEqual(self.say(there, *self.OPTIONS, "fig18_solvers")[0].split()[3], word)
+        self.say(there, *self.OPTIONS, "--pack", self.folder / "pieces")
+        self.say(home, "--unpack", self.folder / "pieces")
+        for name in ("ipc", "newton", "vbd"):
+            part = home / "fig18_solvers-smoke-cpu" / name / "part_00"
+            self.assertEqual(timed_runs.manifest_of(part)["solver"], name)
+            self.assertGreater(json.loads((part / "processor_time.json").read_text())["user [s]"], 0)
+            self.assertTrue((part / "trajectory.vtkhdf").is_file())
+
+    def test_a_group_waits_for_the_one_before_and_none_begins_without_time(self):
+        machine = device_runs.Machine(device_runs.arguments().parse_args(["--out", str(self.folder), "--program", OGC, "--scale", "smoke"]))
+        begun = []
+        machine.in_time = lambda folder, name, cores, part, limit: begun.append((name, len(cores)))
+        part, half = machine.book["fig18_solvers"], max(1, len(os.sched_getaffinity(0)) // 2)
+        self.assertEqual(machine.in_parts(part, Limit()), timed_runs.STOPPED)  # none of the two has reached its end
+        self.assertEqual(sorted(begun), [("ipc", half), ("newton", half)])
+        self.assertEqual(machine.in_parts(part, Limit(1e-9)), timed_runs.STOPPED)
+        self.assertEqual(len(begun), 2)
+
+    def test_fewer_iterations_before_the_step_of_fig_17_change_its_start_alone(self):
+        whole, fewer = commands.three_cloths("paper", ["cpu"]), commands.three_cloths("paper", ["cpu"], 40)
+        self.assertEqual(fewer[0][0].arguments, (*whole[0][0].arguments, "--set", "iterations=40"))
+        self.assertEqual((fewer[0][1:], fewer[1]), (whole[0][1:], whole[1]))
 
     def test_frames_are_the_first_evenly_on_to_the_last(self):
         (self.folder / "frames").mkdir()
