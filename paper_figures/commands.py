@@ -4,10 +4,12 @@ Every function returns jobs in an order in which they can be done; names are fol
 single precision, all else runs on the CPU.
 """
 
-from paper_figures.timed_runs import Job
+from paper_figures.timed_runs import Job, Step
 
 TWIST, THREE_CLOTHS, ONE_ITERATION, ACTIVATIONS = "large_radius_twist", "three_cloths_on_sphere", "one_iteration_drop", "activation_drop"
 NEO_HOOKEAN = "stable_neo_hookean"  # of IPC's runs and of those beside them (compare/deviations.md)
+
+TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and paper
 
 THREE_CLOTHS_STEP = {"smoke": 24, "small": 40, "paper": 50}
 VBD = ("--set", "iterations=500")
@@ -35,6 +37,12 @@ def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
     """OGC's run and IPC's of Fig. 2 and 20."""
     base, profile = (scene, *shared(scale, membrane), "--audit", "frame"), ("--profile",) if scene == TWIST else ()
     return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc", *profile))
+
+
+def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=20):
+    """IPC on windows of so many steps from states of the run `whole`, which ends at step `last`, where it is too slow for the run itself."""
+    return [Job(f"ipc_{start}", (scene, *shared(scale, membrane), "--solver", "ipc", "--profile", "--steps", min(last, start + steps)), (whole, Step(start)))
+            for start in starts]
 
 
 def three_cloths(scale, backends, start_iterations=None):

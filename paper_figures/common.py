@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from paper_figures import commands
-from paper_figures.runs import run_once
+from paper_figures.runs import run_job
 from plots.run_folder import Run, RunError
 from plots.scene_figure import draw, draw_movie, load_claims
 
@@ -39,12 +39,8 @@ def options_of(arguments):
 def ipc_windows(arguments, scene, whole, starts, steps=20):
     """IPC on windows of so many steps from states of the run `whole`, where it is too slow for the run itself."""
     last = int(whole.column("step")[-1])
-    result = []
-    for start in (step for step in starts if step < last):
-        state = whole.folder / f"frames/frame_{start:06d}.h5"
-        command = [scene, *options_of(arguments), "--solver", "ipc", "--profile", "--from-state", state, "--steps", min(last, start + steps)]
-        result.append(run_once(arguments.ogc, command, Path(arguments.folder) / f"ipc_{start}"))
-    return result
+    jobs = commands.ipc_windows(scene, whole.folder.name, [start for start in starts if start < last], last, arguments.scale, arguments.membrane, steps)
+    return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
 
 
 def main(scene, frames, camera):

@@ -60,7 +60,9 @@ def parts(scale, backend):
 
     both = ["cpu", "cuda"] if backend == "cuda" else ["cpu"]
     single, double = commands.three_cloths(scale, both)
-    half_turn, _ = commands.beside_ipc(commands.TWIST, scale, backend)
+    half_turn, half_turn_ipc = commands.beside_ipc(commands.TWIST, scale, backend)
+    windows = commands.ipc_windows(commands.TWIST, half_turn.name, commands.TWIST_WINDOWS, commands.TWIST_STEPS, scale)
+    half_turn_by_ipc = [half_turn_ipc] if scale != "paper" else windows
     drop, ipc = commands.beside_ipc(commands.ONE_ITERATION, scale, backend)
     on_device = tuple(job for job in single if "cpu" not in job.name or backend == "cpu")
     wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
@@ -69,6 +71,7 @@ def parts(scale, backend):
     groups = (("ipc", "newton"), ("vbd",), *([("vbd_cuda",)] if backend == "cuda" else []))
     on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
                 "fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), frames=0, last=2),
+                "fig02_ipc": Part(figure("fig02"), tuple((window,) for window in half_turn_by_ipc), frames=2, gpu=False),
                 "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False),
                 "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False),
                 # A figure of the CPU, as its recipe says. VBD after the others, on as many cores: its steps want the memory's whole bandwidth.

@@ -14,7 +14,6 @@ from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE = commands.TWIST
-WINDOWS = (300, 600, 900, 1180)
 CAMERA = ((0.75, 0.85, 1.25), (0, 0, 0), (0, 1, 0))
 
 
@@ -109,23 +108,24 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's, or none."""
+    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
     folder = Path(arguments.folder)
     if arguments.parts:
         return [*(Joined(in_time.parts(folder / name)) for name in ("ipc", "vbd")), *(Run(window) for window in sorted(folder.glob("ipc_*")))]
     ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
     ogc = run_job(arguments.ogc, ours, folder)
     if arguments.without_ipc:
-        return [ogc]
+        found = sorted((Run(path.parent) for path in folder.glob("ipc*/run.json")), key=lambda run: run.column("step")[0])
+        return [*found[-1:], ogc, *found[:-1]]
     if arguments.scale != "paper":
         return [run_job(arguments.ogc, baseline, folder), ogc]
-    *earlier, last = ipc_windows(arguments, SCENE, ogc, WINDOWS)
+    *earlier, last = ipc_windows(arguments, SCENE, ogc, commands.TWIST_WINDOWS)
     return [last, ogc, *earlier]
 
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
-    parser.add_argument("--without-ipc", action="store_true", help="OGC's run alone")
+    parser.add_argument("--without-ipc", action="store_true", help="OGC's run, and those of IPC that are there: makes none")
     parser.add_argument("--parts", action="store_true", help="draw what paper_figures.in_time --scene large_radius_twist has made, and run nothing")
     options = parser.parse_args()
     try:

@@ -2,15 +2,12 @@
 
 import csv
 import re
-import shutil
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.timed_runs import RunFailure, usable
+from paper_figures.timed_runs import Job, Limit, RunFailure, make
 from plots.run_folder import Run, RunError
 
 
@@ -25,25 +22,17 @@ class Iterations:
 
 
 def run_once(ogc, arguments, folder):
-    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already. Throws RunError where ogc fails."""
-    folder = Path(folder)
-    command = [str(ogc), "run", *map(str, arguments), "--out", str(folder)]
-    if not usable(folder, command):
-        if (folder / "run.json").is_file():
-            print(f"{folder}: not finished, of another command or of another program: run again", file=sys.stderr, flush=True)
-            shutil.rmtree(folder)
-        print(" ".join(command), file=sys.stderr, flush=True)
-        if subprocess.run(command, stdout=subprocess.DEVNULL).returncode != 0:
-            raise RunError(f"{' '.join(command)}: failed; its last lines say why")
-    return Run(folder)
+    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already; one that was cut off goes on. Throws RunError where ogc fails."""
+    return run_job(ogc, Job(Path(folder).name, tuple(arguments)), Path(folder).parent)
 
 
 def run_job(ogc, job, folder):
     """The run of a job (paper_figures.commands) below `folder`. Throws RunError."""
     try:
-        return run_once(ogc, job.words(Path(folder)), Path(folder) / job.name)
+        make(ogc, job, Path(folder), Limit(), shown=True)
     except RunFailure as error:
         raise RunError(str(error)) from error
+    return Run(Path(folder) / job.name)
 
 
 def iterations(run, step):

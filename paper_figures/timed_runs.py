@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ from pathlib import Path
 SECONDS_TO_STOP = 60  # for the step at hand, and its checkpoint
 KEPT, FINISHED, STOPPED, FAILED = "kept", "finished", "stopped at the limit; call again to go on", "FAILED"
 LINES = 5
+REFUSED = 2  # exit status of `ogc` for what it can't be asked
 
 
 class RunFailure(Exception):
@@ -20,8 +22,15 @@ class RunFailure(Exception):
 
 
 @dataclass(frozen=True)
+class Step:
+    """The frame after this step."""
+
+    number: int
+
+
+@dataclass(frozen=True)
 class Job:
-    """`ogc run [scene] ARGUMENTS --out FOLDER/name`; `scene`: a scene file below FOLDER; `state`: (another job's name, place among its frames) where it begins;
+    """`ogc run [scene] ARGUMENTS --out FOLDER/name`; `scene`: a scene file below FOLDER; `state`: (another job's name, place among its frames or a step) where it begins;
     `may_fail`: to fail is a result."""
 
     name: str
@@ -37,8 +46,10 @@ class Job:
             return [*scene, *map(str, self.arguments)]
         name, place = self.state
         frames = sorted((root / name / "frames").glob("frame_*.h5"))
-        if len(frames) < abs(place):
-            raise RunFailure(f"{root / self.name} begins with a frame of {root / name}, which has none: make that run first")
+        if isinstance(place, Step):
+            frames, place = [frame for frame in frames if frame.stem == f"frame_{place.number:06d}"], 0
+        if len(frames) < (place + 1 if place >= 0 else -place):
+            raise RunFailure(f"{root / self.name} begins with a frame of {root / name}, which does not have it: make that run first")
         return [*scene, *map(str, self.arguments), "--from-state", str(frames[place])]
 
     def command(self, program, root):
@@ -79,28 +90,33 @@ def usable(folder, command):
 
 
 def command_in(command, log, limit):
-    """Exit status of a command that is asked to stop at the limit, and killed a minute later; what it prints goes to `log`."""
+    """Exit status of a command that is asked to stop at the limit, and killed a minute later; what it prints goes to `log`, or its progress to the screen."""
+    if log is None:
+        return waited(subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL), limit)
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as file:
-        process = subprocess.Popen(list(map(str, command)), stdout=file, stderr=subprocess.STDOUT)
-        try:
-            return process.wait(timeout=None if math.isinf(limit.left()) else limit.left())
-        except subprocess.TimeoutExpired:
-            process.send_signal(signal.SIGINT)
-        try:
-            return process.wait(timeout=SECONDS_TO_STOP)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            return process.wait()
+        return waited(subprocess.Popen(list(map(str, command)), stdout=file, stderr=subprocess.STDOUT), limit)
+
+
+def waited(process, limit):
+    try:
+        return process.wait(timeout=None if math.isinf(limit.left()) else limit.left())
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGINT)
+    try:
+        return process.wait(timeout=SECONDS_TO_STOP)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        return process.wait()
 
 
 def last_lines(log):
-    return "\n  ".join(log.read_text(errors="replace").splitlines()[-LINES:])
+    return "\n  ".join(log.read_text(errors="replace").splitlines()[-LINES:]) if log else "its last lines say why"
 
 
-def make(program, job, root, limit):
-    """Makes the run of a job below `root`, and says how that ended. Throws RunFailure."""
-    folder, log = root / job.name, root / f"{job.name}.log"
+def make(program, job, root, limit, shown=False):
+    """Makes the run of a job below `root`, and says how that ended; `shown`: with its progress on the screen. Throws RunFailure."""
+    folder, log = root / job.name, None if shown else root / f"{job.name}.log"
     command = job.command(program, root)
     status = manifest_of(folder).get("status", "")
     alike = status and same_command(folder, command)
@@ -109,10 +125,14 @@ def make(program, job, root, limit):
     if limit.left() == 0:
         return STOPPED
     goes_on = alike and not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
-    again = [str(program), "run", "--resume", str(folder)] if goes_on else None
-    if not again:
-        shutil.rmtree(folder, ignore_errors=True)
-    code = command_in(again or command, log, limit)
+    for used in ([str(program), "run", "--resume", str(folder)], command) if goes_on else (command,):
+        if used is command:
+            shutil.rmtree(folder, ignore_errors=True)
+        if shown:
+            print(" ".join(used), file=sys.stderr, flush=True)
+        code = command_in(used, log, limit)
+        if code != REFUSED:  # that run was another program's, or is damaged: from the beginning
+            break
     status = manifest_of(folder).get("status", "")
     if code == 0 and status == "finished":
         return FINISHED
@@ -120,4 +140,4 @@ def make(program, job, root, limit):
         return STOPPED
     if job.may_fail and status.startswith("failed"):
         return FINISHED
-    raise RunFailure(f"{' '.join(again or command)}: exit status {code}\n  {last_lines(log)}")
+    raise RunFailure(f"{' '.join(used)}: exit status {code}\n  {last_lines(log)}")

@@ -16,7 +16,7 @@ SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 from paper_figures import commands, device_memory, device_runs, growth, layers, table1, timed_runs  # noqa: E402
-from paper_figures.timed_runs import Job, Limit  # noqa: E402
+from paper_figures.timed_runs import Job, Limit, Step  # noqa: E402
 
 
 class Scratch(unittest.TestCase):
@@ -43,10 +43,26 @@ class OneRun(Scratch):
         longer = Job("run", ("cloth_on_sphere", "--scale", "smoke", "--steps", "3"))
         self.assertEqual([self.make(job) for job in (short, short, longer)], [timed_runs.FINISHED, timed_runs.KEPT, timed_runs.FINISHED])
 
+    def test_a_run_that_cannot_go_on_begins_anew(self):
+        self.assertEqual(self.make(self.LONG, 0.2), timed_runs.STOPPED)
+        manifest = self.folder / "long/run.json"
+        manifest.write_text(manifest.read_text().replace('"commit": "', '"commit": "0'))  # another program's
+        self.assertEqual(self.make(self.LONG), timed_runs.FINISHED)
+        self.assertNotIn("resumed", timed_runs.manifest_of(self.folder / "long"))
+
+    def test_a_run_begins_with_the_frame_after_a_step_if_there_is_one(self):
+        job = Job("run", ("cloth_on_sphere", "--scale", "smoke", "--steps", "6", "--set", "frame_steps=2"))
+        self.assertEqual(self.make(job), timed_runs.FINISHED)
+        window, none = (Job("window", ("cloth_on_sphere", "--scale", "smoke", "--steps", "7"), ("run", Step(step))) for step in (4, 5))
+        self.assertEqual(self.make(window), timed_runs.FINISHED)
+        self.assertTrue((self.folder / "window/steps.csv").read_text().splitlines()[1].startswith("5,"))
+        with self.assertRaisesRegex(timed_runs.RunFailure, "begins with a frame of .*, which does not have it"):
+            self.make(none)
+
     def test_a_failure_has_its_command_and_last_words(self):
         with self.assertRaisesRegex(timed_runs.RunFailure, "(?s)run no_scene .*exit status 2.*no_scene"):
             self.make(Job("run", ("no_scene",)))
-        with self.assertRaisesRegex(timed_runs.RunFailure, "begins with a frame of .*first, which has none"):
+        with self.assertRaisesRegex(timed_runs.RunFailure, "begins with a frame of .*, which does not have it"):
             self.make(Job("run", ("twist",), ("first", -1)))
 
 
