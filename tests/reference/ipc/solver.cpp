@@ -9,7 +9,7 @@
 #include "reference/ipc/intersections.hpp"
 #include "reference/ipc/simulation.hpp"
 #include "tests/catch.hpp"
-#include "tests/reference/solvers/sheets.hpp"
+#include "tests/reference/solvers/runs.hpp"
 
 using namespace ogc;
 using namespace ogc::tests;
@@ -18,38 +18,7 @@ using reference::State;
 
 namespace {
 
-struct Run {
-  std::vector<compare::StepMetrics> rows;
-  compare::Snapshot end;
-};
-
-Run run(const compare::Scene& scene, std::int64_t steps) {
-  const auto simulation = reference::start_ipc(scene, {.iterations = true});
-  Run result{simulation->advance(steps), {}};
-  result.end = simulation->snapshot();
-  return result;
-}
-
-bool clean(const Run& run) {
-  return std::all_of(run.rows.begin(), run.rows.end(), [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
-}
-
-/// A sheet that falls askew onto a fixed one: contacts of all kinds, friction, damping.
-compare::Scene drop_scene() {
-  compare::Scene scene;
-  scene.name = "drop";
-  compare::Material material;
-  material.bending_damping = material.membrane_damping = 2e-6;
-  add_sheet(scene, 8, 0.07, 0.012, false, material);
-  add_sheet(scene, 6, 0.09, 0, true, material);
-  for (std::size_t v = 0; v < 64; ++v) {
-    compare::Vec3& x = scene.mesh.positions[v];
-    x.y += 0.1 * x.x + 0.05 * x.z;
-    scene.velocities[v] = {0.1, -0.3, 0.05};
-  }
-  scene.settings.ipc_distance = 2e-3;
-  return scene;
-}
+Run run(const compare::Scene& scene, std::int64_t steps) { return run_of(reference::start_ipc, scene, steps); }
 
 /// A stepper that shows every state in double.
 struct Stepper {
@@ -319,20 +288,8 @@ TEST_CASE("IPC: threads change no bit, and a run does not depend on those before
   CHECK(one.end.velocities == two.end.velocities);
 }
 
-/// Both sheets free, so that pairs couple vertices that no triangle does, and the matrix' pattern grows and shrinks.
 TEST_CASE("IPC goes on from any snapshot to the same bits in double, whatever pattern the matrix had before", "[property]") {
-  compare::Scene scene = drop_scene();
-  scene.bodies[1].fixed = false;
-  const auto whole = reference::start_ipc(scene, {});
-  for (int step = 0; step < 20; ++step) {
-    const auto rest = reference::start_ipc(scene, {});
-    rest->restore(whole->snapshot());
-    REQUIRE(whole->advance(1).back().status == compare::step_clean);
-    rest->advance(1);
-    INFO("step " << step + 1);
-    CHECK(rest->snapshot().exact_positions == whole->snapshot().exact_positions);
-    CHECK(rest->snapshot().exact_velocities == whole->snapshot().exact_velocities);
-  }
+  check_goes_on_from_any_snapshot(reference::start_ipc, drop_scene());
 }
 
 TEST_CASE("IPC: thickness is kept", "[property]") {

@@ -1,6 +1,5 @@
 #include "reference/solvers/simulation.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -10,7 +9,7 @@
 #include "reference/solvers/newton_solver.hpp"
 #include "reference/solvers/residual.hpp"
 #include "tests/catch.hpp"
-#include "tests/reference/solvers/sheets.hpp"
+#include "tests/reference/solvers/runs.hpp"
 
 using namespace ogc;
 using namespace ogc::tests;
@@ -18,37 +17,7 @@ using compare::Vec3f;
 
 namespace {
 
-struct Run {
-  std::vector<compare::StepMetrics> rows;
-  compare::Snapshot end;
-};
-
-Run run(const compare::Scene& scene, std::int64_t steps) {
-  const auto simulation = reference::start_newton(scene, {.iterations = true});
-  Run result{simulation->advance(steps), {}};
-  result.end = simulation->snapshot();
-  return result;
-}
-
-bool clean(const Run& run) {
-  return std::all_of(run.rows.begin(), run.rows.end(), [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
-}
-
-/// Two sheets that meet askew: contacts of all kinds, friction, damping, several detections a step.
-compare::Scene drop_scene() {
-  compare::Scene scene;
-  scene.name = "drop";
-  compare::Material material;
-  material.bending_damping = material.membrane_damping = 2e-6;
-  add_sheet(scene, 8, 0.07, 0.012, false, material);
-  add_sheet(scene, 6, 0.09, 0, true, material);
-  for (std::size_t v = 0; v < 64; ++v) {
-    compare::Vec3& x = scene.mesh.positions[v];
-    x.y += 0.1 * x.x + 0.05 * x.z;
-    scene.velocities[v] = {0.1, -0.3, 0.05};
-  }
-  return scene;
-}
+Run run(const compare::Scene& scene, std::int64_t steps) { return run_of(reference::start_newton, scene, steps); }
 
 compare::Vec3 momentum(const compare::Scene& scene, const std::vector<Vec3f>& velocity, const std::vector<double>& mass) {
   compare::Vec3 sum;
@@ -348,23 +317,12 @@ TEST_CASE("Newton: the number of threads changes no bit", "[property]") {
   }
 }
 
-/// Both sheets free, so that contacts couple vertices that no triangle does, and the matrix' pattern grows and shrinks.
 TEST_CASE("Newton goes on from any state to the same bits, whatever pattern the matrix had before", "[property]") {
   compare::Scene scene = drop_scene();
-  scene.bodies[1].fixed = false;
   scene.settings.newton_tolerance = 0;
   scene.settings.newton_step_tolerance = 1e-3;
   scene.settings.newton_iterations = 30;
-  const auto whole = reference::start_newton(scene, {});
-  for (int step = 0; step < 20; ++step) {
-    const auto rest = reference::start_newton(scene, {});
-    rest->restore(whole->snapshot());
-    const compare::StepMetrics once = whole->advance(1).back(), again = rest->advance(1).back();
-    INFO("step " << step + 1);
-    CHECK(whole->snapshot().positions == rest->snapshot().positions);
-    CHECK(std::memcmp(&once.residual, &again.residual, sizeof once.residual) == 0);
-    CHECK(rest->snapshot().step == step + 1);
-  }
+  check_goes_on_from_any_snapshot(reference::start_newton, scene);
 }
 
 TEST_CASE("every activation and projection keeps the guarantee and ends its steps", "[property]") {
