@@ -3,7 +3,7 @@
 
 Every comparison, sum, product, sign, index, coordinate, number and condition of the given kernels is rewritten to one that can be switched
 (tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same cases, whose exact answers are found once; what the judge
-lets through meets the kernels' own tests (tests/fast/kernels).
+lets through meets the tests of kernels, of detections and of their lists with a skin (tests/fast/kernels, tests/fast/stages).
 
     tests/mutants.py BUILD [--kernels a,b,…] [--stages a,b,…] [--cases N] [--limit N] [--minutes M] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
 
@@ -27,7 +27,8 @@ NOT_MATHEMATICS = {"qualifiers", "atomic"}
 KERNELS = sorted(path.stem for path in (ROOT / "fast/kernels").glob("*.hpp") if path.stem not in NOT_MATHEMATICS)
 STAGES = ("closest_face closest_points activation truncate membrane bending spring bound block detect_vertex_facet detect_edge_edge contact_force "
           "friction_force initial_guess rest_state sweep step").split()
-REWRITTEN = ["tests/mutants/contestant.cpp", "fast/stages/rest_state.cpp", *(str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("tests/fast/kernels/*.cpp")))]
+REWRITTEN = ["tests/mutants/contestant.cpp", "fast/stages/rest_state.cpp", *(str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("tests/fast/kernels/*.cpp"))),
+             "tests/fast/stages/detection.cpp", "tests/fast/stages/skin.cpp"]
 AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/kernel_tests.cpp"]
 
 BINARY = {  # operator -> (struct, what its alternatives are)
