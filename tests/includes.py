@@ -44,6 +44,7 @@ FOREIGN = {
     "mpfr": ("compare/oracle", "reference"),
     "Eigen/": ("reference",),
     "cholmod": ("reference",),
+    "immintrin.h": ("reference",),
     "suitesparse/": ("reference",),
     "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),
     "hdf5": ("compare/files", "compare/record"),

@@ -16,10 +16,10 @@ std::vector<DrawingPanel> activation_drawing() {
     for (int i = 1; i <= count; ++i) {
       Second<1> distance(i / 400.0);
       distance.slope[0] = 1;
-      const Second<1> energy = contact_activation(static_cast<compare::ContactActivation>(kind), distance, 1, 1);
+      const Second<1> energy = contact_activation(static_cast<compare::ContactActivation>(kind), distance, 1.0, 1.0);
       line.push_back(i - 1);
       layer.points.push_back({distance.value, 0 - energy.slope[0], 0});
-      layer.values.push_back(energy.bend[0]);
+      layer.values.push_back(energy.bend(0));
     }
     layer.lines = {line};
   }

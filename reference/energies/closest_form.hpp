@@ -32,8 +32,8 @@ ClosestForm closest_form(compare::ContactSides sides, const std::array<Triple<do
 ClosestForm closest_edges(const std::array<Triple<double>, 4>& x);
 
 /// Σ w_i x_i, the vector from the second contact point to the first.
-template <class T, std::size_t N>
-Triple<T> separation(const std::array<double, 4>& weight, const std::array<Triple<T>, N>& x) {
+template <class Number, class T, std::size_t N>
+Triple<T> separation(const std::array<Number, 4>& weight, const std::array<Triple<T>, N>& x) {
   Triple<T> sum = weight[0] * x[0];
   for (std::size_t k = 1; k < N; ++k) sum = sum + weight[k] * x[k];
   return sum;
@@ -43,7 +43,7 @@ Triple<T> separation(const std::array<double, 4>& weight, const std::array<Tripl
 template <class T>
 T height(const T& scaled, const Triple<T>& normal) {
   using std::sqrt;
-  return (plain(scaled) < 0 ? -1.0 : 1.0) * scaled / sqrt(dot(normal, normal));
+  return sign_of(plain(scaled)) * scaled / sqrt(dot(normal, normal));
 }
 
 /// The distance of a form's points, lines or planes [m].

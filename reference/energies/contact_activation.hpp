@@ -32,8 +32,8 @@ T activation_energy(compare::ContactActivation kind, const T& d, const P& r, con
 }
 
 /// The same with its end: 0 from r on.
-template <class T>
-T contact_activation(compare::ContactActivation kind, const T& d, double r, double k) {
+template <class T, class P>
+T contact_activation(compare::ContactActivation kind, const T& d, const P& r, const P& k) {
   return plain(d) >= r ? T(0.0) : activation_energy(kind, d, r, k);
 }
 

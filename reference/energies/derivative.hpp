@@ -58,6 +58,8 @@ struct Derivative {
 
 /// The number without its derivatives.
 inline double plain(double x) { return x; }
+/// −1 where x < 0, else 1.
+inline double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
 template <class T, std::size_t N>
 double plain(const Derivative<T, N>& x) {
   return plain(x.value);

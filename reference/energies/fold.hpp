@@ -12,9 +12,10 @@ namespace ogc::reference {
 template <class T>
 using Hinge = std::array<Triple<T>, 4>;
 
+/// A truth value, or one for each lane.
 template <class T>
-bool is_zero(const Triple<T>& a) {
-  return plain(a[0]) == 0 && plain(a[1]) == 0 && plain(a[2]) == 0;
+auto is_zero(const Triple<T>& a) {
+  return plain(a[0]) == 0.0 && plain(a[1]) == 0.0 && plain(a[2]) == 0.0;
 }
 
 template <class T>
@@ -28,7 +29,7 @@ struct Fold {
   Hinge<T> x;
   Triple<T> edge, first, second;
   explicit Fold(const Hinge<T>& at) : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
-  bool collapsed() const { return is_zero(first) || is_zero(second); }
+  auto collapsed() const { return is_zero(first) || is_zero(second); }
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
   /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.
   bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {

@@ -1,10 +1,12 @@
 // Forward differentiation to second order of a function of N variables: value, gradient and one triangle of the Hessian. Nesting Derivative in itself would
-// carry the other triangle too; Newton's method differentiates each stencil of a mesh in each iteration, so this is worth a type of its own.
+// carry the other triangle too; Newton's method differentiates each stencil of a mesh in each iteration, so this is worth a type of its own. `Number` is a
+// double, or several of them side by side (lanes.hpp).
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "reference/energies/derivative.hpp"
@@ -22,95 +24,140 @@ template <std::size_t N, class Visit>
   }(std::make_index_sequence<N>{});
 }
 
-template <std::size_t N>
-struct Second {
-  double value = 0;
-  std::array<double, N> slope{};
-  std::array<double, N*(N + 1) / 2> bend{};  ///< row i holds ∂²/∂i∂j for j ≤ i
-  bool linear = true;                        ///< bend is known to hold zeros, as of positions, edges and F: then it is not computed with
+/// Public: value and slope; second derivatives by `bend`, since they are left open in what is linear: positions, edges and F. There they would be more than
+/// three quarters of all that is copied, and of what the cache must hold.
+template <std::size_t N, class Number = double>
+class Second {
+ public:
+  static constexpr std::size_t bends = N * (N + 1) / 2;
+  Number value;
+  std::array<Number, N> slope;
 
-  Second() = default;
-  Second(double constant) : value(constant) {}
+  Second() : Second(Number(0.0)) {}
+  Second(const Number& constant) : value(constant), slope{} {}
+  Second(double constant)
+    requires(!std::is_same_v<Number, double>)
+      : Second(Number(constant)) {}
+  Second(const Second& other) : value(other.value), slope(other.slope), linear_(other.linear_) {
+    if (!linear_) bend_ = other.bend_;
+  }
+  Second& operator=(const Second& other) {
+    value = other.value;
+    slope = other.slope;
+    linear_ = other.linear_;
+    if (!linear_) bend_ = other.bend_;
+    return *this;
+  }
+
+  /// Entry k of the second derivatives: row i holds ∂²/∂i∂j for j ≤ i.
+  Number bend(std::size_t k) const { return linear_ ? Number(0.0) : bend_[k]; }
 
   friend Second operator+(Second a, const Second& b) {
     a.value += b.value;
     for (std::size_t i = 0; i < N; ++i) a.slope[i] += b.slope[i];
-    if (b.linear) return a;
-    a.linear = false;
-    for (std::size_t k = 0; k < a.bend.size(); ++k) a.bend[k] += b.bend[k];
+    if (b.linear_) return a;
+    if (a.linear_) {
+      a.bend_ = b.bend_;
+    } else {
+      for (std::size_t k = 0; k < bends; ++k) a.bend_[k] += b.bend_[k];
+    }
+    a.linear_ = false;
     return a;
   }
   friend Second operator-(Second a, const Second& b) {
     a.value -= b.value;
     for (std::size_t i = 0; i < N; ++i) a.slope[i] -= b.slope[i];
-    if (b.linear) return a;
-    a.linear = false;
-    for (std::size_t k = 0; k < a.bend.size(); ++k) a.bend[k] -= b.bend[k];
+    if (b.linear_) return a;
+    if (a.linear_) {
+      for (std::size_t k = 0; k < bends; ++k) a.bend_[k] = -b.bend_[k];
+    } else {
+      for (std::size_t k = 0; k < bends; ++k) a.bend_[k] -= b.bend_[k];
+    }
+    a.linear_ = false;
     return a;
   }
   friend Second operator-(const Second& a) { return -1.0 * a; }
-  friend Second operator*(double factor, Second a) {
+  friend Second operator*(const Number& factor, Second a) {
     a.value *= factor;
-    for (double& x : a.slope) x *= factor;
-    if (a.linear) return a;
-    for (double& x : a.bend) x *= factor;
+    for (Number& x : a.slope) x *= factor;
+    if (a.linear_) return a;
+    for (Number& x : a.bend_) x *= factor;
     return a;
   }
+  friend Second operator*(double factor, const Second& a)
+    requires(!std::is_same_v<Number, double>)
+  {
+    return Number(factor) * a;
+  }
   friend Second operator*(const Second& a, const Second& b) {
-    Second c(a.value * b.value);
-    c.linear = false;
+    Second c(Open{}, a.value * b.value);
     for (std::size_t i = 0; i < N; ++i) c.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
-    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k) { c.bend[k] = a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]; });
-    if (!a.linear)
-      for (std::size_t k = 0; k < c.bend.size(); ++k) c.bend[k] += a.bend[k] * b.value;
-    if (!b.linear)
-      for (std::size_t k = 0; k < c.bend.size(); ++k) c.bend[k] += a.value * b.bend[k];
+    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k)
+                        [[gnu::always_inline]] { c.bend_[k] = a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]; });
+    if (!a.linear_ && !b.linear_) {
+      for (std::size_t k = 0; k < bends; ++k) c.bend_[k] = c.bend_[k] + a.bend_[k] * b.value + a.value * b.bend_[k];
+    } else if (!a.linear_) {
+      for (std::size_t k = 0; k < bends; ++k) c.bend_[k] += a.bend_[k] * b.value;
+    } else if (!b.linear_) {
+      for (std::size_t k = 0; k < bends; ++k) c.bend_[k] += a.value * b.bend_[k];
+    }
     return c;
   }
   friend Second operator/(const Second& a, const Second& b) {
-    const double inverse = 1 / b.value;
-    return a * composed(inverse, -inverse * inverse, 2 * inverse * inverse * inverse, b);
+    const Number inverse = 1.0 / b.value;
+    return a * composed(inverse, -inverse * inverse, 2.0 * inverse * inverse * inverse, b);
   }
   /// f(x) from f, f' and f'' there.
-  friend Second composed(double f, double first, double second, const Second& x) {
-    Second result(f);
-    result.linear = false;
+  friend Second composed(const Number& f, const Number& first, const Number& second, const Second& x) {
+    Second result(Open{}, f);
     for (std::size_t i = 0; i < N; ++i) result.slope[i] = first * x.slope[i];
-    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k) { result.bend[k] = second * x.slope[i] * x.slope[j]; });
-    if (!x.linear)
-      for (std::size_t k = 0; k < result.bend.size(); ++k) result.bend[k] += first * x.bend[k];
+    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k) [[gnu::always_inline]] { result.bend_[k] = second * x.slope[i] * x.slope[j]; });
+    if (!x.linear_)
+      for (std::size_t k = 0; k < bends; ++k) result.bend_[k] += first * x.bend_[k];
     return result;
   }
   /// At 0 all derivatives are taken as 0, as by Derivative.
   friend Second sqrt(const Second& x) {
-    if (x.value == 0) return {};
-    const double root = std::sqrt(x.value);
+    using std::sqrt;
+    if (x.value == 0.0) return {};
+    const Number root = sqrt(x.value);
     return composed(root, 0.5 / root, -0.25 / (root * x.value), x);
   }
-  friend Second log(const Second& x) { return composed(std::log(x.value), 1 / x.value, -1 / (x.value * x.value), x); }
+  friend Second log(const Second& x) {
+    using std::log;
+    return composed(log(x.value), 1.0 / x.value, -1.0 / (x.value * x.value), x);
+  }
   /// The imaginary part of log(x + iy), whose second derivative is that of z''/z − (z'/z)². Not both 0.
   friend Second atan2(const Second& y, const Second& x) {
-    const double squared = x.value * x.value + y.value * y.value;
-    Second angle(std::atan2(y.value, x.value));
-    angle.linear = false;
-    std::array<double, N> stretch;
+    using std::atan2;
+    const Number squared = x.value * x.value + y.value * y.value;
+    Second angle(Open{}, Number(atan2(y.value, x.value)));
+    std::array<Number, N> stretch;
     for (std::size_t i = 0, k = 0; i < N; ++i) {
       stretch[i] = (x.value * x.slope[i] + y.value * y.slope[i]) / squared;
       angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
       for (std::size_t j = 0; j <= i; ++j, ++k)
-        angle.bend[k] = (x.value * y.bend[k] - y.value * x.bend[k]) / squared - (stretch[i] * angle.slope[j] + stretch[j] * angle.slope[i]);
+        angle.bend_[k] = (x.value * y.bend(k) - y.value * x.bend(k)) / squared - (stretch[i] * angle.slope[j] + stretch[j] * angle.slope[i]);
     }
     return angle;
   }
+
+ private:
+  /// Slopes and bends are left open, to be filled at once.
+  struct Open {};
+  Second(Open, const Number& at) : value(at), linear_(false) {}
+
+  std::array<Number, bends> bend_;
+  bool linear_ = true;  ///< all second derivatives are 0; bend_ is not read
 };
 
-template <std::size_t N>
-double plain(const Second<N>& x) {
+template <std::size_t N, class Number>
+Number plain(const Second<N, Number>& x) {
   return x.value;
 }
 
-template <std::size_t N>
-Triple<Second<N>> operator*(double factor, const Triple<Second<N>>& a) {
+template <std::size_t N, class Number>
+Triple<Second<N, Number>> operator*(const std::type_identity_t<Number>& factor, const Triple<Second<N, Number>>& a) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
 

@@ -1,37 +1,50 @@
 #include "reference/energies/stencil_derivatives.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
-#include <Eigen/Dense>
+#include "reference/energies/projection.hpp"
+#include "reference/energies/stencil_kernels.hpp"
 
 namespace ogc::reference {
 namespace {
 
-template <int Size>
-void project_sized(double* matrix, compare::HessianProjection projection) {
-  using Matrix = Eigen::Matrix<double, Size, Size>;  // symmetric: rows are columns
-  using Vector = Eigen::Matrix<double, Size, 1>;
-  Eigen::Map<Matrix> h(matrix);
-  // What Cholesky's factorisation tells costs a hundredth of the eigenvalues.
-  if (h.isZero(0) || Eigen::LLT<Matrix>(h).info() == Eigen::Success) return;
-  Eigen::SelfAdjointEigenSolver<Matrix> solver(h);
-  Vector values = solver.eigenvalues();
-  if (values.minCoeff() >= 0) return;
-  for (int i = 0; i < Size; ++i) values[i] = projection == compare::HessianProjection::absolute ? std::abs(values[i]) : std::max(values[i], 0.0);
-  h = solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+/// One matrix in all lanes: what a batch does to it.
+template <std::size_t N>
+void project_sized(double* matrix, bool absolute) {
+  LowerTriangle<N, Lanes<1>> h;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j <= i; ++j) h[lower(i, j)] = Lanes<1>(matrix[i * N + j]);
+  project<N, 1>(h, absolute);
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j < N; ++j) matrix[i * N + j] = h[lower(i, j)].part[0][0];
 }
 
 }  // namespace
 
 void project(double* matrix, std::size_t size, compare::HessianProjection projection) {
   if (projection == compare::HessianProjection::none) return;
+  const bool absolute = projection == compare::HessianProjection::absolute;
   switch (size) {
-    case 3: return project_sized<3>(matrix, projection);
-    case 6: return project_sized<6>(matrix, projection);
-    case 9: return project_sized<9>(matrix, projection);
+    case 3: return project_sized<3>(matrix, absolute);
+    case 6: return project_sized<6>(matrix, absolute);
+    case 9: return project_sized<9>(matrix, absolute);
     default: throw std::invalid_argument("project: a stencil has 2, 3 or 4 vertices");
   }
+}
+
+bool has_avx2() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx2");
+#else
+  return false;
+#endif
+}
+
+const StencilKernels& stencil_kernels() {
+#ifdef __x86_64__
+  if (has_avx2()) return stencil_kernels_avx2;
+#endif
+  return stencil_kernels_baseline;
 }
 
 }  // namespace ogc::reference

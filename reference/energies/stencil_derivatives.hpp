@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "compare/problem/settings.hpp"
 #include "reference/energies/second.hpp"
@@ -17,16 +16,16 @@ struct StencilDerivatives {
   std::array<double, 144> hessian{};
 };
 
-/// Orthonormal: row k, column d is the share of vertex k in the d-th coordinate; each column adds up to 0.
+/// Orthonormal: row k, column d is the share of vertex k in the d-th coordinate; each column adds up to 0. Above column k − 1 row k holds no zeros.
 template <std::size_t Count>
 constexpr std::size_t coordinate_count = 3 * (Count - 1);
 template <std::size_t Count>
-std::array<std::array<double, Count - 1>, Count> without_translation() {
+constexpr std::array<std::array<double, Count - 1>, Count> without_translation() {
+  constexpr std::array<double, 3> share{0.70710678118654752440, 0.40824829046386301637, 0.28867513459481288225};  // 1/√((d + 1)(d + 2))
   std::array<std::array<double, Count - 1>, Count> q{};
   for (std::size_t d = 0; d + 1 < Count; ++d) {
-    const auto before = static_cast<double>(d + 1);
-    for (std::size_t k = 0; k <= d; ++k) q[k][d] = 1 / std::sqrt(before * (before + 1));
-    q[d + 1][d] = -std::sqrt(before / (before + 1));
+    for (std::size_t k = 0; k <= d; ++k) q[k][d] = share[d];
+    q[d + 1][d] = -static_cast<double>(d + 1) * share[d];
   }
   return q;
 }
@@ -37,7 +36,7 @@ void project(double* matrix, std::size_t size, compare::HessianProjection projec
 /// The stencil's vertices as variables. Positions relative to the first vertex, which changes nothing but roundings.
 template <std::size_t Count>
 std::array<Triple<Second<coordinate_count<Count>>>, Count> stencil_variables(const std::array<Triple<double>, Count>& x) {
-  static const auto q = without_translation<Count>();
+  static constexpr auto q = without_translation<Count>();
   std::array<Triple<Second<coordinate_count<Count>>>, Count> variables;
   for (std::size_t k = 0; k < Count; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -51,10 +50,10 @@ std::array<Triple<Second<coordinate_count<Count>>>, Count> stencil_variables(con
 template <std::size_t Count>
 StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, compare::HessianProjection projection) {
   constexpr std::size_t size = coordinate_count<Count>;
-  static const auto q = without_translation<Count>();
+  static constexpr auto q = without_translation<Count>();
   std::array<double, size * size> reduced;
   for (std::size_t i = 0, k = 0; i < size; ++i)
-    for (std::size_t j = 0; j <= i; ++j, ++k) reduced[i * size + j] = reduced[j * size + i] = energy.bend[k];
+    for (std::size_t j = 0; j <= i; ++j, ++k) reduced[i * size + j] = reduced[j * size + i] = energy.bend(k);
   project(reduced.data(), size, projection);
   StencilDerivatives result;
   result.energy = energy.value;

@@ -1,6 +1,9 @@
 // The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4). Newton's method differentiates these; the
-// stages of the sweep ask for one vertex at a time and share strain and angle with them.
+// stages of the sweep ask for one vertex at a time and share strain and angle with them. `Number`: of what a stencil knows, a double, or one for each of
+// several stencils side by side; `numbers` are those, `kinds` is what all of them must have in common.
 #pragma once
+
+#include <tuple>
 
 #include "compare/problem/scene.hpp"
 #include "compare/problem/vector.hpp"
@@ -13,11 +16,12 @@
 namespace ogc::reference {
 
 /// A triangle: A (ψ + k ϕ(G − Gᵗ)) (compare/stages/membrane.hpp).
-struct MembraneTerm {
+template <class Number>
+struct MembraneTermOf {
   std::array<compare::Index, 3> vertex{};
-  std::array<std::array<double, 2>, 3> gradient{};  ///< ∇N [1/m]
-  double area = 0, lambda = 0, mu = 0, damping = 0;  ///< A [m²], Lamé [N/m], k = k_d/h [1]
-  Strain<double> start{};                            ///< Gᵗ
+  std::array<std::array<Number, 2>, 3> gradient{};  ///< ∇N [1/m]
+  Number area = 0.0, lambda = 0.0, mu = 0.0, damping = 0.0;  ///< A [m²], Lamé [N/m], k = k_d/h [1]
+  Strain<Number> start{};                            ///< Gᵗ
   compare::MembraneModel model = compare::MembraneModel::st_venant_kirchhoff;
 
   /// Parts of the energy by what they depend on: elastic_of a strain or, in the stable Neo-Hookean model, of F; damping of a strain.
@@ -45,24 +49,31 @@ struct MembraneTerm {
     const Deformation<T> f = deformation<T>(x, gradient);
     const Strain<T> g = strain(f);
     const T psi = neo_hookean() ? elastic_of(f) : elastic_of(g);
-    return damping == 0 ? psi : psi + damping_of(g);
+    return damping == 0.0 ? psi : psi + damping_of(g);
   }
+
+  auto numbers() { return std::tie(gradient, area, lambda, mu, damping, start); }
+  auto numbers() const { return std::tie(gradient, area, lambda, mu, damping, start); }
+  auto kinds() { return std::tie(model); }
+  auto kinds() const { return std::tie(model); }
 };
+using MembraneTerm = MembraneTermOf<double>;
 
 /// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); what holds θ is 0 where a triangle has collapsed.
-struct HingeTerm {
+template <class Number>
+struct HingeTermOf {
   std::array<compare::Index, 4> vertex{};
-  double stiffness = 0, rest_angle = 0, damping = 0;  ///< c [J], θ₀ [rad], k [1]
-  double start = 0;                                   ///< θᵗ [rad]
+  Number stiffness = 0.0, rest_angle = 0.0, damping = 0.0;  ///< c [J], θ₀ [rad], k [1]
+  Number start = 0.0;                                 ///< θᵗ [rad]
   bool isometric = false;
-  std::array<double, 4> weight{};                     ///< w [1/m]
+  std::array<Number, 4> weight{};                     ///< w [1/m]
 
   /// What depends on the angle: all of it, or the isometric model's damping.
   template <class T>
   T energy_of(const T& angle) const {
     const T bent = angle - T(rest_angle), moved = angle - T(start);
     const T elastic = isometric ? T(0.0) : 0.5 * stiffness * bent * bent;
-    return damping == 0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
+    return damping == 0.0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
   }
   /// The isometric model's c/2 ‖Σ w x‖².
   template <class T>
@@ -81,17 +92,24 @@ struct HingeTerm {
   template <class T>
   T energy(const Hinge<T>& x) const {
     const T elastic = isometric ? isometric_energy(x) : T(0.0);
-    if (isometric && damping == 0) return elastic;
+    if (isometric && damping == 0.0) return elastic;
     const Fold<T> fold(x);
     return fold.collapsed() ? elastic : elastic + energy_of(fold.angle());
   }
+
+  auto numbers() { return std::tie(stiffness, rest_angle, damping, start, weight); }
+  auto numbers() const { return std::tie(stiffness, rest_angle, damping, start, weight); }
+  auto kinds() { return std::tie(isometric); }
+  auto kinds() const { return std::tie(isometric); }
 };
+using HingeTerm = HingeTermOf<double>;
 
 /// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²).
-struct SpringTerm {
+template <class Number>
+struct SpringTermOf {
   std::array<compare::Index, 2> vertex{};
-  double stiffness = 0, rest_length = 0, damping = 0;  ///< k_s [N/m], l₀ [m], k [1]
-  double start = 0;                                    ///< lᵗ [m]
+  Number stiffness = 0.0, rest_length = 0.0, damping = 0.0;  ///< k_s [N/m], l₀ [m], k [1]
+  Number start = 0.0;                                  ///< lᵗ [m]
 
   template <class T>
   T elastic(const std::array<Triple<T>, 2>& x) const {
@@ -99,47 +117,68 @@ struct SpringTerm {
   }
   template <class T>
   T energy(const std::array<Triple<T>, 2>& x) const {
-    return damping == 0 ? elastic(x) : elastic(x) + damping * about(x, start);
+    return damping == 0.0 ? elastic(x) : elastic(x) + damping * about(x, start);
   }
+
+  auto numbers() { return std::tie(stiffness, rest_length, damping, start); }
+  auto numbers() const { return std::tie(stiffness, rest_length, damping, start); }
+  auto kinds() { return std::tie(); }
+  auto kinds() const { return std::tie(); }
 
  private:
   /// At length 0 from a length the direction is open: there the root has no derivatives.
   template <class T>
-  T about(const std::array<Triple<T>, 2>& x, double from) const {
+  T about(const std::array<Triple<T>, 2>& x, const Number& from) const {
     using std::sqrt;
     const Triple<T> apart = x[0] - x[1];
     const T squared = dot(apart, apart);
-    return from == 0 ? 0.5 * stiffness * squared : spring_energy(T(sqrt(squared)), stiffness, T(from));
+    return from == 0.0 ? 0.5 * stiffness * squared : spring_energy(T(sqrt(squared)), stiffness, T(from));
   }
 };
+using SpringTerm = SpringTermOf<double>;
 
 /// A contact: e_k g(d). The form is found where the energy is asked for.
-struct ContactTerm {
+template <class Number>
+struct ContactTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
-  double radius = 0, stiffness = 0;  ///< r [m]; k_c [N/m]
-  double mollifier = 1;              ///< e_k of the last detection
-  double friction = 0;               ///< μ [1]
+  Number radius = 0.0, stiffness = 0.0;  ///< r [m]; k_c [N/m]
+  Number mollifier = 1.0;            ///< e_k of the last detection
+  Number friction = 0.0;             ///< μ [1]
   compare::ContactActivation activation = compare::ContactActivation::ogc;
 
+  template <class T>
+  T energy_at(const T& distance) const {
+    return mollifier * contact_activation(activation, distance, radius, stiffness);
+  }
   template <class T, std::size_t N>
   T energy(const ClosestForm& form, const std::array<Triple<T>, N>& x) const {
-    return mollifier * contact_activation(activation, form_distance(form, x), radius, stiffness);
+    return energy_at(form_distance(form, x));
   }
+
+  auto numbers() { return std::tie(radius, stiffness, mollifier); }
+  auto numbers() const { return std::tie(radius, stiffness, mollifier); }
+  auto kinds() { return std::tie(activation); }
+  auto kinds() const { return std::tie(activation); }
 };
+using ContactTerm = ContactTermOf<double>;
 
 /// Lagged friction of a contact: μ λ f₀(‖u‖), u = (I − n nᵀ)(Σ wᵢ xᵢ − Σ wᵢ xᵢᵗ), with λ, n and w of a fixed state.
-struct FrictionTerm {
+template <class Number>
+struct FrictionTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
-  std::array<double, 4> weight{};
-  Triple<double> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
-  double force = 0, limit = 0;       ///< μ λ [N]; ε = ε_v h [m]
+  std::array<Number, 4> weight{};
+  Triple<Number> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
+  Number force = 0.0, limit = 0.0;       ///< μ λ [N]; ε = ε_v h [m]
 
-  /// u over any number type.
+  /// u over any number type, of the corners or of Σ wᵢ xᵢ.
   template <class T, std::size_t N>
   Triple<T> slip(const std::array<Triple<T>, N>& x) const {
-    Triple<T> moved = separation(weight, x);
+    return slip_between(separation(weight, x));
+  }
+  template <class T>
+  Triple<T> slip_between(Triple<T> moved) const {
     for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
     const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
     return moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
@@ -149,14 +188,25 @@ struct FrictionTerm {
   T energy_of(const T& squared) const {
     using std::sqrt;
     const T length = sqrt(squared);
-    if (plain(length) >= limit) return force * (length - T(limit / 3));
-    return force / limit * (squared - 1 / (3 * limit) * squared * length);
+    if (plain(length) >= limit) return force * (length - T(limit / 3.0));
+    return force / limit * (squared - 1.0 / (3.0 * limit) * squared * length);
   }
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
-    const Triple<T> u = slip(x);
+    return energy_between(separation(weight, x));
+  }
+  /// By Σ wᵢ xᵢ.
+  template <class T>
+  T energy_between(const Triple<T>& apart) const {
+    const Triple<T> u = slip_between(apart);
     return energy_of(dot(u, u));
   }
+
+  auto numbers() { return std::tie(weight, normal, start, force, limit); }
+  auto numbers() const { return std::tie(weight, normal, start, force, limit); }
+  auto kinds() { return std::tie(); }
+  auto kinds() const { return std::tie(); }
 };
+using FrictionTerm = FrictionTermOf<double>;
 
 }  // namespace ogc::reference

@@ -43,7 +43,7 @@ T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& m
   const T squared[] = {dot(f[0], f[0]), dot(f[1], f[1])}, both = dot(f[0], f[1]);
   const T size = sqrt(dot(normal, normal)), grown = size - T(1.0), size_of_f = squared[0] + squared[1];
   const T bulk = Lame(0.5) * (lambda + mu) * grown * grown;
-  if (plain(size) == 0) return Lame(0.5) * mu * (size_of_f - T(2.0)) - mu * grown + bulk;  // collapsed: J has no derivatives
+  if (plain(size) == 0.0) return Lame(0.5) * mu * (size_of_f - T(2.0)) - mu * grown + bulk;  // collapsed: J has no derivatives
   const T unequal = squared[0] - squared[1];
   return Lame(0.5) * mu * ((unequal * unequal + T(4.0) * both * both) / (size_of_f + T(2.0) * size)) + bulk;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <tuple>
 
 #include "reference/energies/closest_form.hpp"
 #include "reference/energies/mollifier.hpp"
@@ -29,7 +30,12 @@ T barrier(const T& gap, double support) {
 }
 
 /// b, b' and b'' at a gap [m⁴, m², 1].
-Second<1> barrier_slopes(double gap, double support);
+template <class Number>
+Second<1, Number> barrier_slopes(const Number& gap, double support) {
+  Second<1, Number> variable(gap);
+  variable.slope[0] = 1.0;
+  return barrier(variable, support);
+}
 
 /// The squared distance of a form's points, lines or planes [m²]; the form must not be `fixed_weights`.
 template <class T, std::size_t N>
@@ -50,31 +56,39 @@ T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>&
 }
 
 /// One barrier: w e_k b(D − ξ²), to be multiplied by κ.
-struct BarrierTerm {
+template <class Number>
+struct BarrierTermOf {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< of the form's places; those that it lacks are −1
   std::uint8_t count = 0;                                ///< of vertices
   ClosestForm form;                                      ///< the closest points, weights by vertex
-  double weight = 1;                                     ///< how many pairs of primitives have this very distance
-  double rest_squared = 0;                               ///< ‖ē‖²‖ē'‖² of two edges that are mollified [m⁴]; 0: e_k = 1
+  Number weight = 1.0;                                   ///< how many pairs of primitives have this very distance
+  Number rest_squared = 0.0;                             ///< ‖ē‖²‖ē'‖² of two edges that are mollified [m⁴]; 0: e_k = 1
 
   /// [m⁴]
   template <class T, std::size_t N>
   T energy(const BarrierShape& shape, const std::array<Triple<T>, N>& x) const {
     const T gap = squared_form_distance(form, x) - T(shape.thickness * shape.thickness);
-    const Second<1> slopes = barrier_slopes(plain(gap), shape.support());
+    const auto slopes = barrier_slopes(plain(gap), shape.support());
     const T value = weight * composed_energy(slopes, gap);
     if constexpr (N == 4) {
-      if (rest_squared > 0) return value * Mollifier<T>(x[1] - x[0], x[3] - x[2], T(rest_squared), T(1.0)).value();
+      if (rest_squared > 0.0) return value * Mollifier<T>(x[1] - x[0], x[3] - x[2], T(rest_squared), T(1.0)).value();
     }
     return value;
   }
 
+  /// As of the terms of energies/stencil_terms.hpp.
+  auto numbers() { return std::tie(weight, rest_squared); }
+  auto numbers() const { return std::tie(weight, rest_squared); }
+  auto kinds() { return std::tie(form.kind, form.at); }
+  auto kinds() const { return std::tie(form.kind, form.at); }
+
  private:
   static double composed_energy(const Second<1>& slopes, double) { return slopes.value; }
-  template <std::size_t N>
-  static Second<N> composed_energy(const Second<1>& slopes, const Second<N>& gap) {
-    return composed(slopes.value, slopes.slope[0], slopes.bend[0], gap);
+  template <std::size_t N, class V>
+  static Second<N, V> composed_energy(const Second<1, V>& slopes, const Second<N, V>& gap) {
+    return composed(slopes.value, slopes.slope[0], slopes.bend(0), gap);
   }
 };
+using BarrierTerm = BarrierTermOf<double>;
 
 }  // namespace ogc::reference

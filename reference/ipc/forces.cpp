@@ -4,6 +4,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "reference/ipc/barrier_kernels.hpp"
+#include "reference/solvers/newton_batches.hpp"
+
 namespace ogc::reference {
 namespace {
 
@@ -12,13 +15,6 @@ using compare::HessianProjection;
 using compare::Index;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-template <std::size_t Count>
-std::array<Triple<double>, Count> gathered(const std::array<Index, 4>& vertex, const State& x) {
-  std::array<Triple<double>, Count> corners;
-  for (std::size_t k = 0; k < Count; ++k) corners[k] = x[at(vertex[k])];
-  return corners;
-}
 
 /// Calls `visit` with the corners as an array of their number.
 template <class Visit>
@@ -30,17 +26,48 @@ auto with_corners(std::size_t count, const std::array<Index, 4>& vertex, const S
   }
 }
 
-template <class Term>
-StencilDerivatives differentiated(const Term& energy_of, std::size_t count, const std::array<Index, 4>& vertex, const State& x, HessianProjection projection) {
-  return with_corners(count, vertex, x, [&]<std::size_t Count>(const std::array<Triple<double>, Count>& corners) {
-    return stencil_derivatives<Count>(corners, projection, energy_of);
-  });
+const BarrierKernels& barrier_kernels() {
+#ifdef __x86_64__
+  if (has_avx2()) return barrier_kernels_avx2;
+#endif
+  return barrier_kernels_baseline;
 }
 
-void scale(StencilDerivatives& d, double factor) {
-  d.energy *= factor;
-  for (double& g : d.gradient) g *= factor;
-  for (double& h : d.hessian) h *= factor;
+/// By form; of mollified ones, whose form is of some of their four vertices, also by which those are.
+std::uint8_t group_of(const BarrierTerm& term) {
+  const int form = static_cast<int>(term.form.kind);
+  return static_cast<std::uint8_t>(term.rest_squared > 0 ? 16 * (1 + form) + 4 * term.form.at[0] + term.form.at[1] : form);
+}
+
+template <std::size_t Count>
+void differentiate(const Bundle& bundle, const std::vector<ShapedBarrier>& terms, StencilKernels::Function<ShapedBarrier, Count> kernel, const State& x,
+                   HessianProjection projection, StencilDerivatives* to) {
+  Batch<ShapedBarrier, Count> batch;
+  for (std::size_t k = 0; k < bundle.size; ++k) {
+    const ShapedBarrier& term = terms[bundle.member[k]];
+    batch.add(term, gathered<Count>(term.barrier.vertex, x), to[bundle.member[k]]);
+  }
+  kernel(batch, projection);
+}
+
+/// Of all barriers, multiplied by κ, into the places behind `to`.
+void differentiate(const BarrierSet& set, const BarrierShape& shape, double stiffness, const State& x, HessianProjection projection, StencilDerivatives* to) {
+  std::vector<ShapedBarrier> terms;
+  std::vector<std::uint8_t> group;
+  for (const BarrierTerm& term : set.terms) {
+    terms.push_back({term, shape});
+    terms.back().barrier.weight *= stiffness;
+    group.push_back(group_of(term));
+  }
+  const std::vector<Bundle> bundles = bundled(group);
+  const BarrierKernels& kernels = barrier_kernels();
+  tbb::parallel_for(std::size_t{0}, bundles.size(), [&](std::size_t b) {
+    switch (terms[bundles[b].member[0]].barrier.count) {
+      case 2: return differentiate<2>(bundles[b], terms, kernels.of_2, x, projection, to);
+      case 3: return differentiate<3>(bundles[b], terms, kernels.of_3, x, projection, to);
+      default: return differentiate<4>(bundles[b], terms, kernels.of_4, x, projection, to);
+    }
+  });
 }
 
 constexpr std::array<ContactSides, 5> sides_of_count{ContactSides::point_point, ContactSides::point_point, ContactSides::point_point, ContactSides::point_edge,
@@ -130,17 +157,8 @@ IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, dou
   result.stencil.resize(second + frictions_.size());
   for (const BarrierTerm& term : set.terms) result.vertices.push_back(term.vertex);
   for (const FrictionTerm& term : frictions_) result.vertices.push_back(term.vertex);
-  tbb::parallel_for(std::size_t{0}, set.terms.size(), [&](std::size_t i) {
-    const BarrierTerm& term = set.terms[i];
-    const auto energy_of = [&](const auto& variables) { return term.energy(shape_, variables); };
-    result.stencil[first + i] = differentiated(energy_of, term.count, term.vertex, x, projection);
-    scale(result.stencil[first + i], stiffness);
-  });
-  tbb::parallel_for(std::size_t{0}, frictions_.size(), [&](std::size_t i) {
-    const FrictionTerm& term = frictions_[i];
-    const auto energy_of = [&](const auto& variables) { return term.energy(variables); };
-    result.stencil[second + i] = differentiated(energy_of, count_of(term), term.vertex, x, projection);
-  });
+  differentiate(set, shape_, stiffness, x, projection, result.stencil.data() + first);
+  differentiate(std::span(frictions_), x, projection, result.stencil.data() + second, [](std::size_t) {});
   add_gradient(result, x);
   return result;
 }
@@ -165,9 +183,11 @@ void IpcForces::add_gradient(IpcDerivatives& result, const State& x) const {
 
 State IpcForces::barrier_gradient(const State& x, const BarrierSet& set) const {
   State gradient(x.size());
-  for (const BarrierTerm& term : set.terms) {
-    const auto energy_of = [&](const auto& variables) { return term.energy(shape_, variables); };
-    const StencilDerivatives d = differentiated(energy_of, term.count, term.vertex, x, HessianProjection::none);
+  std::vector<StencilDerivatives> derivatives(set.terms.size());
+  differentiate(set, shape_, 1, x, HessianProjection::none, derivatives.data());
+  for (std::size_t i = 0; i < set.terms.size(); ++i) {
+    const BarrierTerm& term = set.terms[i];
+    const StencilDerivatives& d = derivatives[i];
     for (std::size_t k = 0; k < term.count; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (unknown(at(term.vertex[k]))) gradient[at(term.vertex[k])][axis] += d.gradient[3 * k + axis];

@@ -19,7 +19,7 @@ StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale
   const double offset = adaptation == compare::IpcAdaptation::gap ? shape.thickness : 0;
   double gap = distance * (distance + 2 * offset);
   if (gap >= shape.support()) gap = shape.support() / 2;
-  const double curvature = 4 * squared(distance + offset) * barrier_slopes(gap, shape.support()).bend[0];
+  const double curvature = 4 * squared(distance + offset) * barrier_slopes(gap, shape.support()).bend(0);
   const double lower = least_curvature * scale.inertia / curvature;
   return {lower, upper_over_lower * lower};
 }

@@ -8,6 +8,7 @@
 #include "compare/problem/error.hpp"
 #include "reference/energies/mollifier.hpp"
 #include "reference/energies/rest_state.hpp"
+#include "reference/solvers/newton_batches.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -15,20 +16,6 @@ namespace {
 using compare::ContactSides;
 using compare::HessianProjection;
 using compare::Index;
-
-template <std::size_t Count, class Vertices>
-std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& x) {
-  std::array<Triple<double>, Count> corners;
-  for (std::size_t k = 0; k < Count; ++k) corners[k] = x[static_cast<std::size_t>(vertex[k])];
-  return corners;
-}
-
-/// All four places; those that the contact lacks are at the origin.
-std::array<Triple<double>, 4> contact_corners(ContactSides sides, const std::array<Index, 4>& vertex, const State& x) {
-  std::array<Triple<double>, 4> corners{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(sides)); ++k) corners[k] = x[static_cast<std::size_t>(vertex[k])];
-  return corners;
-}
 
 /// Calls `visit` with the first `Count` places for the contact's number of vertices.
 template <class Visit>
@@ -38,20 +25,6 @@ auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const St
     case 3: return visit(gathered<3>(vertex, x));
     default: return visit(gathered<4>(vertex, x));
   }
-}
-
-StencilDerivatives contact_derivatives(const ContactTerm& term, const State& x, HessianProjection projection) {
-  const ClosestForm form = closest_form(term.sides, contact_corners(term.sides, term.vertex, x));
-  return with_count(term.sides, term.vertex, x, [&]<std::size_t Count>(const std::array<Triple<double>, Count>& corners) {
-    if (form_distance(form, corners) >= term.radius) return StencilDerivatives{};
-    return stencil_derivatives<Count>(corners, projection, [&](const auto& variables) { return term.energy(form, variables); });
-  });
-}
-
-StencilDerivatives friction_derivatives(const FrictionTerm& term, const State& x, HessianProjection projection) {
-  return with_count(term.sides, term.vertex, x, [&]<std::size_t Count>(const std::array<Triple<double>, Count>& corners) {
-    return stencil_derivatives<Count>(corners, projection, [&](const auto& variables) { return term.energy(variables); });
-  });
 }
 
 double contact_term_energy(const ContactTerm& term, const State& x) {
@@ -220,26 +193,6 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
 }
 
-StencilDerivatives Potential::differentiate(std::size_t stencil, const State& x, HessianProjection projection) const {
-  if (stencil < membranes_.size()) {
-    const MembraneTerm& term = membranes_[stencil];
-    return stencil_derivatives<3>(gathered<3>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
-  }
-  stencil -= membranes_.size();
-  if (stencil < hinges_.size()) {
-    const HingeTerm& term = hinges_[stencil];
-    return stencil_derivatives<4>(gathered<4>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
-  }
-  stencil -= hinges_.size();
-  if (stencil < springs_.size()) {
-    const SpringTerm& term = springs_[stencil];
-    return stencil_derivatives<2>(gathered<2>(term.vertex, x), projection, [&](const auto& variables) { return term.energy(variables); });
-  }
-  stencil -= springs_.size();
-  if (stencil < contacts_.size()) return contact_derivatives(contacts_[stencil], x, projection);
-  return friction_derivatives(frictions_[stencil - contacts_.size()], x, projection);
-}
-
 PotentialTerms Potential::terms(const State& x) const {
   PotentialTerms result;
   result.stencil.resize(stencil_count());
@@ -271,10 +224,16 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   PotentialDerivatives result = std::move(room);
   for (std::vector<double>* sums : {&result.slopes, &result.curvatures}) sums->resize(stencil_count());
   result.stencil.resize(stencil_count());
-  tbb::parallel_for(std::size_t{0}, result.stencil.size(), [&](std::size_t i) {
-    result.stencil[i] = differentiate(i, x, projection);
-    measure(i, result);
-  });
+  std::size_t first = 0;
+  const auto add = [&](const auto& terms) {
+    differentiate(std::span(terms), x, projection, result.stencil.data() + first, [&, first](std::size_t i) { measure(first + i, result); });
+    first += terms.size();
+  };
+  add(membranes_);
+  add(hinges_);
+  add(springs_);
+  add(contacts_);
+  add(frictions_);
   sum_gradient(x, result);
   return result;
 }
@@ -284,13 +243,15 @@ void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);
   double slopes = 0, curvatures = 0;
+  std::array<double, 12> columns{};  // side by side: one sum would be a chain of additions
   for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
     if (mobility_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
     for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
       slopes += std::abs(derivatives.gradient[row]);
-      for (std::size_t column = 0; column < 12; ++column) curvatures += std::abs(derivatives.hessian[12 * row + column]);
+      for (std::size_t column = 0; column < 12; ++column) columns[column] += std::abs(derivatives.hessian[12 * row + column]);
     }
   }
+  for (const double column : columns) curvatures += column;
   result.slopes[stencil] = slopes;
   result.curvatures[stencil] = curvatures;
 }

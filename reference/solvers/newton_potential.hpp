@@ -81,7 +81,6 @@ class Potential {
  private:
   void add_contact(const ContactStencil& stencil, const State& detected);
   double stencil_energy(std::size_t stencil, const State& x) const;
-  StencilDerivatives differentiate(std::size_t stencil, const State& x, compare::HessianProjection projection) const;
   void measure(std::size_t stencil, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;
 

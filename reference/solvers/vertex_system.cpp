@@ -67,14 +67,14 @@ void add_identity(double weight, VertexSystem& sum) {
 void add_strain(const Strain<OwnTwice>& g, const OwnTwice& energy, VertexSystem& sum) {
   for (std::size_t i = 0, k = 0; i < 3; ++i) {
     add_force(energy.slope[i], g[i].slope, sum);
-    for (std::size_t j = 0; j <= i; ++j, ++k) add_outer((i == j ? 1 : 2) * energy.bend[k], g[i].slope, g[j].slope, sum);
+    for (std::size_t j = 0; j <= i; ++j, ++k) add_outer((i == j ? 1 : 2) * energy.bend(k), g[i].slope, g[j].slope, sum);
   }
 }
 
 /// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the identity.
 void add_geometric(const Strain<OwnTwice>& g, const OwnTwice& elastic, VertexSystem& sum) {
   double geometric = 0;
-  for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend[0];
+  for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend(0);
   add_identity(std::max(0.0, geometric), sum);
 }
 
@@ -86,9 +86,9 @@ void add_neo_hookean(const OwnTwice& energy, const Triple<double>& normal, Verte
     for (std::size_t j = 0; j <= i; ++j, ++k) {
       std::array<double, 3> a{}, b{};
       a[i] = b[j] = 1;
-      add_outer((i == j ? 1 : 2) * energy.bend[k], a, b, sum);
-      along[i] += energy.bend[k] * normal[j];
-      if (i != j) along[j] += energy.bend[k] * normal[i];
+      add_outer((i == j ? 1 : 2) * energy.bend(k), a, b, sum);
+      along[i] += energy.bend(k) * normal[j];
+      if (i != j) along[j] += energy.bend(k) * normal[i];
     }
   const double squared = dot(normal, normal);
   if (squared > 0) add_outer(std::max(0.0, -dot(normal, along) / squared) / squared, normal, normal, sum);
@@ -123,7 +123,7 @@ void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple
   const Own angle = fold.angle();
   const Second<1> energy = along(angle.value, [&](const Second<1>& a) { return term.energy_of(a); });
   add_force(energy.slope[0], angle.slope, sum);
-  add_outer(energy.bend[0], angle.slope, angle.slope, sum);
+  add_outer(energy.bend(0), angle.slope, angle.slope, sum);
 }
 
 /// k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and k k_s n nᵀ of the damping (compare/stages/spring.hpp).
@@ -156,7 +156,7 @@ void add_contact(const Potential& potential, const ContactTerm& term, std::size_
   const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.radius),
                                  [&](const Second<1>& d) { return contact_activation(term.activation, d, term.radius, term.mollifier * term.stiffness); });
   add_force(energy.slope[0], distance.slope, sum);
-  add_outer(energy.bend[0], distance.slope, distance.slope, sum);
+  add_outer(energy.bend(0), distance.slope, distance.slope, sum);
   if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, x, sum);
 }
 

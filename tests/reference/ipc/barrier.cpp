@@ -3,8 +3,10 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "reference/energies/stencil_derivatives.hpp"
+#include "reference/ipc/barrier_kernels.hpp"
 #include "reference/ipc/pairs.hpp"
 #include "tests/catch.hpp"
+#include "tests/reference/energies/side_by_side.hpp"
 #include "tests/reference/energies/stencils.hpp"
 
 using namespace ogc;
@@ -75,7 +77,7 @@ TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), 
       const double loss = 1e-14 / (1 - share);
       CHECK(b.value == Approx(static_cast<double>(here)).epsilon(3 * loss));
       CHECK(b.slope[0] == Approx(static_cast<double>((after - before) / (2 * step))).epsilon(3 * loss));
-      CHECK(b.bend[0] == Approx(static_cast<double>((after - 2 * here + before) / (step * step))).epsilon(3 * loss));
+      CHECK(b.bend(0) == Approx(static_cast<double>((after - 2 * here + before) / (step * step))).epsilon(3 * loss));
     }
     CHECK(barrier(support, support) == 0);
     CHECK(barrier(2 * support, support) == 0);
@@ -180,6 +182,48 @@ TEST_CASE("barrier: gradient and Hessian are those of the energy, mollified or n
   }
   CHECK(mollified > 20);
   CHECK(lines > 20);
+}
+
+TEST_CASE("barriers side by side have the derivatives of each alone, to the bit, mollified ones and other forms among them", "[property]") {
+  std::vector<const BarrierKernels*> all{&barrier_kernels_baseline};
+  if (has_avx2()) all.push_back(&barrier_kernels_avx2);
+  Draw draw(15);
+  for (const BarrierKernels* kernels : all)
+    for (int round = 0; round < 60; ++round) {
+      std::vector<ShapedBarrier> points, lines, planes;
+      std::vector<Corners<2>> of_2;
+      std::vector<Corners<3>> of_3;
+      std::vector<Corners<4>> of_4;
+      for (std::size_t i = 0; i < batch_width; ++i) {
+        const auto term = [&](std::uint8_t count, FormKind form) {
+          BarrierTerm barrier;
+          barrier.count = count;
+          barrier.form = {form, {0, 1, 2, 3}, {}};
+          barrier.weight = draw.between(0.1, 3);
+          return ShapedBarrier{barrier, {0.5, round % 2 == 0 ? 0 : 0.05}};
+        };
+        points.push_back(term(2, FormKind::points));
+        lines.push_back(term(3, FormKind::point_line));
+        planes.push_back(term(4, i % 2 == 0 ? FormKind::lines : FormKind::point_plane));
+        if (round % 3 == 0 && i % 4 < 2) {
+          planes.back().barrier.rest_squared = 1;
+          planes.back().barrier.form = {i % 4 == 0 ? FormKind::points : FormKind::lines, {0, 2, 1, 3}, {}};
+        }
+        Corners<4> x{{{0.2, 0.3, 0.1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+        for (auto& p : x)
+          for (double& c : p) c += draw.between(-0.05, 0.05);
+        x[0][2] += draw.between(0.05, 0.5);
+        of_2.push_back({x[0], x[1]});
+        of_3.push_back({x[0], x[1], x[2]});
+        of_4.push_back(x);
+      }
+      const auto alone = [](const auto& of, const auto& x, HessianProjection projection) {
+        return stencil_derivatives<std::tuple_size_v<std::decay_t<decltype(x)>>>(x, projection, [&](const auto& at) { return of.energy(at); });
+      };
+      check_against_alone<2>(kernels->of_2, points, of_2, alone);
+      check_against_alone<3>(kernels->of_3, lines, of_3, alone);
+      check_against_alone<4>(kernels->of_4, planes, of_4, alone);
+    }
 }
 
 TEST_CASE("barrier: the energy does not jump where closest features change, parallel edges included", "[property]") {

@@ -1,0 +1,35 @@
+// Derivatives of barriers, several of one form side by side, as energies/stencil_kernels.hpp has them of other stencils.
+#pragma once
+
+#include "reference/energies/stencil_kernels.hpp"
+#include "reference/ipc/barrier.hpp"
+
+namespace ogc::reference {
+
+/// A barrier with its shape: κ is in its weight.
+template <class Number>
+struct ShapedBarrierOf {
+  BarrierTermOf<Number> barrier;
+  BarrierShape shape;
+
+  template <class T, std::size_t N>
+  T energy(const std::array<Triple<T>, N>& x) const {
+    return barrier.energy(shape, x);
+  }
+  auto numbers() { return barrier.numbers(); }
+  auto numbers() const { return barrier.numbers(); }
+  auto kinds() { return std::tuple_cat(barrier.kinds(), std::tie(shape.distance, shape.thickness)); }
+  auto kinds() const { return std::tuple_cat(barrier.kinds(), std::tie(shape.distance, shape.thickness)); }
+};
+using ShapedBarrier = ShapedBarrierOf<double>;
+
+/// By the number of vertices.
+struct BarrierKernels {
+  StencilKernels::Function<ShapedBarrier, 2> of_2;
+  StencilKernels::Function<ShapedBarrier, 3> of_3;
+  StencilKernels::Function<ShapedBarrier, 4> of_4;
+};
+
+extern const BarrierKernels barrier_kernels_baseline, barrier_kernels_avx2;
+
+}  // namespace ogc::reference
