@@ -121,9 +121,9 @@ def run_files(path, stem):
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 
 
-def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False):
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
     """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
-    says itself that runs were left out can be."""
+    says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's."""
     folder, kept, rows = Path(results) / machine, [], []
     for recipe in chosen:
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
@@ -134,7 +134,7 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
             if len(data) > LARGEST:
                 raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
-            redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
+            redo = by_hand or f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
             rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "redo": redo, **words,
                          "sha256": hashlib.sha256(data).hexdigest()[:16]})
             kept.append((folder / name, data))
@@ -178,11 +178,12 @@ def main():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    parser.add_argument("--redo", metavar="COMMAND", help="that makes the figure again, where the workflow's does not (options of its script)")
     parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without")
     options = parser.parse_args()
     try:
         chosen = recipes.choose(options.figures, recipes.load(), options.backend)
-        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete)
+        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete, by_hand=options.redo)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
     print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m paper_figures.verdicts --write, and look at what changed")
