@@ -16,10 +16,9 @@ import sys
 from pathlib import Path
 
 from paper_figures import in_time, recipes
-from paper_figures.evidence import RESULTS
+from paper_figures.evidence import NOT_RUN, RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-NOT_RUN = "not run"  # the status of a row about a run that a figure was drawn without
 # A file above this is no small data; the folder as a whole stays under 30 MiB. Rows above half of it are kept compressed.
 LARGEST = 2 * 2**20
 
@@ -79,11 +78,17 @@ def origin(recipe, folder, ogc):
     return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
 
 
+def not_run(key, name, columns):
+    """The row about a run that was left out of a figure: its name, that it was not run, and nothing else."""
+    return {**dict.fromkeys(columns, ""), key: name, "status": NOT_RUN, "commit": "-"}
+
+
 def left_out(folder):
-    """The first cells of rows that say that a run was left out of a figure: it is not whole."""
+    """The names in such rows of a figure's tables: it is not whole."""
     for path in sorted(folder.glob("*.csv")):
         with path.open(newline="") as file:
-            yield from (next(iter(row.values())) for row in csv.DictReader(file) if row.get("status") == NOT_RUN)
+            rows = [row for row in csv.DictReader(file) if row.get("status") == NOT_RUN]
+        yield from (next(text for key, text in row.items() if text and key not in ("status", "commit")) for row in rows)
 
 
 def pieces(recipe, scale, backend, runs):
