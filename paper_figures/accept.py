@@ -16,10 +16,9 @@ import sys
 from pathlib import Path
 
 from paper_figures import in_time, recipes
-from paper_figures.evidence import RESULTS
+from paper_figures.evidence import NOT_RUN, RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-NOT_RUN = "not run"  # the status of a row about a run that a figure was drawn without
 # A file above this is no small data; the folder as a whole stays under 30 MiB. Rows above half of it are kept compressed.
 LARGEST = 2 * 2**20
 
@@ -79,11 +78,17 @@ def origin(recipe, folder, ogc):
     return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
 
 
+def not_run(key, name, columns):
+    """The row about a run that was left out of a figure: its name, that it was not run, and nothing else."""
+    return {**dict.fromkeys(columns, ""), key: name, "status": NOT_RUN, "commit": "-"}
+
+
 def left_out(folder):
-    """The first cells of rows that say that a run was left out of a figure: it is not whole."""
+    """The names in such rows of a figure's tables: it is not whole."""
     for path in sorted(folder.glob("*.csv")):
         with path.open(newline="") as file:
-            yield from (next(iter(row.values())) for row in csv.DictReader(file) if row.get("status") == NOT_RUN)
+            rows = [row for row in csv.DictReader(file) if row.get("status") == NOT_RUN]
+        yield from (next(text for key, text in row.items() if text and key not in ("status", "commit")) for row in rows)
 
 
 def pieces(recipe, scale, backend, runs):
@@ -121,9 +126,9 @@ def run_files(path, stem):
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 
 
-def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False):
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
     """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
-    says itself that runs were left out can be."""
+    says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's."""
     folder, kept, rows = Path(results) / machine, [], []
     for recipe in chosen:
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
@@ -134,7 +139,7 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
             if len(data) > LARGEST:
                 raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
-            redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
+            redo = by_hand or f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
             rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "redo": redo, **words,
                          "sha256": hashlib.sha256(data).hexdigest()[:16]})
             kept.append((folder / name, data))
@@ -178,11 +183,12 @@ def main():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    parser.add_argument("--redo", metavar="COMMAND", help="that makes the figure again, where the workflow's does not (options of its script)")
     parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without")
     options = parser.parse_args()
     try:
         chosen = recipes.choose(options.figures, recipes.load(), options.backend)
-        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete)
+        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete, by_hand=options.redo)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
     print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m paper_figures.verdicts --write, and look at what changed")

@@ -14,6 +14,7 @@ from functools import cached_property
 from pathlib import Path
 
 RESULTS = Path(__file__).parent / "results"
+NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
 
 
 class EvidenceError(Exception):
@@ -162,7 +163,7 @@ class Evidence:
 
 
 def _row(table, wanted):
-    rows = [row for row in table.rows if all(row.get(key) == value for key, value in wanted.items()) and "dirty" not in row["commit"]]
+    rows = [row for row in table.rows if all(row.get(key) == value for key, value in wanted.items()) and "dirty" not in row["commit"] and row.get("status") != NOT_RUN]
     return rows[0] if rows else None
 
 

@@ -4,7 +4,7 @@ All start from the same state, that of VBD in single precision after the step be
 the paper), or as soon as a single one was (γ_e = 0). Curves have the contacts of the solver's last detection, as in the paper; the table adds the residual with
 contacts detected at the end. Newton's curve has the friction of its solve, too: it jumps where friction is lagged anew. The steps before take 500 iterations of
 VBD each, or as many as --start-iterations says: at the paper's size contacts are detected in each of them, which takes a few cores too long. Picture and table say how
-many it were.
+many it were. Curves can be left out (--without); picture and table name them, and `accept` takes them with --incomplete only.
 """
 
 import argparse
@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures import commands
+from paper_figures.accept import not_run
 from paper_figures.runs import iterations, provenance, run_job, write_table
 from plots import style
 from plots.run_folder import RunError, commits_in_words
@@ -29,10 +30,10 @@ def label_of(name):
     return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}" + (", γ_e = 0" if more[-1:] == ["any"] else "")
 
 
-def curves(folder, ogc, scale, backends, single_only, start_iterations):
+def curves(folder, ogc, jobs, without):
     """The run of the steps before, and (label, run) of each curve."""
-    (start, *single), double = commands.three_cloths(scale, backends, start_iterations)
-    return run_job(ogc, start, folder), [(label_of(job.name), run_job(ogc, job, folder)) for job in [*single, *([] if single_only else double)]]
+    start, *solved = (run_job(ogc, job, folder) for job in jobs if job.name not in without)
+    return start, list(zip((label_of(job.name) for job in jobs[1:] if job.name not in without), solved))
 
 
 def detection_share(run):
@@ -65,7 +66,7 @@ def draw_curve(axes, rows, abscissa, label, colour, dash):
     axes.plot(rows[abscissa][anew], residual[anew], ".", color=colour, markersize=3)
 
 
-def draw(runs, start, step, scale, claims, out):
+def draw(runs, start, left_out, step, scale, claims, out):
     plt = style.use()
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True)
     for number, (label, run) in enumerate(runs):
@@ -79,18 +80,20 @@ def draw(runs, start, step, scale, claims, out):
     left.legend(fontsize=6.5)
     paper = ", ".join(f"{c['quantity'].replace('_', ' ')} {c['value']:g}" for c in claims)
     figure.suptitle(f"{SCENE} ({scale}), step {step}; {start.setting('iterations')} iterations in each step before; "
-                    f"{commits_in_words([start, *(run for _, run in runs)])}\npaper: {paper}", fontsize=8)
+                    f"{'NOT RUN: ' + '; '.join(left_out) + '; ' if left_out else ''}{commits_in_words([start, *(run for _, run in runs)])}\npaper: {paper}", fontsize=8)
     style.save(figure, out)
 
 
-def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start_iterations=None):
+def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start_iterations=None, without=()):
     """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's path."""
     folder = Path(folder)
     claims = json.loads((Path(__file__).parent / "claims" / f"{SCENE}.json").read_text())["claims"]
     claims = [c for c in claims if isinstance(c["measure"], list)]  # those that a curve can be held against: each names a cell of the table
-    start, runs = curves(folder, ogc, scale, list(dict.fromkeys(backends)), single_only, start_iterations)
-    write_table(folder / "fig17.csv", [summary(label, run, start, STEPS[scale]) for label, run in runs])
-    draw(runs, start, STEPS[scale], scale, claims, folder / "fig17.png")
+    single, double = commands.three_cloths(scale, list(dict.fromkeys(backends)), start_iterations)
+    start, runs = curves(folder, ogc, [*single, *([] if single_only else double)], without)
+    rows, left_out = [{**summary(label, run, start, STEPS[scale]), "status": run.status} for label, run in runs], [label_of(name) for name in without]
+    write_table(folder / "fig17.csv", [*rows, *(not_run("curve", label, rows[0]) for label in left_out)])
+    draw(runs, start, left_out, STEPS[scale], scale, claims, folder / "fig17.png")
     return folder / "fig17.png"
 
 
@@ -102,8 +105,10 @@ if __name__ == "__main__":
     parser.add_argument("--backend", action="append", choices=["cpu", "cuda"], help="of VBD; repeatable; the last one makes the start (default: cpu)")
     parser.add_argument("--single-only", action="store_true", help="without the curves in double precision, which take the exact detection's time")
     parser.add_argument("--start-iterations", type=int, metavar="N", help="of each step before the one that is drawn (default: 500, the scene's)")
+    parser.add_argument("--without", nargs="+", default=(), metavar="CURVE", help="curves that are left out, as their folders are called; the figure says so")
     arguments = parser.parse_args()
     try:
-        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"], arguments.single_only, arguments.start_iterations))
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"], arguments.single_only, arguments.start_iterations,
+                   arguments.without))
     except RunError as error:
         sys.exit(f"fig17: {error}")

@@ -15,7 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures import accept, commands
+from paper_figures import commands
+from paper_figures.accept import not_run
 from paper_figures.runs import iterations, provenance, run_job, write_table
 from paper_figures.timed_runs import Limit, RunFailure, make
 from plots import render, style
@@ -107,11 +108,6 @@ def draw_forces(axes, curves):
     axes.legend(fontsize=7)
 
 
-def not_run(energy, columns):
-    """The row of an energy that was left out: its name, that it was not run, and nothing else."""
-    return {**dict.fromkeys(columns, ""), "activation": energy, "status": accept.NOT_RUN, "commit": "-"}
-
-
 def draw(runs, newton, vbd, on_device, curves, rows, step, scale, out):
     plt = style.use()
     figure, axes = plt.subplots(2, 2, figsize=(11, 8))
@@ -138,7 +134,7 @@ def main(folder, ogc, scale="small", backend="cpu", without=()):
     vbd = {e: run_job(ogc, commands.by_vbd(scale, e), folder) for e in PAPER}
     on_device = {e: run_job(ogc, commands.by_vbd_on(scale, e, backend), folder) for e in PAPER}
     rows = [row_of(energy, runs, newton, vbd, on_device, step) for energy in runs]
-    write_table(folder / "fig21.csv", [*rows, *(not_run(energy, rows[0]) for energy in ENERGIES if energy in without)])
+    write_table(folder / "fig21.csv", [*rows, *(not_run("activation", energy, rows[0]) for energy in ENERGIES if energy in without)])
     draw(runs, newton, vbd, on_device, force_curves(folder, ogc), rows, step, scale, folder / "fig21.png")
     return folder / "fig21.png"
 

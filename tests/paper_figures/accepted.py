@@ -210,8 +210,9 @@ class Accepting(Scratch):
         (self.runs / "fig18-paper-cuda/fig18.csv").write_text(f"activation,status\nogc,finished\ncubic,{accept.NOT_RUN}\nquadratic,{accept.NOT_RUN}\n")
         with self.assertRaisesRegex(accept.AcceptError, "fig18 was drawn without cubic, quadratic: run them"):
             self.accept("fig18")
-        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True)
+        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True, by_hand="script --without")
         self.assertTrue((self.results / "machine/fig18_paper.csv").is_file())
+        self.assertIn(",script --without,", (self.results / "machine/provenance.csv").read_text())
 
     def test_runs_of_the_same_name_in_different_folders_stay_apart(self):
         for name in ("twist/whole", "knot/whole"):

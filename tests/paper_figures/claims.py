@@ -71,6 +71,12 @@ class Judging(unittest.TestCase):
             with self.assertRaisesRegex(EvidenceError, "mixes commits c1, c2"):
                 verdicts.judge(claim(measure={"table": "fig99", "column": "time", "over": {"kind": "a"}, "under": {"kind": "b"}}), Evidence(name))
 
+    def test_a_row_about_a_run_that_was_left_out_is_no_evidence(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "fig99_paper.csv").write_text("kind,time,status,commit,device\na,1,finished,c1,d\nb,,not run,-,\n")
+            found = [verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": kind}}), Evidence(name)).verdict for kind in "ab"]
+        self.assertEqual(found, ["reproduced", "not yet run"])
+
     def test_a_wait_that_is_not_declared_and_one_that_is_over_are_found(self):
         judged, waiting = claim(), claim(id="s.d", run={"scale": "paper", "steps": 101})
         found = [verdicts.judge(each, Evidence()) for each in (judged, waiting, {**judged, "waits_for": "x"})]
