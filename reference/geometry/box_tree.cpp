@@ -56,11 +56,9 @@ Box widened(Box box, double distance) {
   return box;
 }
 
-/// Without branches: which comparison fails first is anybody's guess, and a wrong guess costs more than all six.
 bool meet(const Box& a, const Box& b) {
-  bool meets = true;
-  for (std::size_t k = 0; k < 3; ++k) meets = meets & (a.low[k] <= b.high[k]) & (b.low[k] <= a.high[k]);
-  return meets;
+  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] && a.low[2] <= b.high[2] &&
+         b.low[2] <= a.high[2];
 }
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
