@@ -172,7 +172,7 @@ if __name__ == "__main__":
     options = parser.parse_args()
     try:
         found = runs_of(options)
-        write_table(Path(options.folder) / "fig18.csv", rows(found))
+        write_table(Path(options.folder) / "fig18_solvers.csv", rows(found))
         draw(found, Path(options.folder) / "fig18_solvers.png")
         print("\n".join(summary(found)))
     except RunError as error:

@@ -64,7 +64,7 @@ class Solvers(unittest.TestCase):
         return subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
 
     def rows(self):
-        with (self.folder / "fig18.csv").open(newline="") as file:
+        with (self.folder / "fig18_solvers.csv").open(newline="") as file:
             return list(csv.DictReader(file))
 
     def test_every_ratio_stands_beside_the_papers(self):
