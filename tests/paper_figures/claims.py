@@ -49,7 +49,7 @@ class Judging(unittest.TestCase):
     def test_another_machine_has_no_band_and_a_missing_run_no_verdict(self):
         self.assertEqual(verdicts.judge({k: v for k, v in claim(instead="s.c").items() if k != "band"}, Evidence()).verdict, "not comparable")
         self.assertEqual(self.verdict(run={"scale": "paper", "steps": 101}), "not yet run")
-        self.assertEqual(self.verdict(run={"scale": "paper", "solver": "ipc"}), "not yet run")
+        self.assertEqual(self.verdict(run={"scale": "paper", "solver": "ipc", "backend": "cuda"}), "not yet run")
 
     def test_the_second_of_two_printed_values_counts(self):
         ours = verdicts.judge(claim(), Evidence()).measured.value
