@@ -14,7 +14,6 @@ from pathlib import Path
 SECONDS_TO_STOP = 60  # for the step at hand, and its checkpoint
 KEPT, FINISHED, STOPPED, FAILED = "kept", "finished", "stopped at the limit; call again to go on", "FAILED"
 LINES = 5
-REFUSED = 2  # exit status of `ogc` for what it can't be asked
 
 
 class RunFailure(Exception):
@@ -89,6 +88,12 @@ def usable(folder, command):
     return manifest_of(folder).get("status") == "finished" and same_command(folder, command)
 
 
+def is_of(folder, program):
+    """Whether this program's commit made the run: no other can go on with it."""
+    said = subprocess.run([str(program), "--version"], capture_output=True, text=True).stdout
+    return f"commit {manifest_of(folder)['commit']}" in said
+
+
 def command_in(command, log, limit):
     """Exit status of a command that is asked to stop at the limit, and killed a minute later; what it prints goes to `log`, or its progress to the screen."""
     if log is None:
@@ -124,15 +129,15 @@ def make(program, job, root, limit, shown=False):
         return KEPT
     if limit.left() == 0:
         return STOPPED
-    goes_on = alike and not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
-    for used in ([str(program), "run", "--resume", str(folder)], command) if goes_on else (command,):
-        if used is command:
-            shutil.rmtree(folder, ignore_errors=True)
-        if shown:
-            print(" ".join(used), file=sys.stderr, flush=True)
-        code = command_in(used, log, limit)
-        if code != REFUSED:  # that run was another program's, or is damaged: from the beginning
-            break
+    goes_on = alike and not status.startswith("failed") and (folder / "checkpoint.h5").is_file() and is_of(folder, program)
+    used = [str(program), "run", "--resume", str(folder)] if goes_on else command
+    if status and not goes_on:
+        print(f"{folder}: of another command or program, failed, or without a checkpoint: run again", file=sys.stderr, flush=True)
+    if not goes_on:
+        shutil.rmtree(folder, ignore_errors=True)
+    if shown:
+        print(" ".join(used), file=sys.stderr, flush=True)
+    code = command_in(used, log, limit)
     status = manifest_of(folder).get("status", "")
     if code == 0 and status == "finished":
         return FINISHED

@@ -32,7 +32,9 @@ std::string text(const char* what, double a, double b) {
   return buffer;
 }
 
-bool is_within(const ForceErrors& errors, std::span<const MetricInfo> infos) { return errors.force <= infos[0].tolerance && errors.block <= infos[1].tolerance; }
+bool is_within(const ForceErrors& errors, std::span<const MetricInfo> infos) {
+  return errors.force <= infos[0].tolerance && errors.block <= infos[1].tolerance;
+}
 
 /// The accepted answer whose worse error, as a share of its tolerance, is least.
 const ForceAnswer& nearest(const std::vector<ForceAnswer>& accepted, const Vec3f& force, const std::array<float, 6>& block, std::span<const MetricInfo> infos) {

@@ -24,8 +24,8 @@ std::string_view bytes_of(const std::vector<T>& values) {
 std::string state_digest(const Checkpoint& checkpoint) {
   const Snapshot& state = checkpoint.state;
   std::string all;
-  for (const std::string_view part : {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities), bytes_of(state.exact_positions),
-                                      bytes_of(state.exact_velocities)})
+  for (const std::string_view part : {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities),
+                                      bytes_of(state.exact_positions), bytes_of(state.exact_velocities)})
     all += part;
   return digest(all + std::to_string(state.step) + "," + std::to_string(checkpoint.audited_states));
 }

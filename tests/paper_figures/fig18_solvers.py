@@ -98,6 +98,5 @@ class Solvers(unittest.TestCase):
         self.assertEqual((vbd["solver"], vbd["steps"], vbd["of steps"]), ("vbd", "30", "30"))
 
 
-
 if __name__ == "__main__":
     unittest.main()
