@@ -1,8 +1,9 @@
 """All runs of the paper's size that need a GPU or many cores, in one command, for a machine that is lent by the minute and has nothing but Python and the
 program (experiments/bundle).
 
-    python3 -m paper_figures.device_runs --program PROGRAM --out RUNS [--seconds N] [PART …]   a limit for each part; call again to go on
-    python3 -m paper_figures.device_runs --out RUNS --pack FOLDER      what is finished and was not packed before, as pieces of at most 16 MB
+    python3 -m paper_figures.device_runs --program PROGRAM --out RUNS [--seconds N] [--keep FOLDER] [PART …]   a limit for each part; call again to go on
+    python3 -m paper_figures.device_runs --out RUNS --pack FOLDER      what is finished and was not packed before, as pieces of at most 16 MB;
+                                                                       --keep does so after each part, for a machine that may be taken away
     python3 -m paper_figures.device_runs --program PROGRAM --out runs --unpack FOLDER   at home: the figures' scripts find these runs finished
 
 Folders are those of the workflow (figNN-SCALE-BACKEND), whole runs and windows of Table 1 those of experiments/table1. Packed are manifests, rows and some frames.
@@ -209,12 +210,19 @@ def files_of(out, part):
         yield out / part.figure / "run"
 
 
-def pack(out, book, folder):
-    """Pieces of one archive of every finished part that was not packed before, as long as they fit; returns lines about them."""
-    kept, lines = out / "packed.json", []
-    packed = json.loads(kept.read_text()) if kept.is_file() else {}
+def packed_before(out):
+    """Part -> its run folders that were packed."""
+    kept = out / "packed.json"
+    return json.loads(kept.read_text()) if kept.is_file() else {}
+
+
+def pack(out, book, folder, before=None):
+    """Pieces of one archive of every finished part that was not packed before, as long as they fit; returns lines about them. `before`: what counts as packed
+    before, where not all that was; the pieces in the folder are replaced. Other processes may do so with other parts."""
+    packed, lines = dict(packed_before(out) if before is None else before), []
     folder.mkdir(parents=True, exist_ok=True)
-    whole = out / "packed.tar.gz"
+    out.mkdir(parents=True, exist_ok=True)
+    whole = out / f"packed_{os.getpid()}.tar.gz"
     with tarfile.open(whole, "w:gz", compresslevel=6) as archive:
         for name, part in book.items():
             files = list(files_of(out, part))
@@ -233,7 +241,7 @@ def pack(out, book, folder):
     for number, first in enumerate(range(0, len(data), PIECE)):
         (folder / f"runs_{number:02d}").write_bytes(data[first:first + PIECE])
     whole.unlink()
-    kept.write_text(json.dumps(packed))
+    (out / "packed.json").write_text(json.dumps({**packed_before(out), **packed}))
     return [*lines, f"{-(-len(data) // PIECE)} pieces in {folder}, {len(data) / 2**20:.1f} MiB"]
 
 
@@ -271,6 +279,7 @@ def arguments():
     parser.add_argument("--all-seconds", type=float, help="limit of all parts together")
     parser.add_argument("--jobs", type=int, default=1, help="chains of a part that run side by side")
     parser.add_argument("--window", type=int, default=200, help="steps of a CPU window of Table 1")
+    parser.add_argument("--keep", type=Path, metavar="FOLDER", help="after each part pack those of this call that are finished")
     parser.add_argument("--pack", type=Path, metavar="FOLDER", help="pack, and run nothing")
     parser.add_argument("--unpack", type=Path, metavar="FOLDER", help="unpack, and run nothing")
     return parser
@@ -288,7 +297,13 @@ def main():
         unknown = [name for name in options.parts if name not in machine.book]
         if unknown:
             parser.error(f"no part {', '.join(unknown)}; there are: {', '.join(machine.book)}")
-        sys.exit(1 if any([machine.do(name) for name in options.parts or machine.book]) else 0)
+        wanted = {name: machine.book[name] for name in options.parts or machine.book}
+        before, failed = packed_before(machine.out), False
+        for name in wanted:
+            failed |= machine.do(name)
+            if options.keep:
+                pack(machine.out, wanted, options.keep, before)
+        sys.exit(1 if failed else 0)
 
 
 if __name__ == "__main__":

@@ -105,6 +105,18 @@ class Parts(Scratch):
             self.assertGreater(json.loads((part / "processor_time.json").read_text())["user [s]"], 0)
             self.assertTrue((part / "trajectory.vtkhdf").is_file())
 
+    def test_each_part_is_packed_as_soon_as_it_is_finished(self):
+        """A machine that was taken away in the second part must have left the first."""
+        there, home, pieces = self.folder / "there", self.folder / "home", self.folder / "pieces"
+        code = ("import sys\nfrom paper_figures import device_runs\ndo = device_runs.Machine.do\n"
+                "device_runs.Machine.do = lambda self, name: do(self, name) if name == 'fig20' else sys.exit(9)\ndevice_runs.main()")
+        command = [sys.executable, "-c", code, "--out", there, "--program", OGC, *self.OPTIONS, "--keep", pieces, "fig20", "cloth_on_sphere"]
+        self.assertEqual(subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, check=False).returncode, 9)
+        self.assertEqual(self.say(home, "--unpack", pieces), [str(home / "fig20-smoke-cpu/vbd")])
+        done = self.say(there, *self.OPTIONS, "--keep", pieces, "cloth_on_sphere")  # of this call alone
+        self.assertEqual(done[0].split()[3], "finished")
+        self.assertTrue(all("table1" in line or "fig18" in line for line in self.say(self.folder / "other", "--unpack", pieces)))
+
     def test_a_group_waits_for_the_one_before_and_none_begins_without_time(self):
         machine = device_runs.Machine(device_runs.arguments().parse_args(["--out", str(self.folder), "--program", OGC, "--scale", "smoke"]))
         begun = []
