@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "reference/solvers/newton_condition.hpp"
 
@@ -12,7 +14,7 @@ using compare::HessianProjection;
 using compare::Vec3f;
 
 constexpr int most_halvings = 20;
-/// So often a solve that has converged goes on because the contacts found at its result are others: see the head of newton_solver.hpp.
+/// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
 constexpr int most_judgements = 4;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -41,6 +43,7 @@ NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology&
 StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
   begin(start, velocity, number);
   judgements_ = 0;
+  least_judged_ = std::numeric_limits<double>::infinity();
   matrix_.forget_pattern();
   pattern_stale_ = true;
   guess(GuessEnd::contact);
@@ -96,14 +99,22 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   const bool small = settings_.newton_tolerance > 0 && force <= std::max(settings_.newton_tolerance * reference_force_, derivatives_.force_noise);
   if (options_.iterations) rows_.push_back(new_row(detects));
   if (small && (fresh_ || nothing_near())) return Outcome::converged;
-  if (judging_ && judgements_ >= most_judgements) return Outcome::converged;
+  if (judging_ && judged_in_vain(force)) return Outcome::converged;
   if (metrics_.iterations >= settings_.newton_iterations) return small || settings_.newton_tolerance == 0 ? Outcome::converged : Outcome::iteration_limit;
   if (small) {
     detect_next_ = judge_next_ = true;
-    ++judgements_;
     return {};
   }
   return advance(prescribed_cut);
+}
+
+/// Whether solves have found for the last time that their result is none with the contacts there. Rounds whose force halves lead somewhere and don't count.
+bool NewtonSolver::judged_in_vain(double force) {
+  if (force <= 0.5 * least_judged_)
+    least_judged_ = force;
+  else
+    ++judgements_;
+  return judgements_ >= most_judgements;
 }
 
 /// Solves, truncates, searches along the line.
@@ -168,28 +179,32 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   return direction;
 }
 
-/// method.md §7: along δ' first, then along δ scaled to fit all balls. The share of it that was taken, or 0.
+/// Along δ', and where that was cut along δ scaled to fit all balls as well: whichever lowers the energy more. The share of it that was taken, or 0.
 double NewtonSolver::searched(const Direction& direction) {
   const PotentialTerms before = potential_.terms(x_);
   const double noise = derivatives_.energy_noise + value_noise(before);
-  if (const double share = backtracked(direction.truncated, 1, before, noise); share > 0) return share;
-  double room = 1;
-  for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
-  return room > 0 ? backtracked(direction.delta, room, before, noise) : 0;
+  Accepted best = backtracked(direction.truncated, 1, before, noise);
+  if (direction.cut > 0) {
+    double room = 1;
+    for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
+    Accepted scaled = backtracked(direction.delta, room, before, noise);
+    if (scaled.share > 0 && (best.share == 0 || scaled.change < best.change)) best = std::move(scaled);
+  }
+  if (best.share == 0) return 0;
+  if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
+  x_ = std::move(best.x);
+  return best.share;
 }
 
 /// A full step may also change the energy by less than its rounding: close to the minimum no decrease can be seen any more.
-double NewtonSolver::backtracked(const State& delta, double share, const PotentialTerms& before, double noise) {
+NewtonSolver::Accepted NewtonSolver::backtracked(const State& delta, double share, const PotentialTerms& before, double noise) const {
   const double full = share;
-  for (int halving = 0; halving <= most_halvings; ++halving, share *= 0.5) {
+  for (int halving = 0; halving <= most_halvings && share > 0; ++halving, share *= 0.5) {
     State trial = moved(x_, share, delta);
     const double change = Potential::change(before, potential_.terms(trial));
-    if (!(change < 0 || (share == full && change <= noise))) continue;
-    if (on_accepted) on_accepted(Potential::total(before), change, noise);
-    x_ = std::move(trial);
-    return share;
+    if (change < 0 || (share == full && change <= noise)) return {std::move(trial), share, change};
   }
-  return 0;
+  return {};
 }
 
 }  // namespace ogc::reference

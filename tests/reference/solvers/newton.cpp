@@ -85,10 +85,29 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
   for (const compare::StepMetrics& row : result.rows) {
     CHECK(row.smallest_distance > 4.9e-3);
     CHECK(row.iterations < 30);
-    for (const compare::IterationMetrics& iteration : row.iteration_rows)
-      if (iteration.vertices_at_bound > 0) CHECK(iteration.share == 1);
   }
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) CHECK(std::abs(double{result.end.positions[v].y} - scene.mesh.positions[v].y + 0.12) < 2e-4);
+}
+
+TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast as its balls grow", "[property]") {
+  // 1 cm a step away from a patch 10 µm below the middle. The distance grows by γ_p of itself in an iteration, as long as all vertices move alike: along δ' the
+  // middle stays behind, and the sheet bends instead.
+  compare::Scene scene;
+  scene.name = "held";
+  compare::Material stiff = heavy();
+  stiff.contact_stiffness = 1e-3;
+  stiff.bending_stiffness = 1e-2;
+  add_sheet(scene, 7, 0.05, 1e-5, false, stiff);
+  add_sheet(scene, 2, 0.004, 0, true);
+  for (std::size_t v = 0; v < 49; ++v) scene.velocities[v] = {0, 1, 0};
+  scene.gravity = {};
+  scene.settings.newton_tolerance = 1e-4;
+  scene.settings.newton_iterations = 1000;
+  const Run result = run(scene, 1);
+  REQUIRE(clean(result));
+  CHECK(double{result.end.positions[24].y} > 0.0099);
+  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; with full balls a smooth solve takes a few more. It took 36 iterations while δ' came first.
+  CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
 TEST_CASE("Newton: each accepted iteration lowers the energy between two detections", "[property]") {
@@ -346,6 +365,7 @@ TEST_CASE("Newton takes every model, and refuses damping by vertex with what to 
   const Run result = run(scene, 5), plain = run(drop_scene(), 5);
   CHECK(clean(result));
   CHECK(result.rows.size() == 5);
+  // The second step finds a third, fourth and fifth set of contacts, each nearer to the solution: it must not be ended as one that alternates between two.
   for (const compare::StepMetrics& row : result.rows) CHECK(row.residual < 1e-2);
   CHECK(result.end.positions != plain.end.positions);
   scene.settings.damping = compare::DampingForm::per_vertex;
