@@ -110,6 +110,15 @@ def runs_in(folder):
     return found
 
 
+def ended_of(path):
+    """When the runs of an accepted table ended, as the provenance beside it says; empty where there is none."""
+    provenance = path.with_name("provenance.csv")
+    if not provenance.is_file():
+        return ""
+    with provenance.open(newline="") as file:
+        return next((row["ended"] for row in csv.DictReader(file) if row["file"] == path.name), "")
+
+
 class Evidence:
     """All usable runs and tables below `folder`: accepted results, or run folders."""
 
@@ -117,13 +126,13 @@ class Evidence:
         folder = Path(folder)
         self.runs, self.tables = sorted(runs_in(folder), key=lambda run: run.manifest.get("ended", "")), []
         self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
-        for path in sorted([*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")]):
+        for path in sorted([*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")], key=lambda path: (ended_of(path), path)):
             name, scale = table_name(path)
             with path.open(newline="") as file:
                 self.tables.append(Table(name, scale, tuple(csv.DictReader(file)), path.relative_to(folder).as_posix()))
 
     def measure(self, spec, wanted):
-        """The number that `spec` describes from the newest run that is as `wanted`, or None where there is no such run or table."""
+        """The number that `spec` describes from the newest run that is as `wanted`, or the newest table, or None where there is none."""
         if isinstance(spec, list):
             return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
         if "table" in spec:

@@ -77,6 +77,16 @@ class Judging(unittest.TestCase):
             found = [verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": kind}}), Evidence(name)).verdict for kind in "ab"]
         self.assertEqual(found, ["reproduced", "not yet run"])
 
+    def test_the_newer_of_two_machines_tables_counts(self):
+        with tempfile.TemporaryDirectory() as name:
+            for machine, time, ended in (("a", 1, "2026-02-01"), ("b", 2, "2026-01-01"), ("c", 3, "")):
+                (Path(name) / machine).mkdir()
+                (Path(name) / machine / "fig99_paper.csv").write_text(f"kind,time,commit,device\na,{time},c1,d\n")
+                if ended:
+                    (Path(name) / machine / "provenance.csv").write_text(f"file,ended\nfig99_paper.csv,{ended}\n")
+            found = verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": "a"}}), Evidence(name))
+        self.assertEqual((found.measured.value, found.measured.source), (1, "a/fig99_paper.csv"))
+
     def test_a_wait_that_is_not_declared_and_one_that_is_over_are_found(self):
         judged, waiting = claim(), claim(id="s.d", run={"scale": "paper", "steps": 101})
         found = [verdicts.judge(each, Evidence()) for each in (judged, waiting, {**judged, "waits_for": "x"})]
