@@ -14,6 +14,8 @@ using compare::HessianProjection;
 using compare::Vec3f;
 
 constexpr int most_halvings = 20;
+/// So many times as much a scaled step must lower the energy to be preferred: see the head of newton_solver.hpp.
+constexpr double far_more = 10;
 /// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
 constexpr int most_judgements = 4;
 
@@ -179,7 +181,7 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   return direction;
 }
 
-/// Along δ', and where that was cut along δ scaled to fit all balls as well: whichever lowers the energy more. The share of it that was taken, or 0.
+/// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter. The share of it that was taken, or 0.
 double NewtonSolver::searched(const Direction& direction) {
   const PotentialTerms before = potential_.terms(x_);
   const double noise = derivatives_.energy_noise + value_noise(before);
@@ -188,7 +190,7 @@ double NewtonSolver::searched(const Direction& direction) {
     double room = 1;
     for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
     Accepted scaled = backtracked(direction.delta, room, before, noise);
-    if (scaled.share > 0 && (best.share == 0 || scaled.change < best.change)) best = std::move(scaled);
+    if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
   }
   if (best.share == 0) return 0;
   if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
