@@ -112,10 +112,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
 
 /// Whether solves have found for the last time that their result is none with the contacts there. Rounds whose force halves lead somewhere and don't count.
 bool NewtonSolver::judged_in_vain(double force) {
-  if (force <= 0.5 * least_judged_)
-    least_judged_ = force;
-  else
-    ++judgements_;
+  if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
+  least_judged_ = std::min(least_judged_, force);
   return judgements_ >= most_judgements;
 }
 
