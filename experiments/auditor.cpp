@@ -43,7 +43,6 @@ StateJudge::StateJudge(const compare::Scene& scene)
     : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges)),
       groups_(compare::rigid_groups(scene)),
       bodies_(body_names(scene)),
-      authority_(reference::authority()),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
 
@@ -57,9 +56,7 @@ compare::SmallestDistances StateJudge::smallest_distances(const std::vector<comp
 
 std::vector<float> StateJudge::exact_bounds(const compare::Snapshot& snapshot) const {
   const compare::DetectIn in{&topology_, groups_, snapshot.previous, contact_radius_, snapshot.query_radius};
-  const compare::DetectVertexFacetOut facets = authority_.detect_vertex_facet(in).exact;
-  const compare::DetectEdgeEdgeOut edges = authority_.detect_edge_edge(in).exact;
-  return authority_.bound({&topology_, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, bound_relaxation_}).exact.bound;
+  return reference::exact_bounds(in, bound_relaxation_);
 }
 
 Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {

@@ -58,7 +58,6 @@ class StateJudge {
   compare::Topology topology_;
   std::vector<compare::Index> groups_;
   std::vector<std::string> bodies_;
-  compare::Authority authority_;
   float contact_radius_, bound_relaxation_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/smallest_distances.hpp"
 #include "reference/solvers/newton_detection.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/mesh_zoo.hpp"
@@ -49,7 +50,7 @@ TEST_CASE("a slab shows that primitives are apart, up to about their distance, a
   }
 }
 
-TEST_CASE("exact detections answer as the judged ones do, on every mesh of the zoo", "[property]") {
+TEST_CASE("exact detections and distances alone answer as the judged detections do, on every mesh of the zoo", "[property]") {
   for (const Specimen& specimen : mesh_zoo()) {
     const compare::Topology topology = specimen.surface.topology();
     for (const float reach : {1.0f, 2.5f}) {
@@ -60,6 +61,9 @@ TEST_CASE("exact detections answer as the judged ones do, on every mesh of the z
       CHECK((facets.contacts == judged_facets.contacts && edges.contacts == judged_edges.contacts));
       CHECK((facets.d_min_vertex == judged_facets.d_min_vertex && facets.d_min_triangle == judged_facets.d_min_triangle));
       CHECK(edges.d_min_edge == judged_edges.d_min_edge);
+      const reference::SmallestDistances alone = reference::smallest_distances(in);
+      CHECK((alone.vertex == judged_facets.d_min_vertex && alone.triangle == judged_facets.d_min_triangle));
+      CHECK(alone.edge == judged_edges.d_min_edge);
     }
   }
 }

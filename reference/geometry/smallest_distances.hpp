@@ -1,0 +1,23 @@
+// The smallest distances of a detection alone: what bounds come from, without contacts and grey zones.
+#pragma once
+
+#include <vector>
+
+#include "compare/stages/detect.hpp"
+
+namespace ogc::reference {
+
+/// d_min,v, d_min,e and d_min,t [m] by primitive (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26), r_q where nothing is nearer: those of detect_vertex_facet and
+/// detect_edge_edge, bit by bit.
+struct SmallestDistances {
+  std::vector<float> vertex, edge, triangle;
+};
+
+/// In parallel; the answer does not depend on the number of threads. A primitive is searched as far as its nearest neighbour beyond the ring around it, so
+/// that r_q matters where there is none.
+SmallestDistances smallest_distances(const compare::DetectIn& in);
+
+/// b_v of Eq. 21 [m], by vertex, rounded down. Throws nothing but what memory does.
+std::vector<float> exact_bounds(const compare::DetectIn& in, float bound_relaxation);
+
+}  // namespace ogc::reference
