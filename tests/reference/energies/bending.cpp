@@ -2,7 +2,9 @@
 #include "reference/energies/bending.hpp"
 
 #include <numbers>
+#include <random>
 
+#include "compare/oracle/smallest_distances.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/energies/stencils.hpp"
 
@@ -229,4 +231,27 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   // A single-precision kernel was off by 1.5e-22 N here; the moment is known to u c, the gradient to u over the height.
   CHECK(error > 1.5e-22);
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
+}
+
+TEST_CASE("a hinge passes from π to -π only where its triangles touch, so that its angle needs no unwrapping", "[property]") {
+  // At ±π both triangles lie in one plane on one side of their edge, where they overlap: a vertex of one lies on the other, or two of their edges cross. Bounds
+  // keep both distances above zero. Integers: nothing is rounded.
+  std::mt19937 engine(3);
+  std::uniform_int_distribution<int> along(-8, 16), up(1, 12);
+  const compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}, {1, 0, 3}});
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<compare::Vec3> x{{0, 0, 0}, {8, 0, 0}};
+    for (int k = 0; k < 2; ++k) {
+      const auto side = static_cast<double>(along(engine)), height = static_cast<double>(up(engine));
+      x.push_back({side, 3 * height, 4 * height});
+    }
+    const auto touch = [&] {
+      const compare::SmallestDistances nearest = compare::smallest_distances(topology, x);
+      return nearest.vertex_triangle == 0 || nearest.edge_edge == 0;
+    };
+    if (!touch()) FAIL(x[2].x << ' ' << x[2].y << ", " << x[3].x << ' ' << x[3].y);
+    x[3].y = -x[3].y;  // flat
+    x[3].z = -x[3].z;
+    CHECK_FALSE(touch());
+  }
 }
