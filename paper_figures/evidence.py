@@ -9,8 +9,9 @@ import gzip
 import json
 import math
 import statistics
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 RESULTS = Path(__file__).parent / "results"
@@ -32,6 +33,34 @@ class Measured:
     ended: str
 
 
+class Columns(Mapping):
+    """Columns of a file of rows by name without unit; numbers are made of a column when it is asked for."""
+
+    def __init__(self, path):
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="") as file:
+            names, *rows = [row for row in csv.reader(file) if row]
+        rows = [row for row in rows if len(row) == len(names)]
+        self._texts = dict(zip((name.partition("[")[0].strip() for name in names), zip(*rows) if rows else [()] * len(names)))
+        self._numbers = {}
+
+    def __getitem__(self, name):
+        if name not in self._numbers:
+            self._numbers[name] = [float(text or "nan") for text in self._texts[name]]
+        return self._numbers[name]
+
+    def __iter__(self):
+        return iter(self._texts)
+
+    def __len__(self):
+        return len(self._texts)
+
+
+@lru_cache(maxsize=None)
+def columns_of(path, stamp):
+    """The columns of a file; `stamp` tells its versions apart."""
+    return Columns(path)
+
+
 class RunEvidence:
     """A run: its manifest, and the columns of its rows without units."""
 
@@ -40,9 +69,8 @@ class RunEvidence:
 
     @cached_property
     def columns(self):
-        with (gzip.open if self.rows.suffix == ".gz" else open)(self.rows, "rt", newline="") as file:
-            names, *rows = [row for row in csv.reader(file) if row]
-        return {name.partition("[")[0].strip(): [float(row[i] or "nan") for row in rows if len(row) == len(names)] for i, name in enumerate(names)}
+        about = self.rows.stat()
+        return columns_of(self.rows, (about.st_mtime_ns, about.st_size))
 
     def column(self, name):
         if name not in self.columns:

@@ -308,7 +308,7 @@ TEST_CASE("a run whose disk is full exits 3 and names the file", "[unit]") {
 TEST_CASE("an interrupted run exits 130 and leaves finished frames and a manifest that says so", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run_ogc("run twist --scale small --audit off --out " + (folder / "run").string(), "timeout --preserve-status -s INT 2 ");
+      run_ogc("run twist --scale small --audit off --out " + (folder / "run").string(), "timeout --foreground --preserve-status -s INT 2 ");
   INFO(result.err);
   CHECK(result.status == 130);
   const compare::RunReader reader(folder / "run");
