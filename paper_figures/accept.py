@@ -146,10 +146,13 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
     twice = {path.name for path, _ in kept if sum(other == path for other, _ in kept) > 1}
     if twice:
         raise AcceptError(f"two files would both be called {', '.join(sorted(twice))}")
+    outdated = earlier_files(folder / "provenance.csv", rows)
+    for name in outdated:
+        (folder / name).unlink(missing_ok=True)
     for path, data in kept:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
-    merge(folder / "provenance.csv", COLUMNS, rows, ("file",))
+    merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
     merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"), list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
     return rows
 
@@ -162,12 +165,22 @@ def composed(recipe, chosen, scale, backend, runs, ogc):
     return max(found, key=lambda words: words["ended"])
 
 
-def merge(path, columns, rows, key):
-    """Rows of a table replaced by those of the same key; sorted, so that a new acceptance changes its own lines alone."""
+def earlier_files(provenance, rows):
+    """The files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that have no successor there."""
+    if not provenance.is_file():
+        return []
+    about, names = {tuple(row[key] for key in ("figure", "scale", "backend")) for row in rows}, {row["file"] for row in rows}
+    with provenance.open(newline="") as file:
+        return [row["file"] for row in csv.DictReader(file) if (row["figure"], row["scale"], row["backend"]) in about and row["file"] not in names]
+
+
+def merge(path, columns, rows, key, gone=()):
+    """Rows of a table replaced by those of the same key, without those `gone`; sorted, so that a new acceptance changes its own lines alone."""
     old = {}
     if path.is_file():
         with path.open(newline="") as file:
             old = {tuple(row[name] for name in key): row for row in csv.DictReader(file)}
+    old = {name: row for name, row in old.items() if name not in gone}
     old.update({tuple(row[name] for name in key): row for row in rows})
     with path.open("w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=columns, lineterminator="\n")

@@ -158,6 +158,22 @@ class Accepting(Scratch):
             rows = {row["file"]: row for row in csv.DictReader(file)}
         self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
 
+    def test_files_of_an_earlier_acceptance_of_the_figure_go(self):
+        """Else the runs of two programs lie in one folder, and claims are judged by either."""
+        for name in ("first", "second"):
+            for run in (name, "both"):
+                self.make_run(f"fig17-paper-cuda/{run}")
+            (self.runs / "fig17-paper-cuda/fig17.png").write_bytes(b"picture")
+            self.accept("fig17")
+            shutil.rmtree(self.runs)
+        self.finished()
+        self.accept("fig18")
+        kept = self.results / "machine"
+        self.assertEqual({path.name for path in (kept / "fig17_paper").iterdir()}, {f"{run}_{what}" for run in ("second", "both") for what in ("run.json", "steps.csv")})
+        with (kept / "provenance.csv").open(newline="") as file:
+            files = {row["file"] for row in csv.DictReader(file)}
+        self.assertEqual(files, {path.relative_to(kept).as_posix() for path in kept.rglob("*") if path.is_file()} - {"provenance.csv", "durations.csv"})
+
     def test_long_rows_are_kept_compressed_and_read_again(self):
         self.finished()
         rows = (self.runs / "fig18-paper-cuda/run/steps.csv").read_text()
