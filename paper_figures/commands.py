@@ -20,7 +20,7 @@ NEWTON = ("--solver", "newton", "--residual", *(word for value in ("newton_toler
 ACTIVATION_STEPS = {"smoke": 30, "small": 40, "paper": 40}
 ENERGIES = ("ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed")
 PAPER_ENERGIES = ENERGIES[:2]
-# The scene's limit of 200 iterations cut off step 35 at the paper's size, which takes 202.
+# The scene's limit of 200 iterations cut off step 35 at the paper's size two short of its end.
 TOLERANCE = ("--set", "newton_tolerance=1e-6", "--set", "newton_iterations=2000")
 ABLATION = ("--solver", "newton", *TOLERANCE, "--set", "frame_steps=1", "--audit", "end")
 
