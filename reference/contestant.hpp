@@ -10,7 +10,7 @@
 #include "reference/geometry/illustrations.hpp"
 #include "reference/geometry/nearest.hpp"
 #include "reference/geometry/pair_margins.hpp"
-#include "reference/geometry/smallest_distances.hpp"
+#include "reference/geometry/primitive_distances.hpp"
 #include "reference/solvers/residual.hpp"
 
 namespace ogc::reference {

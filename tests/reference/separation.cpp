@@ -5,7 +5,7 @@
 
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
-#include "reference/geometry/smallest_distances.hpp"
+#include "reference/geometry/primitive_distances.hpp"
 #include "reference/solvers/newton_detection.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/mesh_zoo.hpp"
@@ -61,7 +61,7 @@ TEST_CASE("exact detections and distances alone answer as the judged detections 
       CHECK((facets.contacts == judged_facets.contacts && edges.contacts == judged_edges.contacts));
       CHECK((facets.d_min_vertex == judged_facets.d_min_vertex && facets.d_min_triangle == judged_facets.d_min_triangle));
       CHECK(edges.d_min_edge == judged_edges.d_min_edge);
-      const reference::SmallestDistances alone = reference::smallest_distances(in);
+      const reference::PrimitiveDistances alone = reference::primitive_distances(in);
       CHECK((alone.vertex == judged_facets.d_min_vertex && alone.triangle == judged_facets.d_min_triangle));
       CHECK(alone.edge == judged_edges.d_min_edge);
     }

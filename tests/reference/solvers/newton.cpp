@@ -85,6 +85,8 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
   for (const compare::StepMetrics& row : result.rows) {
     CHECK(row.smallest_distance > 4.9e-3);
     CHECK(row.iterations < 30);
+    for (const compare::IterationMetrics& iteration : row.iteration_rows)
+      if (iteration.vertices_at_bound > 0) CHECK(iteration.share == 1);
   }
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) CHECK(std::abs(double{result.end.positions[v].y} - scene.mesh.positions[v].y + 0.12) < 2e-4);
 }

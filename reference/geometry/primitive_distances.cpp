@@ -1,6 +1,6 @@
 // Two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states; the second searches each primitive's own box, widened
 // by what is known then. A pair is met from either side, so each primitive finds its own nearest and needs nobody else's search for it.
-#include "reference/geometry/smallest_distances.hpp"
+#include "reference/geometry/primitive_distances.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -34,7 +34,7 @@ class Facets {
   explicit Facets(const compare::DetectIn& in)
       : in_(in), mesh_{*in.topology, in.positions}, of_vertex_(in.positions.size(), in.query_radius), of_triangle_(in.topology->triangles.size(), in.query_radius) {}
 
-  void search(SmallestDistances& result) {
+  void search(PrimitiveDistances& result) {
     std::vector<Box> points(in_.positions.size()), boxes(in_.topology->triangles.size());
     for (std::size_t v = 0; v < points.size(); ++v) include(points[v], in_.positions[v]);
     for (std::size_t t = 0; t < boxes.size(); ++t)
@@ -80,7 +80,7 @@ class Edges {
  public:
   explicit Edges(const compare::DetectIn& in) : in_(in), mesh_{*in.topology, in.positions}, of_edge_(in.topology->edges.size(), in.query_radius) {}
 
-  void search(SmallestDistances& result) {
+  void search(PrimitiveDistances& result) {
     std::vector<Box> boxes(in_.topology->edges.size());
     for (std::size_t e = 0; e < boxes.size(); ++e)
       for (const Index v : in_.topology->edges[e]) include(boxes[e], in_.positions[at(v)]);
@@ -119,15 +119,15 @@ class Edges {
 
 }  // namespace
 
-SmallestDistances smallest_distances(const compare::DetectIn& in) {
-  SmallestDistances result;
+PrimitiveDistances primitive_distances(const compare::DetectIn& in) {
+  PrimitiveDistances result;
   Facets(in).search(result);
   Edges(in).search(result);
   return result;
 }
 
 std::vector<float> exact_bounds(const compare::DetectIn& in, float bound_relaxation) {
-  const SmallestDistances distances = smallest_distances(in);
+  const PrimitiveDistances distances = primitive_distances(in);
   return bound({in.topology, distances.vertex, distances.edge, distances.triangle, bound_relaxation}).exact.bound;
 }
 
