@@ -1,18 +1,21 @@
 """Memory that runs take on a device, sampled from outside, because the driver's own share (context, code of the kernels) counts as well."""
 
 import json
+import os
 import subprocess
 import threading
 
 
 class DeviceMemory:
-    """Samples the memory in use on the first device [MiB] once a second while its block runs, and keeps the first and the largest number in a file; nothing
+    """Samples the memory in use on the device that CUDA counts first [MiB] once a second while its block runs, and keeps the first and the largest number in a file; nothing
     where nvidia-smi can't be had. One process asks all the time: its start takes locks of the driver, which would show in a step."""
 
-    COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--id=0", "--loop=1")
+    COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--loop=1")
 
-    def __init__(self, path, wanted, command=COMMAND):
-        self.path, self.command, self.samples, self.process, self.first = path, command if wanted else None, [], None, threading.Event()
+    def __init__(self, path, wanted, command=None):
+        device = os.environ.get("CUDA_VISIBLE_DEVICES", "0").split(",")[0]
+        self.path, self.command = path, (command or (*self.COMMAND, f"--id={device}")) if wanted else None
+        self.samples, self.process, self.first = [], None, threading.Event()
 
     def __enter__(self):
         try:
