@@ -4,6 +4,7 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/files/json_reader.hpp"
+#include "compare/files/keyframes.hpp"
 #include "compare/files/mesh_files.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
@@ -73,6 +74,7 @@ class SceneReader {
     object.required("bodies", [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
     object.optional("motions", [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
     object.optional("springs", [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
+    object.optional("excluded_pairs", [&](const JsonNode& node) { each(node, [&](const JsonNode& pairs) { read_excluded(pairs); }); });
     object.finish();
     stop_at_problems();
     round_to_single(scene_);
@@ -186,6 +188,7 @@ class SceneReader {
     object.optional_value("velocity", motion.velocity);
     object.optional_value("start", motion.start);
     object.optional_value("end", motion.end);
+    object.optional("keyframes", [&](const JsonNode& value) { motion.keyframes = read_keyframes_file(value); });
     object.finish();
     scene_.motions.push_back(std::move(motion));
   }
@@ -198,8 +201,47 @@ class SceneReader {
     object.required_value("stiffness", spring.stiffness);
     object.optional_value("rest_length", spring.rest_length);
     object.optional_value("damping", spring.damping);
+    object.optional("third", [&](const JsonNode& end) { spring.third = read_end(end); });
+    object.optional_value("ratio", spring.ratio);
     object.finish();
     scene_.springs.push_back(spring);
+  }
+
+  Keyframes read_keyframes_file(const JsonNode& node) {
+    std::string text;
+    node.read(text);
+    if (!node.value().is_string()) return {};
+    try {
+      return read_keyframes(folder_ / text);
+    } catch (const InputError& error) {
+      node.fail(error.what(), "");
+      return {};
+    }
+  }
+
+  void read_excluded(const JsonNode& node) {
+    JsonObject object(node);
+    std::array<const Body*, 2> bodies{};
+    object.required("bodies", [&](const JsonNode& value) {
+      if (!expect_two(value)) return;
+      for (std::size_t k = 0; k < 2; ++k) bodies[k] = find_body(value.child(k));
+    });
+    object.required("vertices", [&](const JsonNode& value) {
+      each(value, [&](const JsonNode& pair) {
+        if (!expect_two(pair)) return;
+        std::vector<Index> vertices;
+        for (std::size_t k = 0; k < 2; ++k) select_index(pair.child(k), bodies[k], vertices);
+        if (vertices.size() == 2) scene_.excluded_pairs.push_back({vertices[0], vertices[1]});
+      });
+    });
+    object.finish();
+  }
+
+  static bool expect_two(const JsonNode& node) {
+    if (!node.expect_array()) return false;
+    if (node.size() == 2) return true;
+    node.fail("has " + std::to_string(node.size()) + " entries", "give two");
+    return false;
   }
 
   // A vertex by body and number within the body; -1 where there is none, which is a problem noted.

@@ -91,6 +91,7 @@ Json motion_schema() {
       {"velocity", vector("[m/s]; default 0")},
       {"start", value("number", "at rest before [s]; default 0")},
       {"end", value("number", "at rest after [s]; default 1e30")},
+      {"keyframes", value("string", "in place of the rigid motion: HDF5 file, relative to this file, with time [frames] in s and position [frames · vertices][3] in m")},
   };
   return object(properties, {"name", "vertices"});
 }
@@ -102,14 +103,28 @@ Json spring_schema() {
     json["minimum"] = 0;
     return json;
   };
+  Json ratio = number("s of the point (1 − s) second + s third that the spring holds instead of second [1]; default 0");
+  ratio["maximum"] = 1;
   const Json properties = {
       {"first", end},
       {"second", end},
+      {"third", end},
+      {"ratio", ratio},
       {"stiffness", number("[N/m]")},
       {"rest_length", number("[m]; default 0")},
       {"damping", number("stiffness-proportional [s]; default 0")},
   };
   return object(properties, {"first", "second", "stiffness"});
+}
+
+Json excluded_schema() {
+  const auto two = [](const Json& items, const std::string& description) {
+    Json json = array(items, description);
+    json["minItems"] = json["maxItems"] = 2;
+    return json;
+  };
+  const Json pairs = array(two({{"type", "integer"}}, "a vertex of the first body and one of the second, each numbered within its body from 0"), "pairs");
+  return object({{"bodies", two({{"type", "string"}}, "names; may be the same")}, {"vertices", pairs}}, {"bodies", "vertices"});
 }
 
 }  // namespace
@@ -122,7 +137,8 @@ std::string scene_schema() {
       {"settings", settings_schema()},
       {"bodies", array(body_schema(), "in the order of their vertices")},
       {"motions", array(motion_schema(), "prescribed motions")},
-      {"springs", array(spring_schema(), "between two vertices; no part of contact")},
+      {"springs", array(spring_schema(), "between a vertex and another, or a point between two others; no part of contact")},
+      {"excluded_pairs", array(excluded_schema(), "two faces are no contact, and not audited, where a vertex of one and a vertex of the other are such a pair")},
   };
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
   schema.update(object(properties, {"format_version", "name", "bodies"}));

@@ -6,6 +6,7 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/files/json_reader.hpp"
+#include "compare/files/keyframes.hpp"
 #include "compare/files/mesh_files.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
@@ -94,15 +95,21 @@ Json selections_json(const Scene& scene, const std::vector<Index>& vertices) {
   return selections;
 }
 
-Json motion_json(const Scene& scene, const PrescribedMotion& motion) {
-  return {{"name", motion.name},
-          {"vertices", selections_json(scene, motion.vertices)},
-          {"centre", to_json(motion.centre)},
-          {"axis", to_json(motion.axis)},
-          {"angular_velocity", motion.angular_velocity},
-          {"velocity", to_json(motion.velocity)},
-          {"start", motion.start},
-          {"end", motion.end}};
+Json motion_json(const std::filesystem::path& folder, const Scene& scene, const PrescribedMotion& motion) {
+  Json json = {{"name", motion.name}, {"vertices", selections_json(scene, motion.vertices)}};
+  if (!motion.keyframes.empty()) {
+    const std::string name = scene.name + "_" + motion.name + ".h5";
+    write_keyframes(folder / name, motion.keyframes);
+    json["keyframes"] = name;
+    return json;
+  }
+  json.update({{"centre", to_json(motion.centre)},
+               {"axis", to_json(motion.axis)},
+               {"angular_velocity", motion.angular_velocity},
+               {"velocity", to_json(motion.velocity)},
+               {"start", motion.start},
+               {"end", motion.end}});
+  return json;
 }
 
 Json springs_json(const Scene& scene) {
@@ -112,10 +119,27 @@ Json springs_json(const Scene& scene) {
     return {{"body", body.name}, {"index", v - body.first_vertex}};
   };
   Json springs = Json::array();
-  for (const Spring& spring : scene.springs)
+  for (const Spring& spring : scene.springs) {
     springs.push_back({{"first", end(spring.first)}, {"second", end(spring.second)}, {"stiffness", as_typed(spring.stiffness)},
                        {"rest_length", as_typed(spring.rest_length)}, {"damping", as_typed(spring.damping)}});
+    if (spring.third >= 0) springs.back().update({{"third", end(spring.third)}, {"ratio", as_typed(spring.ratio)}});
+  }
   return springs;
+}
+
+// Runs of pairs of the same two bodies, in their order.
+Json excluded_json(const Scene& scene) {
+  const std::vector<Index> owner = body_of_vertex(scene);
+  Json runs = Json::array();
+  std::array<Index, 2> current{-1, -1};
+  for (const auto& [a, b] : scene.excluded_pairs) {
+    const std::array<Index, 2> bodies{owner[static_cast<std::size_t>(a)], owner[static_cast<std::size_t>(b)]};
+    const Body &first = scene.bodies[static_cast<std::size_t>(bodies[0])], &second = scene.bodies[static_cast<std::size_t>(bodies[1])];
+    if (bodies != current) runs.push_back({{"bodies", {first.name, second.name}}, {"vertices", Json::array()}});
+    current = bodies;
+    runs.back()["vertices"].push_back({a - first.first_vertex, b - second.first_vertex});
+  }
+  return runs;
 }
 
 void print(const Json& value, const std::string& indent, std::string& text) {
@@ -148,8 +172,9 @@ std::filesystem::path write_scene(const std::filesystem::path& folder, const Sce
   json["bodies"] = Json::array();
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_json(folder, scene, body));
   json["motions"] = Json::array();
-  for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_json(scene, motion));
+  for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_json(folder, scene, motion));
   json["springs"] = springs_json(scene);
+  if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = excluded_json(scene);
   std::string text;
   print(json, "", text);
   const std::filesystem::path file = folder / (scene.name + ".json");

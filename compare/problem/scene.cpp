@@ -43,6 +43,24 @@ struct RigidMotion {
   }
 };
 
+Vec3 widened(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+/// Of `count` vertices at time `t`: a + s (b − a) in double, so that each frame itself comes back exactly.
+std::vector<Vec3f> between(const Keyframes& frames, std::size_t count, double t) {
+  const std::vector<double>& times = frames.times;
+  const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());
+  const std::size_t next = std::clamp<std::size_t>(after, 1, times.size() - 1), last = next - 1;
+  const double share = std::clamp((t - times[last]) / (times[next] - times[last]), 0.0, 1.0);
+  std::vector<Vec3f> targets;
+  targets.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3 a = widened(frames.positions[last * count + k]), b = widened(frames.positions[next * count + k]);
+    const Vec3 between{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+    targets.push_back(share == 1 ? frames.positions[next * count + k] : narrowed(between));
+  }
+  return targets;
+}
+
 }  // namespace
 
 std::size_t append_body(Scene& scene, Body body, const Mesh& mesh) {
@@ -68,7 +86,7 @@ void round_to_single(Scene& scene) {
     for (const MaterialInfo& info : material_table()) body.material.*info.field = rounded(body.material.*info.field);
   }
   for (Spring& spring : scene.springs) {
-    for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping}) *number = rounded(*number);
+    for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping, &spring.ratio}) *number = rounded(*number);
   }
   scene.gravity = rounded(scene.gravity);
   for (const SettingInfo& info : setting_table()) {
@@ -87,7 +105,18 @@ std::vector<Index> rigid_groups(const Scene& scene) {
   return groups;
 }
 
+Exclusions exclusions(const Scene& scene) { return {rigid_groups(scene), partner_rows(scene.mesh.positions.size(), scene.excluded_pairs)}; }
+
+void add_stitch(Scene& scene, Index first, Index second, Index third, double ratio, double stiffness) {
+  if (ratio == 1) std::swap(second, third), ratio = 0;
+  if (ratio == 0) third = -1;
+  scene.springs.push_back({first, second, stiffness, 0, 0, third, ratio});
+  scene.excluded_pairs.push_back({first, second});
+  if (third >= 0) scene.excluded_pairs.push_back({first, third});
+}
+
 std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t) {
+  if (!motion.keyframes.empty()) return between(motion.keyframes, motion.vertices.size(), t);
   const RigidMotion moved(motion, t);
   std::vector<Vec3f> targets;
   targets.reserve(motion.vertices.size());

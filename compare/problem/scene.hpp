@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/problem/exclusions.hpp"
 #include "compare/problem/mesh.hpp"
 #include "compare/problem/settings.hpp"
 
@@ -38,8 +39,17 @@ struct Body {
   friend bool operator==(const Body&, const Body&) = default;
 };
 
-/// Rigid prescribed motion of a set of vertices: x(t) = R(ω (t − t₀)) (x(0) − c) + c + u (t − t₀), for t₀ = start ≤ t ≤ end, at rest before and
-/// after. R turns by the right-hand rule about `axis` through `centre`. Its vertices form one rigid group: pairs inside are no contacts.
+/// Positions at some times, straight lines between them; at rest before the first and after the last.
+struct Keyframes {
+  std::vector<double> times;     ///< ascending [s]; at least two where there are any
+  std::vector<Vec3f> positions;  ///< [m]; frame by frame, in each the vertices in the order of the motion
+  bool empty() const { return times.empty(); }
+  friend bool operator==(const Keyframes&, const Keyframes&) = default;
+};
+
+/// Prescribed motion of a set of vertices: by keyframes where there are any, otherwise rigid: x(t) = R(ω (t − t₀)) (x(0) − c) + c + u (t − t₀), for
+/// t₀ = start ≤ t ≤ end, at rest before and after. R turns by the right-hand rule about `axis` through `centre`. Its vertices form one group: pairs inside
+/// are no contacts, not even where keyframes deform it.
 struct PrescribedMotion {
   std::string name;
   std::vector<Index> vertices;
@@ -47,15 +57,20 @@ struct PrescribedMotion {
   double angular_velocity = 0;      ///< ω [rad/s]
   Vec3 velocity{};                  ///< u [m/s]
   double start = 0, end = 1e30;     ///< [s]
+  Keyframes keyframes;
   friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
-/// A spring between two vertices, of any two bodies: k/2 (l − l₀)², and k_d/h · k/2 (l − lᵗ)² of damping. It is no edge of the mesh and takes no part in contact.
+/// A spring between a vertex and another one, or a point of the line between two others, of any bodies: k/2 (l − l₀)², and k_d/h · k/2 (l − lᵗ)² of damping,
+/// with l = ‖x_first − (1 − s) x_second − s x_third‖. It is no edge of the mesh and takes no part in contact. A stitch has l₀ = 0, and the pairs beside it are
+/// no contacts only where `Scene::excluded_pairs` says so.
 struct Spring {
   Index first = -1, second = -1;        ///< vertices, not the same
   double stiffness = 0;                 ///< k [N/m]
   double rest_length = 0;               ///< l₀ [m]
   double damping = 0;                   ///< k_d [s]
+  Index third = -1;                     ///< −1: there is none, and s = 0
+  double ratio = 0;                     ///< s [1], from 0 to 1
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
@@ -67,6 +82,7 @@ struct Scene {
   std::vector<Body> bodies;           ///< cover all vertices and triangles, in order
   std::vector<PrescribedMotion> motions;
   std::vector<Spring> springs;
+  std::vector<std::array<Index, 2>> excluded_pairs;  ///< vertices: a pair of faces with one of them on each side is left out (stitched primitives, §5.1.3)
   Vec3 gravity{0, -9.81, 0};          ///< [m/s²]
   Settings settings;
   friend bool operator==(const Scene&, const Scene&) = default;
@@ -79,9 +95,14 @@ std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
 /// in place. Motions stay in double: stages see their targets only.
 void round_to_single(Scene& scene);
 
-/// Contact exclusion by group (method.md §2): a pair whose vertices all carry the same number ≥ 0 is left out of contact, d_min and audit.
-/// -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
+/// Adds the spring of a stitch from vertex `first` to the point (1 − ratio) x_second + ratio x_third, and excludes the pairs beside it.
+void add_stitch(Scene& scene, Index first, Index second, Index third, double ratio, double stiffness);
+
+/// What moves with what: -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
 std::vector<Index> rigid_groups(const Scene& scene);
+
+/// Pairs that are left out of contact, d_min and audit: by rigid_groups and excluded_pairs.
+Exclusions exclusions(const Scene& scene);
 
 /// Target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the order of motion.vertices.
 std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t);

@@ -91,6 +91,30 @@ void check_ownership(std::vector<Problem>& problems, const Scene& scene, std::si
   }
 }
 
+void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& motion, const std::string& where) {
+  const Keyframes& frames = motion.keyframes;
+  if (frames.empty() && frames.positions.empty()) return;
+  if (frames.times.size() < 2) problems.push_back({where, "has " + std::to_string(frames.times.size()) + " keyframes", "give at least two"});
+  const bool rising = std::adjacent_find(frames.times.begin(), frames.times.end(), [](double a, double b) { return !(a < b); }) == frames.times.end();
+  const bool finite = std::all_of(frames.times.begin(), frames.times.end(), [](double t) { return std::isfinite(t); });
+  if (!rising || !finite) problems.push_back({where, "has keyframes whose times do not rise", "give finite, ascending times [s]"});
+  if (frames.positions.size() != frames.times.size() * motion.vertices.size())
+    problems.push_back({where, "has " + std::to_string(frames.positions.size()) + " positions in " + std::to_string(frames.times.size()) + " keyframes of " +
+                                   std::to_string(motion.vertices.size()) + " vertices",
+                        "give one for each vertex in each keyframe"});
+  const auto usable = [](const Vec3f& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most_length; };  // false where NaN stands first
+  const auto bad = std::find_if_not(frames.positions.begin(), frames.positions.end(),
+                                    [&](const Vec3f& p) { return is_finite(Vec3{p.x, p.y, p.z}) && usable(p); });
+  if (bad != frames.positions.end() && !motion.vertices.empty()) {
+    const auto place = static_cast<std::size_t>(bad - frames.positions.begin());
+    problems.push_back({where + ", keyframe " + std::to_string(place / motion.vertices.size()) + ", vertex " +
+                            std::to_string(motion.vertices[place % motion.vertices.size()]),
+                        "position is not finite or beyond 2²⁰ m", "give three finite numbers [m]"});
+  }
+  if (motion.angular_velocity != 0 || motion.velocity != Vec3{})
+    problems.push_back({where, "has keyframes and velocities", "give one of them"});
+}
+
 void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion& motion) {
   const std::string where = quoted("motion", motion.name);
   const auto numbers = {motion.angular_velocity, motion.start, motion.end};
@@ -100,6 +124,7 @@ void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion
   if (motion.axis == Vec3{}) problems.push_back({where, "has a zero axis", "give a direction, e.g. [1, 0, 0]"});
   if (!(motion.start <= motion.end)) problems.push_back({where, "ends before it starts", "give start ≤ end [s]"});
   if (motion.vertices.empty()) problems.push_back({where, "moves no vertex", "list vertices or remove the motion"});
+  check_keyframes(problems, motion, where);
 }
 
 void check_motions(std::vector<Problem>& problems, const Scene& scene, bool covered, std::size_t limit) {
@@ -132,13 +157,26 @@ void check_springs(std::vector<Problem>& problems, const Scene& scene, std::size
                     "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ s, none below 0");
   const auto count = static_cast<Index>(scene.mesh.positions.size());
   const auto within = [](double x, double most) { return x >= 0 && x <= most; };
+  ProblemSort place(problems, limit, "has no such point on the line of its second and third vertex", "give a third vertex, another than both, and a ratio from 0 to 1");
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& s = scene.springs[i];
     const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
     if (!known) unknown.add(numbered("spring", i), std::to_string(s.first) + ", " + std::to_string(s.second));
+    const bool has_third = s.third >= 0 && s.third < count && s.third != s.first && s.third != s.second;
+    if (s.third == -1 ? s.ratio != 0 : !(has_third && s.ratio >= 0 && s.ratio <= 1))
+      place.add(numbered("spring", i), "third " + std::to_string(s.third) + ", ratio " + shortest(s.ratio));
     const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
     if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
       range.add(numbered("spring", i), shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
+  }
+}
+
+void check_excluded(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+  ProblemSort unknown(problems, limit, "does not name two vertices", "give two different vertices of the scene");
+  const auto count = static_cast<Index>(scene.mesh.positions.size());
+  for (std::size_t i = 0; i < scene.excluded_pairs.size(); ++i) {
+    const auto& [a, b] = scene.excluded_pairs[i];
+    if (std::min(a, b) < 0 || std::max(a, b) >= count || a == b) unknown.add(numbered("excluded pair", i), std::to_string(a) + ", " + std::to_string(b));
   }
 }
 
@@ -179,6 +217,7 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit) {
   if (covered && indices_are_valid) check_ownership(problems, scene, limit);
   check_motions(problems, scene, covered, limit);
   check_springs(problems, scene, limit);
+  check_excluded(problems, scene, limit);
   return problems;
 }
 

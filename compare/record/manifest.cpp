@@ -78,6 +78,7 @@ Json scene_json(const Manifest& manifest, const Scene& scene) {
           {"triangles", scene.mesh.triangles.size()},
           {"loose_edges", scene.mesh.loose_edges.size()},
           {"springs", scene.springs.size()},
+          {"excluded_pairs", scene.excluded_pairs.size()},
           {"gravity", {{"value", {scene.gravity.x, scene.gravity.y, scene.gravity.z}}, {"unit", "m/s²"}}},
           {"bodies", bodies_json(scene)}};
 }
