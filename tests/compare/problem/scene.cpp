@@ -5,6 +5,7 @@
 #include <random>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/validate.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/small_scene.hpp"
 
@@ -52,6 +53,43 @@ TEST_CASE("round_to_single leaves only numbers that single precision holds, once
 TEST_CASE("rigid groups: free, fixed, and one for each motion", "[unit]") {
   const Scene scene = small_scene();
   CHECK(rigid_groups(scene) == std::vector<Index>{1, -1, 2, -1, 0, 0, 0});
+}
+
+TEST_CASE("partners stand in the rows of both, once, ascending", "[unit]") {
+  const std::vector<std::array<Index, 2>> pairs{{3, 1}, {1, 3}, {0, 3}, {1, 2}};
+  const CompressedRows rows = partner_rows(5, pairs);
+  const std::vector<std::vector<Index>> expected{{3}, {2, 3}, {1}, {0, 1}, {}};
+  REQUIRE(rows.rows() == 5);
+  for (std::size_t v = 0; v < 5; ++v) CHECK(std::equal(rows[v].begin(), rows[v].end(), expected[v].begin(), expected[v].end()));
+  CHECK(pairs_of(rows) == std::vector<std::array<Index, 2>>{{0, 3}, {1, 2}, {1, 3}});
+  CHECK(partner_rows(5, {}).rows() == 0);
+}
+
+TEST_CASE("a stitch to an end of the edge is a spring between two vertices; the pairs beside every stitch are excluded", "[unit]") {
+  Scene scene = small_scene();
+  scene.springs.clear();
+  add_stitch(scene, 0, 1, 2, 0.25, 9);
+  add_stitch(scene, 0, 1, 2, 0, 9);
+  add_stitch(scene, 0, 1, 2, 1, 9);
+  CHECK(scene.springs == std::vector<Spring>{{0, 1, 9, 0, 0, 2, 0.25}, {0, 1, 9, 0, 0, -1, 0}, {0, 2, 9, 0, 0, -1, 0}});
+  CHECK(scene.excluded_pairs == std::vector<std::array<Index, 2>>{{0, 1}, {0, 2}, {0, 1}, {0, 2}});
+  CHECK(validate(scene).empty());
+}
+
+TEST_CASE("keyframes: each comes back bit for bit, straight lines lead from one to the next, and it rests before and after", "[unit]") {
+  Scene scene = small_scene();
+  PrescribedMotion motion;
+  motion.vertices = {0, 2};
+  motion.keyframes.times = {0.5, 1, 3};
+  const Vec3f a{0.1f, 0.2f, 0.3f}, b{1, 2, 3}, c{-1, 0.5f, 7};
+  motion.keyframes.positions = {a, b, b, c, c, a};
+  const auto at = [&](double t) { return prescribed_targets(scene, motion, t); };
+  CHECK(at(0) == std::vector<Vec3f>{a, b});
+  CHECK(at(0.5) == std::vector<Vec3f>{a, b});
+  CHECK(at(1) == std::vector<Vec3f>{b, c});
+  CHECK(at(3) == std::vector<Vec3f>{c, a});
+  CHECK(at(9) == std::vector<Vec3f>{c, a});
+  CHECK(at(2)[0] == Vec3f{0, 1.25f, 5});  // the middle between b and c
 }
 
 TEST_CASE("each vertex knows its body", "[unit]") {
