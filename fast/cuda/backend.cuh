@@ -53,6 +53,16 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_counted(const int* n
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
+template <class F, class G>
+__global__ void __launch_bounds__(cuda_block_size) run_both(int m, F f, const int* n, int capacity, G g) {
+  follow_launch();
+  const int stride = static_cast<int>(gridDim.x * blockDim.x);
+  const int count = min(*n, capacity);
+  int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  for (; i < m; i += stride) f(i);
+  for (i -= m; i < count; i += stride) g(i);
+}
+
 /// One thread that decides what a conditional node does.
 template <class F>
 __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const int* flag) {
@@ -116,6 +126,12 @@ class CudaBackend {
     follow(typeid(F), run_each_counted<F>, blocks(capacity), block_threads_, n, capacity, f);
   }
 
+  template <class F, class G>
+  void for_both(int m, F f, const int* n, int capacity, G g) {
+    if (m <= 0) return for_each_counted(n, capacity, g);
+    follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
+  }
+
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
@@ -140,7 +156,7 @@ class CudaBackend {
   }
 
   void exclusive_scan(const int* in, int* out, int n) {
-    fast::exclusive_scan(current_, scratch_, in, out, n);
+    fast::exclusive_scan(current_, scratch_, recording_ && follows_, in, out, n);
     follows_ = true;
   }
   void sort_pairs(std::uint64_t* keys, int* values, int n) {
