@@ -29,7 +29,8 @@ constexpr int scan_threads = 1024, scan_items = 4, scan_tile = scan_threads * sc
 /// The last block of a short scan reads them all: 2 µs of what a multiprocessor gets from the second-level cache (64 B a cycle).
 constexpr int longest_short_scan = 1 << 16;
 
-// A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two launches, and a detection has three scans.
+// A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two launches, and a detection has three
+// scans.
 __global__ void __launch_bounds__(scan_threads) scan_short(const int* in, int* out, int n) {
   follow_launch();
   using Sums = unsigned long long;  // of what stands before the tile, above; of the tile, in the low half

@@ -88,8 +88,8 @@ class Detection {
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q = *query_radius ≥ r [m] (on the backend),
-  /// γ_p = bound_relaxation. A no-op while *overflow() is set. On the way, to spare launches: before(v) for each vertex, which may read the bounds that end here
-  /// and write nothing that a detection reads; after(0) once overflow() is known.
+  /// γ_p = bound_relaxation. A no-op while *overflow() is set. On the way, to spare launches: before(v) for each vertex, which may read the bounds that end
+  /// here and write nothing that a detection reads; after(0) once overflow() is known.
   template <class Before = Decided, class After = Decided>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation, const Before& before = {},
               const After& after = {}) {
@@ -121,7 +121,8 @@ class Detection {
       backend_.for_each(std::max({surface.vertex_count, surface.edge_count, surface.triangle_count}),
                         KeepAnchor{skin, surface, positions, d_vertex, d_edge, d_triangle});
     }
-    const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow, bound_.data()};
+    const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow,
+                                   bound_.data()};
     lists_.assemble(backend_, positions, contact_radius, surface.vertex_count, bounds, after);
   }
 

@@ -40,8 +40,8 @@ class Lists {
   int capacity() const { return capacity_; }
   int noted_capacity() const { return noted_capacity_; }
 
-  /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other: beside(i) for 0 ≤ i < beside_count with the first
-  /// launch, and after(0) with the last, when overflow() is known.
+  /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other: beside(i) for 0 ≤ i < beside_count with the
+  /// first launch, and after(0) with the last, when overflow() is known.
   template <class Beside, class After>
   void assemble(Backend& backend, const Vec* positions, float contact_radius, int beside_count, const Beside& beside, const After& after) {
     const ListsView lists = view();
