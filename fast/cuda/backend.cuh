@@ -38,6 +38,14 @@ inline constexpr int threads_per_multiprocessor = 2 * 2048;
 /// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md); the bits are the same.
 inline constexpr int serial_lanes_per_multiprocessor = 240;
 
+/// Blocks of a loop's launch that a multiprocessor shall hold at once, as F::resident_blocks says: the compiler then takes no more registers than leave room for
+/// them. 0: as many registers as it likes.
+template <class F>
+constexpr int resident_blocks() {
+  if constexpr (requires { F::resident_blocks; }) return F::resident_blocks;
+  return 0;
+}
+
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   follow_launch();
@@ -46,7 +54,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
 }
 
 template <class F>
-__global__ void __launch_bounds__(cuda_block_size) run_each_counted(const int* n, int capacity, F f) {
+__global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>()) run_each_counted(const int* n, int capacity, F f) {
   follow_launch();
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
   const int count = min(*n, capacity);
@@ -54,7 +62,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_counted(const int* n
 }
 
 template <class F, class G>
-__global__ void __launch_bounds__(cuda_block_size) run_both(int m, F f, const int* n, int capacity, G g) {
+__global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>()) run_both(int m, F f, const int* n, int capacity, G g) {
   follow_launch();
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
   const int count = min(*n, capacity);
@@ -71,9 +79,12 @@ __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const 
   cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
 }
 
+/// Warps of spread teams that a multiprocessor shall hold at once, as resident_blocks; 28 and 32 were tried (fast/PERFORMANCE.md).
+inline constexpr int resident_spread_warps = 0;
+
 /// A block is 32/W teams; a team beyond the last works on the last item and writes nothing.
 template <int W, class F>
-__global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
+__global__ void __launch_bounds__(32 * F::parts, resident_spread_warps / F::parts) run_spread_teams(int n, F f) {
   const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }

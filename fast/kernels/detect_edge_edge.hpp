@@ -93,7 +93,8 @@ struct CollectEdgeEdge {
     const EdgeEnds p = surface.edges[low], q = surface.edges[high];
     const Ends first{positions[p.a], positions[p.b]}, second{positions[q.a], positions[q.b]};
     const EdgePairFeatures on = closest_edge_features(first, second);
-    if (!certain && !is_within(first, second, on, edge_edge_distance(first, second), contact_radius)) return;
+    const auto is_near = [first, second, on, r = contact_radius] { return is_within(first, second, on, edge_edge_distance(first, second), r); };
+    if (!certain && !called(is_near)) return;
     if (is_overlapping_parallel(first, second)) {
       append(surface.edge_face(low), surface.edge_face(high), low, high);
       return;

@@ -97,7 +97,8 @@ struct CollectVertexFacet {
     const Vec x = positions[v];
     const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
     const TriangleFeature feature = closest_feature(x, corners, facet.descending);
-    if (!certain && !is_within(x, corners, feature, point_triangle_distance(x, corners), contact_radius)) return;
+    const auto is_near = [x, corners, feature, r = contact_radius] { return is_within(x, corners, feature, point_triangle_distance(x, corners), r); };
+    if (!certain && !called(is_near)) return;
     if (feature == TriangleFeature::interior) {
       lists.append({v, surface.triangle_face(t), 0, 0});
     } else if (feature <= TriangleFeature::corner_2) {
