@@ -29,6 +29,23 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #endif
 }
 
+/// Whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the last. It then sees what the others wrote before
+/// they came. Only the last acquires: an acquire, as in __threadfence, empties the first-level cache.
+OGC_HD inline bool arrives_last(int* counter, int count) {
+#if defined(__CUDA_ARCH__)
+  int before;
+  asm volatile("atom.add.release.gpu.s32 %0, [%1], 1;" : "=r"(before) : "l"(counter) : "memory");
+  if (before != count - 1) return false;
+  asm volatile("fence.acq_rel.gpu;" ::: "memory");
+  *counter = 0;
+#else
+  std::atomic_ref<int> shared(*counter);
+  if (shared.fetch_add(1, std::memory_order_acq_rel) != count - 1) return false;
+  shared.store(0, std::memory_order_relaxed);
+#endif
+  return true;
+}
+
 /// A value that other threads may be lowering.
 OGC_HD inline float atomic_load(const float* source) {
 #if defined(__CUDA_ARCH__)

@@ -1,6 +1,6 @@
 // A tree of boxes over primitives in the order of a Hilbert curve, four to a node. Level 0 holds the primitives' own boxes, each level above one lane for every node
-// below, so that node j of level l has the children 4j … 4j + 3 of level l − 1 and nothing but the start of each level is stored. A refit needs no
-// atomics; a traversal keeps the lanes that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
+// below, so that node j of level l has the children 4j … 4j + 3 of level l − 1 and nothing but the start of each level is stored. A
+// traversal keeps the lanes that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
 // positions, not inflated: the query brings its radius.
 //
 // Beside its box each lane carries a `reach`: how far its primitives still have to look. A pair matters only if it is nearer than r or could lower the
@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "fast/kernels/atomic.hpp"
 #include "fast/kernels/segment.hpp"
 #include "fast/kernels/skin.hpp"
 #include "fast/kernels/surface.hpp"
@@ -213,10 +214,15 @@ struct Reach {
   }
 };
 
-/// Boxes and gap limits of the reaches of all primitives, and those limits of the vertices; index: places of the facets, of the edges, vertices.
-struct RefitPrimitives {
+/// Nodes of one level, or with level −1 the primitives; one, with empty lanes, where there are none.
+OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
+
+/// Boxes and gap limits of the reaches of all primitives and of the nodes above them, and those limits of the vertices; index: places of the facets, of the
+/// edges, vertices. Whoever completes the 16 children that two levels stand on goes on with these: the whole tree in one launch. Who that is changes no bit.
+struct RefitTrees {
   Reach reach;
   TreeView facets, edges;
+  int *facet_arrivals, *edge_arrivals;  ///< a number for each node, 0 between two launches
   float* vertex_limit;
 
   OGC_HD void operator()(int i) const {
@@ -225,9 +231,11 @@ struct RefitPrimitives {
     if (edge_place < 0) {
       const int t = facets.order[i];
       facets.node(0, i / 4).set(i % 4, facet_box(t), gap_limit(reach.of_facet(t)));
+      climb(facets, facet_arrivals, i);
     } else if (v < 0) {
       const int e = edges.order[edge_place];
       edges.node(0, edge_place / 4).set(edge_place % 4, edge_box(e), gap_limit(reach.of_edge(e)));
+      climb(edges, edge_arrivals, edge_place);
     } else {
       vertex_limit[v] = gap_limit(reach.of_vertex(v));
     }
@@ -245,22 +253,19 @@ struct RefitPrimitives {
     box.include(reach.positions[reach.surface.edges[e].b]);
     return box;
   }
-};
 
-/// Nodes of one level; one, with empty lanes, where there are no primitives.
-OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
+  /// From the lanes of a place up, as far as nobody else is still to come.
+  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j) {
+    for (int level = 1; level < tree.levels; level += 2) {
+      j /= 16;
+      const int children = level_size(tree.count, level - 2) - 16 * j;
+      if (!arrives_last(&arrivals[tree.start[level] + j], children < 16 ? children : 16)) return;
+      refit_node(tree, level, j);
+    }
+  }
 
-/// Given the lanes of level `level` − 1, those of `level` and of the one above: two levels a launch. Index: nodes of `level`, facets' tree first.
-struct RefitInner {
-  TreeView facets, edges;
-  int level, facet_nodes;
-  const SkinState* skin;  ///< as in Reach
-
-  OGC_HD void operator()(int i) const {
-    if (!needs_trees(skin)) return;
-    const bool is_facet = i < facet_nodes;
-    const TreeView& tree = is_facet ? facets : edges;
-    const int j = is_facet ? i : i - facet_nodes;
+  /// Given the lanes of level `level` − 1, those of node j of `level` and its own lane of the one above.
+  OGC_HD static void refit_node(const TreeView& tree, int level, int j) {
     Quad& quad = tree.node(level, j);
     const int below = level_size(tree.count, level - 1);
     for (int lane = 0; lane < 4 && 4 * j + lane < below; ++lane) {

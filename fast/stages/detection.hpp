@@ -57,7 +57,7 @@ struct PrepareDetection {
 template <class Before>
 struct PrepareAndRefit {
   PrepareDetection<Before> prepare;
-  RefitPrimitives refit;
+  RefitTrees refit;
   int primitives;
 
   OGC_HD void operator()(int i) const {
@@ -102,7 +102,7 @@ class Detection {
                                            {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex,
                                             d_edge, d_triangle}};
     const int items = std::max(lists.buckets, surface.triangle_count), primitives = bvh_.primitive_count();
-    const RefitPrimitives refit = bvh_.primitives(positions, query_radius, skin);
+    const RefitTrees refit = bvh_.refit(positions, query_radius, skin);
     if (skin_.is_used()) {
       backend_.for_each(items, prepare);
       backend_.for_each(surface.vertex_count, MeasureDrift{skin, positions, lists.overflow});
@@ -111,7 +111,6 @@ class Detection {
     } else {
       backend_.for_each(std::max(items, primitives), PrepareAndRefit<Before>{prepare, refit, primitives});
     }
-    bvh_.refit_nodes(backend_, skin);
     const DetectVertexFacet vertex_facet{surface, positions, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
                                          d_vertex, d_triangle};
     const DetectEdgeEdge edge_edge{surface, positions, bvh_.edges(), lists, skin, contact_radius, d_edge};
