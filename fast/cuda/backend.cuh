@@ -79,12 +79,9 @@ __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const 
   cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
 }
 
-/// Warps of spread teams that a multiprocessor shall hold at once, as resident_blocks; 28 and 32 were tried (fast/PERFORMANCE.md).
-inline constexpr int resident_spread_warps = 0;
-
 /// A block is 32/W teams; a team beyond the last works on the last item and writes nothing.
 template <int W, class F>
-__global__ void __launch_bounds__(32 * F::parts, resident_spread_warps / F::parts) run_spread_teams(int n, F f) {
+__global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }

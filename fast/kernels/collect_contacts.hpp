@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// Index over the noted pairs.
 struct CollectContacts {
-  static constexpr int resident_blocks = 6;  ///< 80 registers (fast/PERFORMANCE.md)
+  static constexpr int resident_blocks = 4;  ///< 128 registers; 6 spill more than more warps win (fast/PERFORMANCE.md)
   CollectVertexFacet vertex_facet;
   CollectEdgeEdge edge_edge;
 
