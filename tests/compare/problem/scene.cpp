@@ -96,6 +96,35 @@ TEST_CASE("after its end a motion stands still", "[unit]") {
   CHECK(prescribed_targets(scene, motion, 0.75) != prescribed_targets(scene, motion, 0.5));
 }
 
+TEST_CASE("keyframes are met exactly, with straight lines between them and rest before and after", "[unit]") {
+  const Scene scene = small_scene();
+  PrescribedMotion motion;
+  motion.vertices = {2, 0};
+  motion.keyframes = {{0.25, 0.5, 1.5}, {{0.1f, 0, 0}, {0, 1, 0}, {0.3f, 0, 0}, {0, 3, 0}, {0.3f, 2, 0}, {0, 3, -4}}};
+  const auto at = [&](double t) { return prescribed_targets(scene, motion, t); };
+  using Targets = std::vector<Vec3f>;
+  for (const double t : {-1.0, 0.0, 0.25}) CHECK(at(t) == Targets{{0.1f, 0, 0}, {0, 1, 0}});
+  CHECK(at(0.5) == Targets{{0.3f, 0, 0}, {0, 3, 0}});
+  for (const double t : {1.5, 9.0}) CHECK(at(t) == Targets{{0.3f, 2, 0}, {0, 3, -4}});
+  CHECK(at(0.75) == Targets{{0.3f, 0.5f, 0}, {0, 3, -1}});
+  CHECK(at(0.375)[1] == Vec3f{0, 2, 0});
+}
+
+TEST_CASE("a stitch is a spring of no length, and what it joins is no contact", "[unit]") {
+  Scene scene = small_scene();
+  add_stitch(scene, 0, 4, 5, 0.25, 100);
+  add_stitch(scene, 1, 4, 6, 0, 100);
+  add_stitch(scene, 3, 4, 6, 1, 100);
+  CHECK(scene.springs == std::vector<Spring>{{0, 4, 100, 0, 0, 5, 0.25}, {1, 4, 100}, {3, 6, 100}});
+  CHECK(scene.excluded_pairs == std::vector<std::array<Index, 2>>{{0, 4}, {0, 5}, {1, 4}, {3, 6}});
+  const CompressedRows partners = exclusions(scene).partners;
+  REQUIRE(partners.rows() == 7);
+  CHECK(std::vector<Index>(partners[0].begin(), partners[0].end()) == std::vector<Index>{4, 5});
+  CHECK(std::vector<Index>(partners[4].begin(), partners[4].end()) == std::vector<Index>{0, 1});
+  CHECK(partners[2].empty());
+  CHECK(exclusions(small_scene()).partners.rows() == 0);
+}
+
 TEST_CASE("a quarter turn follows the right-hand rule about the centre, and translation adds up", "[unit]") {
   Scene scene = small_scene();
   scene.mesh.positions[0] = {0.5, 0.25, 0};
