@@ -22,7 +22,7 @@
 #include <stdint.h>
 
 /* Of this interface. A library built for a newer one is refused by name. */
-#define OGC_PLUGIN_VERSION 3
+#define OGC_PLUGIN_VERSION 4
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1
@@ -130,6 +130,7 @@ enum { OGC_FACE_VERTEX, OGC_FACE_EDGE, OGC_FACE_TRIANGLE };
 typedef struct ogc_detect_in {
   ogc_topology topology;
   const int32_t* rigid_groups; /* [vertex_count] a pair whose vertices all carry one number >= 0 is left out */
+  ogc_rows excluded_partners;  /* rows by vertex, nearly all empty: a pair is left out where a vertex of one side stands in the row of one of the other */
   const ogc_vec3* positions;   /* [vertex_count] */
   float contact_radius;        /* r */
   float query_radius;          /* r_q >= r */
@@ -247,8 +248,10 @@ typedef struct ogc_bending_in {
 } ogc_bending_in;
 
 typedef struct ogc_spring_case {
-  ogc_vec3 vertex[2], start[2]; /* asked about vertex 0 */
+  ogc_vec3 vertex[3], start[3];
   float stiffness, rest_length, damping;
+  float ratio; /* s: between vertex 0 and the point (1 - s) vertex 1 + s vertex 2; 0: vertex 2 is not read */
+  int32_t own; /* which vertex is asked about */
   int64_t damping_form;
 } ogc_spring_case;
 
@@ -359,8 +362,8 @@ typedef struct ogc_body {
 } ogc_body;
 
 typedef struct ogc_scene_spring {
-  int32_t vertex[2];
-  float stiffness, rest_length, damping;
+  int32_t vertex[3]; /* the last is -1 where ratio is 0 */
+  float stiffness, rest_length, damping, ratio;
 } ogc_scene_spring;
 
 /* As in compare/problem/settings.hpp. */
@@ -379,6 +382,7 @@ typedef struct ogc_scene {
   const ogc_scene_spring* springs; /* [spring_count] */
   const ogc_vec3* rest_positions;  /* [vertex_count] */
   const int32_t* rigid_groups;     /* [vertex_count] -1: free; 0: fixed; k >= 1: prescribed, by the k-th motion */
+  ogc_rows excluded_partners;      /* as in ogc_detect_in */
   ogc_settings settings;
   ogc_vec3 gravity;
 } ogc_scene;

@@ -41,21 +41,21 @@ std::vector<std::string> body_names(const compare::Scene& scene) {
 
 StateJudge::StateJudge(const compare::Scene& scene)
     : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges)),
-      groups_(compare::rigid_groups(scene)),
+      exclusions_(compare::exclusions(scene)),
       bodies_(body_names(scene)),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
 
 compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions) const {
-  return compare::audit(topology_, compare::to_double(positions), groups_);
+  return compare::audit(topology_, compare::to_double(positions), exclusions_);
 }
 
 compare::SmallestDistances StateJudge::smallest_distances(const std::vector<compare::Vec3f>& positions) const {
-  return compare::smallest_distances(topology_, compare::to_double(positions), groups_);
+  return compare::smallest_distances(topology_, compare::to_double(positions), exclusions_);
 }
 
 std::vector<float> StateJudge::exact_bounds(const compare::Snapshot& snapshot) const {
-  const compare::DetectIn in{&topology_, groups_, snapshot.previous, contact_radius_, snapshot.query_radius};
+  const compare::DetectIn in{&topology_, exclusions_, snapshot.previous, contact_radius_, snapshot.query_radius};
   return reference::exact_bounds(in, bound_relaxation_);
 }
 

@@ -56,7 +56,7 @@ class StateJudge {
  private:
   std::vector<float> exact_bounds(const compare::Snapshot& snapshot) const;
   compare::Topology topology_;
-  std::vector<compare::Index> groups_;
+  compare::Exclusions exclusions_;
   std::vector<std::string> bodies_;
   float contact_radius_, bound_relaxation_;
 };

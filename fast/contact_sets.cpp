@@ -41,10 +41,10 @@ void check(const ContactQuery& query) {
   }
 }
 
-std::unique_ptr<ContactEngine> make_engine(Backend backend, const compare::Topology& topology, std::span<const compare::Index> rigid_groups) {
-  if (backend == Backend::cpu) return cpu_contact_engine(topology, rigid_groups);
+std::unique_ptr<ContactEngine> make_engine(Backend backend, const compare::Topology& topology, const compare::ExclusionView& exclusions) {
+  if (backend == Backend::cpu) return cpu_contact_engine(topology, exclusions);
 #if defined(OGC_HAS_CUDA)
-  return cuda_contact_engine(topology, rigid_groups);
+  return cuda_contact_engine(topology, exclusions);
 #else
   throw compare::ResourceError("ContactFinder: " + backend_info(Backend::cuda).description + ", or ask for Backend::cpu");
 #endif
@@ -53,15 +53,18 @@ std::unique_ptr<ContactEngine> make_engine(Backend backend, const compare::Topol
 }  // namespace
 
 ContactFinder::ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles, std::span<const compare::Edge> loose_edges,
-                             Backend backend, std::span<const compare::Index> rigid_groups) {
+                             Backend backend, const compare::ExclusionView& exclusions) {
   check_primitives(triangles, vertex_count, "triangle");
   check_primitives(loose_edges, vertex_count, "loose edge");
-  if (!rigid_groups.empty() && rigid_groups.size() != static_cast<std::size_t>(vertex_count)) {
-    throw compare::InputError("rigid_groups has " + std::to_string(rigid_groups.size()) + " entries for " + std::to_string(vertex_count) +
-                              " vertices: give one for each, or none at all");
-  }
+  const auto check_rows = [&](const char* what, std::size_t rows) {
+    if (rows != 0 && rows != static_cast<std::size_t>(vertex_count))
+      throw compare::InputError(std::string(what) + " has " + std::to_string(rows) + " entries for " + std::to_string(vertex_count) +
+                                " vertices: give one for each, or none at all");
+  };
+  check_rows("exclusions: groups", exclusions.groups.size());
+  if (exclusions.partners != nullptr) check_rows("exclusions: partners", exclusions.partners->rows());
   topology_ = std::make_unique<const compare::Topology>(compare::build_topology(vertex_count, triangles, loose_edges));
-  engine_ = make_engine(backend, *topology_, rigid_groups);
+  engine_ = make_engine(backend, *topology_, exclusions);
 }
 
 ContactSets ContactFinder::find(std::span<const compare::Vec3f> positions, const ContactQuery& query) {

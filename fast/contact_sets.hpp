@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/exclusions.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
 #include "fast/contact_view.hpp"
@@ -45,10 +45,10 @@ class ContactEngine {
 /// One mesh, any number of positions. Not for use by several threads at a time.
 class ContactFinder {
  public:
-  /// `rigid_groups`: one number for each vertex; pairs whose vertices all carry one number ≥ 0 are left out; empty: none. Throws compare::InputError
+  /// `exclusions`: pairs that are left out, by groups of vertices and by partners; a vector of numbers, one for each vertex, are groups. Throws compare::InputError
   /// where an index is out of range or repeated, compare::ResourceError as `contestant(backend)`.
   ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles, std::span<const compare::Edge> loose_edges = {},
-                Backend backend = Backend::cpu, std::span<const compare::Index> rigid_groups = {});
+                Backend backend = Backend::cpu, const compare::ExclusionView& exclusions = {});
 
   /// Names of edges and adjacency.
   const compare::Topology& topology() const { return *topology_; }

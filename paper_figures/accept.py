@@ -91,14 +91,18 @@ def left_out(folder):
         yield from (next(text for key, text in row.items() if text and key not in ("status", "commit")) for row in rows)
 
 
-def pieces(recipe, scale, backend, runs):
-    """(name in results, bytes) of what is kept of a figure."""
+def pieces(recipe, scale, backend, runs, incomplete=False):
+    """(name in results, bytes) of what is kept of a figure; `incomplete`: it may lack its movie, which too few frames were brought home for."""
     folder, picture = runs / recipe.folder(scale, backend), runs / recipe.picture(scale, backend)
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
     if "illustration" in recipe.body:
         return [(picture.name, picture.read_bytes()), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
-    found = [(f"{recipe.name}_{scale}{Path(path).suffix}", (runs / path).read_bytes()) for path in recipe.outputs(scale, backend)]
+    outputs = [runs / path for path in recipe.outputs(scale, backend)]
+    missing = [path for path in outputs if not path.is_file()]
+    if missing and not incomplete:
+        raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, or keep the figure without it by --incomplete")
+    found = [(f"{recipe.name}_{scale}{path.suffix}", path.read_bytes()) for path in outputs if path not in missing]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = sorted(folder.rglob("run.json"))
@@ -135,7 +139,7 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
         if missing:
             raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
         words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
-        for name, data in pieces(recipe, scale, backend, Path(runs)):
+        for name, data in pieces(recipe, scale, backend, Path(runs), incomplete):
             if len(data) > LARGEST:
                 raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
@@ -197,7 +201,7 @@ def main():
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
     parser.add_argument("--redo", metavar="COMMAND", help="that makes the figure again, where the workflow's does not (options of its script)")
-    parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without")
+    parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without, or that has no movie")
     options = parser.parse_args()
     try:
         chosen = recipes.choose(options.figures, recipes.load(), options.backend)

@@ -2,7 +2,7 @@
 
 from paper_figures.common import main
 
-CAMERA = ((1.7, 0.9, 2.3), (-0.1, -0.1, 0), (0, 1, 0))
+CAMERA = ((2.05, 1.05, 2.65), (0.05, -0.2, 0.12), (0, 1, 0))
 
 if __name__ == "__main__":
     main("fifty_layers", frames=(0, 1600, 3200, 4800), camera=CAMERA)

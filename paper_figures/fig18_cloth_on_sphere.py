@@ -2,7 +2,7 @@
 
 from paper_figures.common import main
 
-CAMERA = ((1.2, 0.72, 1.45), (-0.08, -0.06, 0.0), (0, 1, 0))
+CAMERA = ((1.34, 0.8, 1.62), (-0.05, -0.06, 0.0), (0, 1, 0))
 
 if __name__ == "__main__":
     main("cloth_on_sphere", frames=(0, 25, 50, 75), camera=CAMERA)

@@ -170,11 +170,13 @@ def program_stamp(runs, ogc):
 
 
 def seconds_of(recipe, scale, backend, runs):
-    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that found them done was quick."""
-    logs = [runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc")]
-    if not all(log.is_file() for log in logs):
+    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that found them done was quick. Runs that were brought
+    from a machine where there was no workflow (device_runs) have no logs of steps: what they took alone."""
+    logs = [log for log in (runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc")) if log.is_file()]
+    of_runs = sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json")))
+    if 0 < len(logs) < len(steps(recipe, scale, backend, "ogc")) or not (logs or of_runs):
         return None
-    return max(sum(json.loads(log.read_text())["seconds"] for log in logs), sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json"))))
+    return max(sum(json.loads(log.read_text())["seconds"] for log in logs), of_runs)
 
 
 def seconds_of_run(path):

@@ -73,11 +73,15 @@ def draw_contacts(axes, run):
 
 
 def draw_distance(axes, run):
-    radius = run.setting("contact_radius")
-    axes.plot(run.column("step"), 1e3 * run.column("smallest_distance"), label="smallest distance (never above the exact one)")
+    radius, distance = run.setting("contact_radius"), run.column("smallest_distance")
+    axes.plot(run.column("step"), 1e3 * distance, label="smallest distance (never above the exact one)")
     axes.axhline(1e3 * radius, color="black", linestyle="--", linewidth=0.8, label=f"contact radius r = {1e3 * radius:g} mm")
     axes.axhline(5e2 * radius, color="black", linestyle=":", linewidth=0.8, label="τ = r/2")
-    axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance of non-adjacent primitives", ylim=(0, None))
+    axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance of non-adjacent primitives")
+    if 0 < distance.min() < radius / 100:  # on a linear axis it would look like an intersection
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(0, None)
     axes.legend()
 
 

@@ -19,6 +19,8 @@ void add_spring(Random& random, const std::vector<Index>& groups, Scene& scene) 
   Spring spring{first, second, random.magnitude(-1, 2), 0, 0};
   if (!random.one_in(3)) spring.rest_length = std::max(0x1p-19, length * random.between(0.5, 1.5));
   if (random.one_in(2)) spring.damping = random.magnitude(-4, -2);
+  const Index third = random.below(count);
+  if (random.one_in(2) && third != first && third != second) spring.third = third, spring.ratio = random.one_in(4) ? 0.5 : random.unit();
   scene.springs.push_back(spring);
 }
 
@@ -33,6 +35,12 @@ void choose_models(Random& random, Scene& scene) {
   }
   const std::vector<Index> groups = rigid_groups(scene);
   for (int springs = random.below(4); springs > 0; --springs) add_spring(random, groups, scene);
+  if (random.one_in(2)) {
+    for (const Spring& spring : scene.springs) {
+      scene.excluded_pairs.push_back({spring.first, spring.second});
+      if (spring.third >= 0) scene.excluded_pairs.push_back({spring.first, spring.third});
+    }
+  }
   round_to_single(scene);
 }
 

@@ -56,6 +56,7 @@ struct MeshCase {
   std::vector<Index> rigid_groups;
   std::vector<Vec3f> positions;
   float contact_radius = 0, query_radius = 0;
+  CompressedRows partners{};  ///< as in Exclusions
 };
 
 struct BoundCase {

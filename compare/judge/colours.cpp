@@ -15,7 +15,12 @@ std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topol
   };
   for (const Edge& e : topology.edges) join(e[0], e[1]);
   for (const Hinge& hinge : topology.hinges) join(hinge.opposite[0], hinge.opposite[1]);
-  for (const Spring& spring : scene.springs) join(spring.first, spring.second);
+  for (const Spring& spring : scene.springs) {
+    join(spring.first, spring.second);
+    if (spring.third < 0) continue;
+    join(spring.first, spring.third);
+    join(spring.second, spring.third);
+  }
   return near;
 }
 

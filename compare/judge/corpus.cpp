@@ -19,12 +19,21 @@ namespace ogc::compare {
 
 namespace {
 
+std::vector<std::array<Index, 2>> to_pairs(const Json& json, std::size_t count) {
+  const auto pairs = json.get<std::vector<std::array<Index, 2>>>();
+  for (const auto& [a, b] : pairs)
+    if (std::min(a, b) < 0 || static_cast<std::size_t>(std::max(a, b)) >= count || a == b) throw InputError("excluded_pairs need two vertices each");
+  return pairs;
+}
+
 struct ToJson {
   Json operator()(const ClosestFaceCase& c) const { return {{"point", to_json(c.point)}, {"triangle", points_to_json(c.triangle)}}; }
   Json operator()(const ClosestPointsCase& c) const { return {{"first", points_to_json(c.first)}, {"second", points_to_json(c.second)}}; }
   Json operator()(const MeshCase& c) const {
-    return {{"mesh", topology_to_json(*c.topology)}, {"rigid_groups", c.rigid_groups}, {"positions", points_to_json(c.positions)},
-            {"contact_radius", hexadecimal(c.contact_radius)}, {"query_radius", hexadecimal(c.query_radius)}};
+    Json json{{"mesh", topology_to_json(*c.topology)}, {"rigid_groups", c.rigid_groups}, {"positions", points_to_json(c.positions)},
+              {"contact_radius", hexadecimal(c.contact_radius)}, {"query_radius", hexadecimal(c.query_radius)}};
+    if (c.partners.rows() > 0) json["excluded_pairs"] = pairs_of(c.partners);
+    return json;
   }
   Json operator()(const BoundCase& c) const {
     return {{"mesh", topology_to_json(*c.topology)}, {"d_min_vertex", numbers_to_json(c.d_min_vertex)}, {"d_min_edge", numbers_to_json(c.d_min_edge)},
@@ -54,6 +63,7 @@ MeshCase to_mesh_case(const Json& data) {
   for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
   const auto count = static_cast<std::size_t>(c.topology->vertex_count);
   if (c.positions.size() != count || c.rigid_groups.size() != count) throw InputError("positions and rigid_groups need one entry a vertex");
+  if (data.contains("excluded_pairs")) c.partners = partner_rows(count, to_pairs(data.at("excluded_pairs"), count));
   return c;
 }
 

@@ -48,6 +48,8 @@ void visit_members(Case& c, Visit visit) {
   visit("stiffness", c.stiffness);
   visit("rest_length", c.rest_length);
   visit("damping", c.damping);
+  visit("ratio", c.ratio);
+  visit("own", c.own);
   visit("damping_form", c.damping_form);
 }
 
@@ -147,6 +149,11 @@ ContactForceCase checked(ContactForceCase c) {
   check_own(c);
   return c;
 }
+SpringCase checked(SpringCase c) {
+  if (!(c.ratio >= 0 && c.ratio <= 1)) throw InputError("ratio: give a number from 0 to 1");
+  if (c.own < 0 || c.own > (c.ratio > 0 ? 2 : 1)) throw InputError("own: " + std::to_string(c.own) + " is not a vertex of the spring");
+  return c;
+}
 FrictionForceCase checked(FrictionForceCase c) {
   check_own(c.contact);
   return c;
@@ -165,7 +172,7 @@ CaseData to_force_case(Stage stage, const Json& data) {
     case Stage::contact_force: return checked(read<ContactForceCase>(data));
     case Stage::friction_force: return checked(read<FrictionForceCase>(data));
     case Stage::membrane: return read<MembraneCase>(data);
-    case Stage::spring: return read<SpringCase>(data);
+    case Stage::spring: return checked(read<SpringCase>(data));
     default: return read<BendingCase>(data);
   }
 }

@@ -57,19 +57,32 @@ Body to_body(const Json& json) {
 }
 
 Json motion_to_json(const PrescribedMotion& motion) {
-  return {{"name", motion.name}, {"vertices", motion.vertices}, {"centre", to_json(motion.centre)}, {"axis", to_json(motion.axis)},
-          {"angular_velocity", motion.angular_velocity}, {"velocity", to_json(motion.velocity)}, {"start", motion.start}, {"end", motion.end}};
+  Json json{{"name", motion.name}, {"vertices", motion.vertices}, {"centre", to_json(motion.centre)}, {"axis", to_json(motion.axis)},
+            {"angular_velocity", motion.angular_velocity}, {"velocity", to_json(motion.velocity)}, {"start", motion.start}, {"end", motion.end}};
+  if (!motion.keyframes.empty()) json["keyframes"] = {{"times", motion.keyframes.times}, {"positions", points_to_json(motion.keyframes.positions)}};
+  return json;
 }
 
 PrescribedMotion to_motion(const Json& json) {
-  return {json.at("name").get<std::string>(), json.at("vertices").get<std::vector<Index>>(), to_vector(json.at("centre")), to_vector(json.at("axis")),
-          json.at("angular_velocity").get<double>(), to_vector(json.at("velocity")), json.at("start").get<double>(), json.at("end").get<double>()};
+  PrescribedMotion motion{json.at("name").get<std::string>(), json.at("vertices").get<std::vector<Index>>(), to_vector(json.at("centre")),
+                          to_vector(json.at("axis")), json.at("angular_velocity").get<double>(), to_vector(json.at("velocity")), json.at("start").get<double>(),
+                          json.at("end").get<double>(), {}};
+  if (!json.contains("keyframes")) return motion;
+  motion.keyframes.times = json.at("keyframes").at("times").get<std::vector<double>>();
+  for (const Json& p : json.at("keyframes").at("positions")) motion.keyframes.positions.push_back(to_point(p));
+  return motion;
 }
 
-Json spring_to_json(const Spring& s) { return {s.first, s.second, s.stiffness, s.rest_length, s.damping}; }
+Json spring_to_json(const Spring& s) {
+  Json json{s.first, s.second, s.stiffness, s.rest_length, s.damping};
+  if (s.third >= 0) json.push_back(s.third), json.push_back(s.ratio);
+  return json;
+}
 
 Spring to_spring(const Json& json) {
-  return {json.at(0).get<Index>(), json.at(1).get<Index>(), json.at(2).get<double>(), json.at(3).get<double>(), json.at(4).get<double>()};
+  Spring spring{json.at(0).get<Index>(), json.at(1).get<Index>(), json.at(2).get<double>(), json.at(3).get<double>(), json.at(4).get<double>()};
+  if (json.size() > 5) spring.third = json.at(5).get<Index>(), spring.ratio = json.at(6).get<double>();
+  return spring;
 }
 
 std::vector<Vec3f> to_vertices(const Json& json, std::size_t count) {
@@ -88,6 +101,7 @@ Json scene_to_json(const Scene& scene) {
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_to_json(body));
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_to_json(motion));
   for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
+  if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = scene.excluded_pairs;
   for (const SettingInfo& info : setting_table()) json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
   return json;
 }
@@ -101,6 +115,7 @@ Scene to_scene(const Json& json) {
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));
   for (const Json& motion : json.at("motions")) scene.motions.push_back(to_motion(motion));
   for (const Json& spring : json.at("springs")) scene.springs.push_back(to_spring(spring));
+  if (json.contains("excluded_pairs")) scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
   scene.gravity = to_vector(json.at("gravity"));
   for (const auto& [name, value] : json.at("settings").items()) set_setting(scene.settings, name, value.get<std::string>());
   round_to_single(scene);

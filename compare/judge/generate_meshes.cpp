@@ -204,6 +204,30 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
+/// Two or three sheets whose borders are stitched, vertex to vertex or to an edge: beside a seam pairs are left out, at its ends and behind it they are not.
+CaseData seams(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-2, 0);
+  const int columns = 1 + random.below(4), sheets = 2 + random.below(2);
+  const bool beside = random.one_in(2), shifted = random.one_in(2);  // side by side, or one upon the other
+  std::vector<Index> first;
+  for (int k = 0; k < sheets; ++k) {
+    first.push_back(static_cast<Index>(builder.points.size()));
+    const double shift = shifted ? 0.5 * k : 0;
+    const Vec3 origin = beside ? Vec3{shift, k * (2 + gap), 0} : Vec3{shift, 0, k * gap};
+    builder.grid(columns, 2, origin, {1, 0, 0}, {0, 1, 0});
+  }
+  for (int k = 0; k + 1 < sheets; ++k) {
+    const Index own = first[static_cast<std::size_t>(k)] + (beside ? 2 * (columns + 1) : 0), other = first[static_cast<std::size_t>(k) + 1];
+    for (int i = 0; i <= columns; ++i) {
+      if (random.one_in(6)) continue;  // a hole in the seam
+      builder.excluded.push_back({own + i, other + i});
+      if (shifted && i > 0) builder.excluded.push_back({own + i, other + i - 1});
+    }
+  }
+  return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
+}
+
 /// Next to a boundary: arrangements whose radius just reaches, jittered by their last digits at most. In a stack that is so for nearly every vertex and edge.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
@@ -225,7 +249,7 @@ CaseData field(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-constexpr std::array<Generator, 16> table{{{"soup", 20, true, soup},
+constexpr std::array<Generator, 17> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
                                            {"large", 600, true, large, large_run},
@@ -239,6 +263,7 @@ constexpr std::array<Generator, 16> table{{{"soup", 20, true, soup},
                                            {"ladder.book", 4, false, book},
                                            {"ladder.strands", 4, false, strands},
                                            {"ladder.groups", 4, false, groups},
+                                           {"ladder.seams", 5, false, seams},
                                            {"ladder.boundary", 450, false, boundary},
                                            {"ladder.field", 15000, false, field, large_run}}};
 

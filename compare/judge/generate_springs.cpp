@@ -1,4 +1,5 @@
-// Cases of spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the spring, which damping does not see.
+// Cases of spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the spring, which damping does not see; seams, to
+// those between a vertex and a point of an edge, with the point at its ends too.
 #include <array>
 #include <cmath>
 
@@ -24,6 +25,28 @@ CaseData spring_case(Random& random, double length, double before, double rest_l
     question.vertex[k] = single(points[k]);
     question.start[k] = single(points[2 + k]);
   }
+  question.stiffness = static_cast<float>(random.magnitude(-2, 5));
+  question.rest_length = static_cast<float>(rest_length);
+  question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
+  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
+  return question;
+}
+
+/// An edge along y whose point at `ratio` is the origin, and a vertex at `length` from there.
+CaseData seam_case(Random& random, double edge, double ratio, double length, double before, double rest_length, bool turned) {
+  std::array<Vec3, 6> points{Vec3{length, 0, 0}, Vec3{0, -ratio * edge, 0}, Vec3{0, (1 - ratio) * edge, 0}, {}, {}, {}};
+  for (std::size_t k = 0; k < 3; ++k) points[3 + k] = points[k];
+  points[3].x = before;
+  if (random.one_in(2)) points[4] = sum(points[4], scaled(in_box(random, -1, 1), 0.1 * edge));
+  permute(random, points);
+  if (turned) rotate(random, points);
+  SpringCase question;
+  for (std::size_t k = 0; k < 3; ++k) {
+    question.vertex[k] = single(points[k]);
+    question.start[k] = single(points[3 + k]);
+  }
+  question.ratio = static_cast<float>(ratio);
+  question.own = random.below(question.ratio > 0 ? 3 : 2);
   question.stiffness = static_cast<float>(random.magnitude(-2, 5));
   question.rest_length = static_cast<float>(rest_length);
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
@@ -75,12 +98,34 @@ CaseData stitch(Random& random) {
   return spring_case(random, size * random.rung(), size * random.rung(), 0);
 }
 
-constexpr std::array<Generator, 6> table{{{"uniform", 40, true, uniform},
+/// Of any shape, open or nearly closed.
+CaseData seam(Random& random) {
+  const double edge = some_length(random), length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : random.rung());
+  return seam_case(random, edge, random.unit(), length, length * random.between(0.5, 2), random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
+}
+
+/// The point at an end of the edge or in its middle, without a rounding, closed or not.
+CaseData seam_lattice(Random& random) {
+  const double edge = std::ldexp(1.0, random.below(9) - 8);
+  const double ratio = 0.25 * random.below(5);
+  return seam_case(random, edge, ratio, edge * random.below(3), edge * random.below(3), edge * random.below(2), false);
+}
+
+/// s → 0 and s → 1.
+CaseData seam_end(Random& random) {
+  const double edge = some_length(random), rung = std::abs(random.rung());
+  return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0), edge, 0, random.one_in(2));
+}
+
+constexpr std::array<Generator, 9> table{{{"uniform", 40, true, uniform},
                                           {"bits", 15, false, bits},
                                           {"lattice", 15, false, lattice},
                                           {"ladder.rest", 20, false, at_rest},
                                           {"ladder.zero", 15, false, at_zero},
-                                          {"ladder.stitch", 10, false, stitch}}};
+                                          {"ladder.stitch", 10, false, stitch},
+                                          {"seam", 25, true, seam},
+                                          {"seam.lattice", 10, false, seam_lattice},
+                                          {"ladder.seam", 15, false, seam_end}}};
 
 }  // namespace
 

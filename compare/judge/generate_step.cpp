@@ -94,6 +94,8 @@ struct StepBuilder {
     all.insert(all.end(), scene.velocities.begin(), scene.velocities.end());
     all.push_back(scene.gravity);
     for (const PrescribedMotion& motion : scene.motions) all.insert(all.end(), {motion.centre, motion.velocity});
+    for (const PrescribedMotion& motion : scene.motions)
+      for (const Vec3f& p : motion.keyframes.positions) all.push_back({p.x, p.y, p.z});
     permute(random, all);
     const auto part = [&](std::size_t k) {
       const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * n);
@@ -105,6 +107,9 @@ struct StepBuilder {
       scene.motions[k].centre = all[3 * n + 1 + 2 * k];
       scene.motions[k].velocity = all[3 * n + 2 + 2 * k];
     }
+    auto next = all.begin() + static_cast<std::ptrdiff_t>(3 * n + 1 + 2 * scene.motions.size());
+    for (PrescribedMotion& motion : scene.motions)
+      for (Vec3f& p : motion.keyframes.positions) p = single(*next++);
     round_to_single(scene);
     return StepCase{std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
   }
@@ -147,6 +152,21 @@ CaseData collide(Random& random) {
 }
 
 /// One row of a sheet is carried off, turned, or both; now and then it starts or ends within the step.
+/// The same vertices, each on a way of its own; the step ends between two keyframes, at one, or behind the last.
+PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
+  const double h = builder.scene.settings.time_step;
+  PrescribedMotion motion;
+  motion.name = like.name;
+  motion.vertices = like.vertices;
+  motion.keyframes.times = {random.one_in(2) ? 0.0 : -h, h * (random.one_in(3) ? 1.0 : random.between(0.2, 0.9))};
+  if (random.one_in(2)) motion.keyframes.times.push_back(2 * h);
+  const double apart = builder.spacing * random.magnitude(-2, 0);
+  for (std::size_t frame = 0; frame < motion.keyframes.times.size(); ++frame)
+    for (const Index v : motion.vertices)
+      motion.keyframes.positions.push_back(single(sum(builder.scene.mesh.positions[static_cast<std::size_t>(v)], in_box(random, -apart, apart))));
+  return motion;
+}
+
 CaseData handle(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random);
@@ -162,6 +182,7 @@ CaseData handle(Random& random) {
   motion.axis = direction(random);
   if (random.one_in(4)) motion.start = 0.5 * h;
   if (random.one_in(4)) motion.end = 0.75 * h;
+  if (random.one_in(3)) motion = keyframed(random, builder, motion);
   builder.scene.motions.push_back(motion);
   return builder.finish();
 }

@@ -74,6 +74,7 @@ void relabel(Random& random, MeshBuilder& builder) {
   for (std::size_t i = builder.triangles.size(); i > 1; --i)
     std::swap(builder.triangles[i - 1], builder.triangles[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
   for (Edge& e : builder.loose_edges) e = {std::min(to[e[0]], to[e[1]]), std::max(to[e[0]], to[e[1]])};
+  for (auto& [a, b] : builder.excluded) a = to[a], b = to[b];
   builder.points = std::move(points);
   builder.groups = std::move(groups);
 }
@@ -98,6 +99,7 @@ MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan) {
   MeshCase mesh;
   mesh.topology = std::make_shared<Topology>(build_topology(static_cast<Index>(builder.points.size()), builder.triangles, builder.loose_edges));
   mesh.rigid_groups = std::move(builder.groups);
+  mesh.partners = partner_rows(builder.points.size(), builder.excluded);
   for (const Vec3& p : builder.points) mesh.positions.push_back(single(scaled(p, scale)));
   mesh.contact_radius = static_cast<float>(radius * scale);
   mesh.query_radius = std::max(mesh.contact_radius, static_cast<float>(radius * scale * (random.one_in(4) ? 1 : random.between(1, 4))));

@@ -12,7 +12,8 @@ struct MeshBuilder {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::vector<Edge> loose_edges;
-  std::vector<Index> groups;  ///< as in DetectIn; filled with -1 where it is short
+  std::vector<Index> groups;  ///< as in Exclusions; filled with -1 where it is short
+  std::vector<std::array<Index, 2>> excluded;
 
   Index add(const Vec3& point);
   /// (nx + 1) × (ny + 1) vertices at origin + i u + j v, two triangles a cell.

@@ -69,6 +69,9 @@ TestCase renumbered(const TestCase& test, const Renumbering& to) {
     mesh->topology = to.topology();
     mesh->rigid_groups = to.by_vertex(mesh->rigid_groups);
     mesh->positions = to.by_vertex(mesh->positions);
+    auto pairs = pairs_of(mesh->partners);
+    for (auto& [a, b] : pairs) a = to.vertex(a), b = to.vertex(b);
+    mesh->partners = partner_rows(mesh->positions.size(), pairs);
   } else {
     auto& bound = std::get<BoundCase>(other.data);
     bound.topology = to.topology();

@@ -74,7 +74,8 @@ struct Builder {
   void operator()(const SpringCase& c) {
     add_all(c.vertex);
     shape.lines = {{0, 1}};
-    shape.dots.push_back(0);
+    if (c.ratio > 0) shape.lines.push_back({1, 2});
+    shape.dots.push_back(c.own);
   }
   void operator()(const ContactForceCase& c) {
     const auto count = static_cast<std::size_t>(vertex_count(c.sides));

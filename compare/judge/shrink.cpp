@@ -81,9 +81,22 @@ std::vector<T> picked(const std::vector<T>& items, const Numbers& numbers) {
   return chosen;
 }
 
+/// `vertices` ascending.
+CompressedRows partners_of(const CompressedRows& partners, const std::vector<Index>& vertices) {
+  std::vector<std::array<Index, 2>> pairs;
+  const auto number = [&](Index v) {
+    const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
+    return found != vertices.end() && *found == v ? static_cast<Index>(found - vertices.begin()) : -1;
+  };
+  for (const auto& [a, b] : pairs_of(partners))
+    if (number(a) >= 0 && number(b) >= 0) pairs.push_back({number(a), number(b)});
+  return partner_rows(vertices.size(), pairs);
+}
+
 CaseData part_of(const MeshCase& c, const Primitives& kept) {
   const Part part(*c.topology, kept);
-  return MeshCase{part.topology, picked(c.rigid_groups, part.vertices), picked(c.positions, part.vertices), c.contact_radius, c.query_radius};
+  return MeshCase{part.topology, picked(c.rigid_groups, part.vertices), picked(c.positions, part.vertices), c.contact_radius, c.query_radius,
+                  partners_of(c.partners, part.vertices)};
 }
 
 CaseData part_of(const BoundCase& c, const Primitives& kept) {

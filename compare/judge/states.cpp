@@ -38,6 +38,7 @@ States::States(const std::filesystem::path& folder, const Authority& authority) 
   topology_ = std::make_shared<Topology>(build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges));
   if (topology_->edges.empty()) throw InputError(folder_ + ": the run's mesh has no edge; give a run of a mesh");
   groups_ = rigid_groups(scene);
+  partners_ = exclusions(scene).partners;
   body_ = body_of_vertex(scene);
   rest_ = authority_.rest_state({scene_.get(), topology_.get()}).exact;
   contact_radius_ = static_cast<float>(scene.settings.contact_radius);
@@ -164,7 +165,7 @@ CaseData States::bound(std::size_t frame) const {
   const std::lock_guard lock(filling_);
   std::optional<BoundCase>& c = smallest_distances_[frame];
   if (!c) {
-    const DetectIn in{topology_.get(), groups_, states_[frame].positions, contact_radius_, contact_radius_ * std::max(1.0f, query_radius_cap_)};
+    const DetectIn in{topology_.get(), {groups_, partners_.rows() > 0 ? &partners_ : nullptr}, states_[frame].positions, contact_radius_, contact_radius_ * std::max(1.0f, query_radius_cap_)};
     DetectVertexFacetOut near = authority_.detect_vertex_facet(in).exact;
     c = BoundCase{topology_, std::move(near.d_min_vertex), authority_.detect_edge_edge(in).exact.d_min_edge, std::move(near.d_min_triangle), bound_relaxation_};
   }
@@ -204,6 +205,7 @@ CaseData States::step(const State& state) const {
     motion.centre = {motion.centre.x + elapsed * motion.velocity.x, motion.centre.y + elapsed * motion.velocity.y, motion.centre.z + elapsed * motion.velocity.z};
     motion.start = std::max(0.0, motion.start - now);
     motion.end = std::max(0.0, motion.end - now);
+    for (double& time : motion.keyframes.times) time -= now;
   }
   return StepCase{std::move(scene), topology_};
 }
@@ -232,7 +234,7 @@ CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
     default: break;
   }
   const float factor = random.one_in(4) ? 1 : static_cast<float>(random.between(1, std::max(1.0f, query_radius_cap_)));
-  return MeshCase{topology_, groups_, state.positions, contact_radius_, std::max(contact_radius_, contact_radius_ * factor)};
+  return MeshCase{topology_, groups_, state.positions, contact_radius_, std::max(contact_radius_, contact_radius_ * factor), partners_};
 }
 
 }  // namespace ogc::compare

@@ -70,6 +70,7 @@ class States {
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const Topology> topology_;
   std::vector<Index> groups_, body_;
+  CompressedRows partners_;
   RestStateOut rest_;
   float contact_radius_ = 0, query_radius_cap_ = 1, bound_relaxation_ = 0.45f;
   double cell_size_ = 1;

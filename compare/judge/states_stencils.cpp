@@ -93,9 +93,10 @@ CaseData States::hinge(const State& state, Random& random) const {
 CaseData States::spring(const State& state, Random& random) const {
   const Spring& spring = any(random, scene_->springs);
   SpringCase c;
-  std::array<Index, 2> ends{spring.first, spring.second};
-  if (random.one_in(2)) std::swap(ends[0], ends[1]);
-  for (std::size_t k = 0; k < 2; ++k) {
+  const std::array<Index, 3> ends{spring.first, spring.second, spring.third < 0 ? spring.second : spring.third};
+  c.ratio = single(spring.ratio);
+  c.own = random.below(c.ratio > 0 ? 3 : 2);
+  for (std::size_t k = 0; k < 3; ++k) {
     c.vertex[k] = moved(state, ends[k]);
     c.start[k] = state.positions[static_cast<std::size_t>(ends[k])];
   }

@@ -9,8 +9,8 @@ namespace ogc::compare {
 
 SweepQuestion::SweepQuestion(const SweepCase& test, const Authority& authority) : topology_(build_topology(*test.scene)) {
   const Settings& settings = test.scene->settings;
-  const std::vector<Index> groups = rigid_groups(*test.scene);
-  const DetectIn detect{&topology_, groups, test.previous, static_cast<float>(settings.contact_radius), test.query_radius};
+  const Exclusions left_out = exclusions(*test.scene);
+  const DetectIn detect{&topology_, left_out, test.previous, static_cast<float>(settings.contact_radius), test.query_radius};
   vertex_facet_ = authority.detect_vertex_facet(detect).exact;
   edge_edge_ = authority.detect_edge_edge(detect).exact;
   rest_ = authority.rest_state({test.scene.get(), &topology_}).exact;

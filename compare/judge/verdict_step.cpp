@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/questions.hpp"
 #include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
@@ -20,7 +21,7 @@ std::string where_of(const StepOut& out, std::size_t event) { return "event " + 
 class StepVerdict {
  public:
   StepVerdict(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out, const Authority& authority, Tally& tally)
-      : test_(test), in_(in), truth_(truth), out_(out), authority_(authority), tally_(tally), groups_(rigid_groups(*in.scene)),
+      : test_(test), in_(in), truth_(truth), out_(out), authority_(authority), tally_(tally), groups_(rigid_groups(*in.scene)), partners_(exclusions(*in.scene).partners),
         start_(to_single(in.scene->mesh.positions)), at_(start_), wrong_before_(tally.mismatched) {}
 
   void judge() {
@@ -128,9 +129,8 @@ class StepVerdict {
       if (!(event.position[v] == at_[v])) tally_.mismatch(where(i) + vertex(v) + " has an X_prev that is not its position");
     if (!right()) return;
     const TestCase mesh{test_.name, MeshCase{std::get<StepCase>(test_.data).topology, groups_, event.position,
-                                             static_cast<float>(in_.scene->settings.contact_radius), out_.query_radius}};
-    const auto& c = std::get<MeshCase>(mesh.data);
-    const DetectIn question{in_.topology, c.rigid_groups, c.positions, c.contact_radius, c.query_radius};
+                                             static_cast<float>(in_.scene->settings.contact_radius), out_.query_radius, partners_}};
+    const DetectIn question = detect_question(mesh);
     part(where(i), Stage::detect_vertex_facet,
          [&](Tally& own) { judge_detect_vertex_facet(mesh, authority_.detect_vertex_facet(question), event.vertex_facet, own); });
     part(where(i), Stage::detect_edge_edge, [&](Tally& own) { judge_detect_edge_edge(mesh, authority_.detect_edge_edge(question), event.edge_edge, own); });
@@ -202,6 +202,7 @@ class StepVerdict {
   const Authority& authority_;
   Tally& tally_;
   std::vector<Index> groups_;
+  CompressedRows partners_;
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
   const StepEvent* detection_ = nullptr;  ///< the last

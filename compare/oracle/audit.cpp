@@ -24,8 +24,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 class Auditor {
  public:
-  Auditor(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups)
-      : topology_(topology), positions_(positions), rigid_groups_(rigid_groups), tree_(triangle_boxes(topology, positions)) {}
+  Auditor(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions)
+      : topology_(topology), positions_(positions), exclusions_(exclusions), tree_(triangle_boxes(topology, positions)) {}
 
   Findings run() const {
     tbb::enumerable_thread_specific<Findings> shares;
@@ -63,7 +63,7 @@ class Auditor {
     const std::array<Vec3, 2> segment{positions_[at(edge[0])], positions_[at(edge[1])]};
     tree_.for_each_meeting(box_of({segment[0], segment[1]}), [&](Index number) {
       const Triangle& t = topology_.triangles[at(number)];
-      if (left_out(edge, t, rigid_groups_)) return;
+      if (left_out(edge, t, exclusions_)) return;
       if (kind == IntersectionKind::edge_triangle) ++found.pairs_tested;
       const std::array<Vec3, 3> corners{positions_[at(t[0])], positions_[at(t[1])], positions_[at(t[2])]};
       if (segment_meets_triangle(segment, corners)) found.intersections.push_back({kind, name, number});
@@ -72,7 +72,7 @@ class Auditor {
 
   const Topology& topology_;
   std::span<const Vec3> positions_;
-  std::span<const Index> rigid_groups_;
+  ExclusionView exclusions_;
   BoxTree tree_;
 };
 
@@ -88,9 +88,9 @@ std::string name_primitive(const char* kind, Index number, std::span<const Index
 
 }  // namespace
 
-AuditResult audit(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups, const AuditOptions& options) {
-  check_state("audit", topology, positions, rigid_groups);
-  Findings found = Auditor(topology, positions, rigid_groups).run();
+AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions, const AuditOptions& options) {
+  check_state("audit", topology, positions, exclusions);
+  Findings found = Auditor(topology, positions, exclusions).run();
   AuditResult result;
   result.count = found.intersections.size();
   result.pairs_tested = found.pairs_tested;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/exclusions.hpp"
 
 namespace ogc::compare {
 
@@ -29,10 +29,10 @@ struct AuditResult {
   std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet, without those left out
 };
 
-/// Exact: no rounding decides, and the answer does not depend on the number of threads. `rigid_groups` as in DetectIn; may be empty (then no pair is left
-/// out but by a shared vertex). A collapsed triangle is the segment or point that it covers, an edge of length zero a point. A vertex on a triangle is listed
+/// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are left out beside those with a
+/// shared vertex. A collapsed triangle is the segment or point that it covers, an edge of length zero a point. A vertex on a triangle is listed
 /// beside its edges, which touch the triangle too. Throws InputError where a position is not finite or sizes do not fit.
-AuditResult audit(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups = {},
+AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 
 /// "edge 12 (vertices 3, 7; body 'cloth') meets triangle 40 (…)", one line each. `names` maps a vertex to its body's name; may be empty.

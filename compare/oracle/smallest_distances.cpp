@@ -128,34 +128,34 @@ Nearest nearest_of(std::size_t count, Visit visit) {
   return search.nearest();
 }
 
-Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups) {
+Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions) {
   const BoxTree tree = tree_over(positions, topology.triangles);
   return nearest_of(at(topology.vertex_count), [&](Search& search, Index v) {
     const std::array<Index, 1> vertex{v};
     tree.for_each_meeting(search.search_box(box_of_corners(positions, vertex)), [&](Index t) {
       const Triangle& triangle = topology.triangles[at(t)];
-      if (!left_out(vertex, triangle, rigid_groups)) search.offer(v, t, corners(positions, vertex), corners(positions, triangle));
+      if (!left_out(vertex, triangle, exclusions)) search.offer(v, t, corners(positions, vertex), corners(positions, triangle));
     });
   });
 }
 
-Nearest nearest_edge_edge(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups) {
+Nearest nearest_edge_edge(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions) {
   const BoxTree tree = tree_over(positions, topology.edges);
   return nearest_of(topology.edges.size(), [&](Search& search, Index e) {
     const Edge& edge = topology.edges[at(e)];
     tree.for_each_meeting(search.search_box(box_of_corners(positions, edge)), [&](Index other) {
       if (other <= e) return;
       const Edge& partner = topology.edges[at(other)];
-      if (!left_out(edge, partner, rigid_groups)) search.offer(e, other, corners(positions, edge), corners(positions, partner));
+      if (!left_out(edge, partner, exclusions)) search.offer(e, other, corners(positions, edge), corners(positions, partner));
     });
   });
 }
 
 }  // namespace
 
-SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups) {
-  check_state("smallest distances", topology, positions, rigid_groups);
-  const Nearest facet = nearest_vertex_triangle(topology, positions, rigid_groups), edges = nearest_edge_edge(topology, positions, rigid_groups);
+SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions) {
+  check_state("smallest distances", topology, positions, exclusions);
+  const Nearest facet = nearest_vertex_triangle(topology, positions, exclusions), edges = nearest_edge_edge(topology, positions, exclusions);
   return {facet.distance(), facet.first, facet.second, edges.distance(), edges.first, edges.second};
 }
 

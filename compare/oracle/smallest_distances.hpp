@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/exclusions.hpp"
 
 namespace ogc::compare {
 
@@ -17,7 +17,7 @@ struct SmallestDistances {
 };
 
 /// Which pairs are nearest is decided exactly; of pairs equally near the one with the smallest numbers is named. The distances are the exact ones rounded
-/// down. `rigid_groups` as in DetectIn, may be empty. Throws InputError for positions that are not finite.
-SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, std::span<const Index> rigid_groups = {});
+/// down. `exclusions`: pairs that are left out beside adjacent ones. Throws InputError for positions that are not finite.
+SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {});
 
 }  // namespace ogc::compare

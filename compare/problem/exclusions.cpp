@@ -20,4 +20,12 @@ CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index,
   return rows;
 }
 
+std::vector<std::array<Index, 2>> pairs_of(const CompressedRows& partners) {
+  std::vector<std::array<Index, 2>> pairs;
+  for (std::size_t v = 0; v < partners.rows(); ++v)
+    for (const Index w : partners[v])
+      if (static_cast<Index>(v) < w) pairs.push_back({static_cast<Index>(v), w});
+  return pairs;
+}
+
 }  // namespace ogc::compare

@@ -32,4 +32,7 @@ struct ExclusionView {
 /// Rows of partners of `count` vertices, each pair both ways, ascending and without repetition; without rows where there is no pair. Indices are valid.
 CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index, 2>> pairs);
 
+/// The pairs of such rows, smaller vertex first, ascending.
+std::vector<std::array<Index, 2>> pairs_of(const CompressedRows& partners);
+
 }  // namespace ogc::compare

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/exclusions.hpp"
 #include "compare/stages/numbers.hpp"
 
 namespace ogc::compare {
@@ -12,7 +12,7 @@ namespace ogc::compare {
 /// The question of detect_vertex_facet and detect_edge_edge. Views; the owner must outlive the call.
 struct DetectIn {
   const Topology* topology = nullptr;
-  std::span<const Index> rigid_groups;  ///< length vertex_count; a pair whose vertices all carry one number ≥ 0 is left out (see rigid_groups(Scene))
+  ExclusionView exclusions;             ///< groups: length vertex_count or 0 (see exclusions(Scene))
   std::span<const Vec3f> positions;     ///< [m], length vertex_count
   float contact_radius = 0;             ///< r [m]
   float query_radius = 0;               ///< r_q ≥ r [m]

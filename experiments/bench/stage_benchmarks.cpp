@@ -70,16 +70,16 @@ Call pair_call(Stage stage, const Contestant& contestant) {
 struct SceneData {
   compare::Scene scene;
   compare::Topology topology;
-  std::vector<compare::Index> groups;
+  compare::Exclusions left_out;
   std::vector<compare::Vec3f> positions;
   compare::DetectVertexFacetOut vertex_facet;
   compare::DetectEdgeEdgeOut edge_edge;
 
   explicit SceneData(compare::Scene from)
-      : scene(std::move(from)), topology(build_topology(scene)), groups(rigid_groups(scene)), positions(compare::to_single(scene.mesh.positions)) {}
+      : scene(std::move(from)), topology(build_topology(scene)), left_out(exclusions(scene)), positions(compare::to_single(scene.mesh.positions)) {}
   compare::DetectIn detect() const {
     const auto radius = static_cast<float>(scene.settings.contact_radius);
-    return {&topology, groups, positions, radius, static_cast<float>(scene.settings.query_radius_cap) * radius};
+    return {&topology, left_out, positions, radius, static_cast<float>(scene.settings.query_radius_cap) * radius};
   }
 };
 

@@ -34,6 +34,13 @@ std::vector<Bytes> inputs_of(const Topology& topology) {
   return inputs;
 }
 
+CompressedRows rows_by_vertex(const CompressedRows* partners, std::size_t count) {
+  if (partners != nullptr) return *partners;
+  CompressedRows none;
+  none.offsets.assign(count + 1, 0);
+  return none;
+}
+
 VertexFacetContact contact_of(const ogc_vertex_facet_contact& c) { return {c.vertex, face(c.kind, c.face), c.owner}; }
 
 EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c) {

@@ -15,6 +15,9 @@ QuestionSizes sizes_of(const compare::Topology& topology);
 /// The arrays of ogc_topology, in its order.
 std::vector<Bytes> inputs_of(const compare::Topology& topology);
 
+/// A row for each of `count` vertices, all empty where there are none.
+compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, std::size_t count);
+
 /// Outputs become vectors one after another.
 class Outputs {
  public:

@@ -43,7 +43,10 @@ ClosestPointsOut ask_closest_points(PluginProcess& plugin, const ClosestPointsIn
 
 PluginProcess::Answer ask_detection(PluginProcess& plugin, std::string_view stage, const DetectIn& in) {
   std::vector<Bytes> inputs = inputs_of(*in.topology);
-  inputs.push_back(bytes_of(in.rigid_groups));
+  const CompressedRows partners = rows_by_vertex(in.exclusions.partners, in.positions.size());
+  inputs.push_back(bytes_of(in.exclusions.groups));
+  inputs.push_back(bytes_of(partners.offsets));
+  inputs.push_back(bytes_of(partners.items));
   inputs.push_back(bytes_of(in.positions));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.contact_radius;

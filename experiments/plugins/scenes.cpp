@@ -34,9 +34,11 @@ class SceneArrays {
  public:
   SceneArrays(const Scene& scene, const Topology& topology)
       : topology_(topology), settings_(scene.settings), gravity_(to_single({scene.gravity})[0]), rest_(to_single(scene.rest_positions)),
-        groups_(rigid_groups(scene)) {
+        groups_(rigid_groups(scene)), partners_(partner_rows(rest_.size(), scene.excluded_pairs)) {
     for (const Body& body : scene.bodies) bodies_.push_back(body_of(body));
-    for (const Spring& s : scene.springs) springs_.push_back({{s.first, s.second}, single(s.stiffness), single(s.rest_length), single(s.damping)});
+    if (partners_.rows() == 0) partners_ = rows_by_vertex(nullptr, rest_.size());
+    for (const Spring& s : scene.springs)
+      springs_.push_back({{s.first, s.second, s.third}, single(s.stiffness), single(s.rest_length), single(s.damping), single(s.ratio)});
   }
 
   QuestionSizes sizes() const {
@@ -51,7 +53,9 @@ class SceneArrays {
 
   std::vector<Bytes> inputs() const {
     std::vector<Bytes> inputs = inputs_of(topology_);
-    for (const Bytes& array : {bytes_of(topology_.hinges), bytes_of(bodies_), bytes_of(springs_), bytes_of(rest_), bytes_of(groups_)}) inputs.push_back(array);
+    for (const Bytes& array : {bytes_of(topology_.hinges), bytes_of(bodies_), bytes_of(springs_), bytes_of(rest_), bytes_of(groups_),
+                              bytes_of(partners_.offsets), bytes_of(partners_.items)})
+      inputs.push_back(array);
     return inputs;
   }
 
@@ -61,6 +65,7 @@ class SceneArrays {
   Vec3f gravity_;
   std::vector<Vec3f> rest_;
   std::vector<Index> groups_;
+  CompressedRows partners_;
   std::vector<ogc_body> bodies_;
   std::vector<ogc_scene_spring> springs_;
 };

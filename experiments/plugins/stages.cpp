@@ -38,7 +38,7 @@ int call_closest_points(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-ogc_detect_in detect_in(CallArrays& a) { return {topology(a), a.in(), a.in(), a.sizes.first, a.sizes.second}; }
+ogc_detect_in detect_in(CallArrays& a) { return {topology(a), a.in(), rows(a), a.in(), a.sizes.first, a.sizes.second}; }
 
 constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::one, List::vertex_facet},
                                    OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex}, OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle}};
@@ -106,9 +106,9 @@ int call_block(void* function, CallArrays& a) {
 }
 
 // Of a scene, after its topology.
-constexpr std::size_t scene_inputs = topology_inputs + 5;
+constexpr std::size_t scene_inputs = topology_inputs + 7;
 ogc_scene scene(CallArrays& a) {
-  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs, a.in(), a.in(), a.in(), a.in(), a.in(), a.sizes.settings, a.sizes.gravity};
+  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs, a.in(), a.in(), a.in(), a.in(), a.in(), rows(a), a.sizes.settings, a.sizes.gravity};
 }
 
 constexpr std::array rest_outputs{
@@ -196,8 +196,8 @@ constexpr std::array table{
     PluginStage{"closest_face", 2, face_outputs, call_closest_face},
     PluginStage{"closest_points", 2, points_outputs, call_closest_points},
     PluginStage{"block", topology_inputs + 2, block_outputs, call_block},
-    PluginStage{"detect_vertex_facet", topology_inputs + 2, facet_outputs, call_detect_vertex_facet},
-    PluginStage{"detect_edge_edge", topology_inputs + 2, edge_outputs, call_detect_edge_edge},
+    PluginStage{"detect_vertex_facet", topology_inputs + 4, facet_outputs, call_detect_vertex_facet},
+    PluginStage{"detect_edge_edge", topology_inputs + 4, edge_outputs, call_detect_edge_edge},
     PluginStage{"bound", topology_inputs + 3, bound_outputs, call_bound},
     PluginStage{"initial_guess", 1, guess_outputs, call_initial_guess},
     PluginStage{"activation", 4, activation_outputs, call_activation},

@@ -16,6 +16,6 @@ BackendInfo cpu_info();
 compare::Contestant cpu_contestant();
 
 /// For ContactFinder; `topology` must outlive the engine.
-std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups);
+std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology, const compare::ExclusionView& exclusions);
 
 }  // namespace ogc::fast

@@ -19,9 +19,9 @@ compare::Contestant cpu_contestant() {
   return contestant;
 }
 
-std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups) {
+std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology, const compare::ExclusionView& exclusions) {
   static CpuBackend backend;
-  return std::make_unique<BackendContactEngine<CpuBackend>>(backend, topology, rigid_groups);
+  return std::make_unique<BackendContactEngine<CpuBackend>>(backend, topology, exclusions);
 }
 
 }  // namespace ogc::fast

@@ -10,7 +10,7 @@ namespace {
 /// Brings its own backend, as other people's solvers have none of ours.
 class CudaContactEngine : public ContactEngine {
  public:
-  CudaContactEngine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups) : engine_(backend_, topology, rigid_groups) {}
+  CudaContactEngine(const compare::Topology& topology, const compare::ExclusionView& exclusions) : engine_(backend_, topology, exclusions) {}
 
   ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override { return engine_.find(positions, query); }
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override { return engine_.find_resident(positions, query); }
@@ -22,8 +22,8 @@ class CudaContactEngine : public ContactEngine {
 
 }  // namespace
 
-std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups) {
-  return std::make_unique<CudaContactEngine>(topology, rigid_groups);
+std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology, const compare::ExclusionView& exclusions) {
+  return std::make_unique<CudaContactEngine>(topology, exclusions);
 }
 
 }  // namespace ogc::fast

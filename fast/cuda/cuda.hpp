@@ -22,6 +22,6 @@ std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, con
 
 /// For ContactFinder; `topology` must outlive the engine. Throws as cuda_contestant. Device positions handed to it are read on a stream that the legacy
 /// default stream waits for and is waited for by; work on a non-blocking stream of the caller must be complete.
-std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology, std::span<const compare::Index> rigid_groups);
+std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology, const compare::ExclusionView& exclusions);
 
 }  // namespace ogc::fast

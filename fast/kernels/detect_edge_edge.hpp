@@ -32,7 +32,7 @@ struct DetectEdgeEdge {
   OGC_HD bool is_pair(const Search& search, int place, float gap) const {
     const int other = tree.order[place];
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[other];
-    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.in_one_group(p, q)) return false;
+    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return false;
     const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[other]);
     const float reach = tree.node(0, place / 4).reach[place % 4];
     const auto limit = [&](float margin) {

@@ -39,7 +39,7 @@ struct DetectVertexFacet {
   OGC_HD bool is_pair(const Search& search, int place, float gap) const {
     const int v = search.owner, t = tree.order[place];
     const Facet& facet = surface.facets[t];
-    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.in_one_group(v, facet)) return false;
+    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet)) return false;
     const float own = larger(contact_radius, atomic_load(&d_min_vertex[v])), theirs = atomic_load(&d_min_triangle[t]);
     const float reach = tree.node(0, place / 4).reach[place % 4];
     const auto limit = [&](float margin) {

@@ -158,7 +158,8 @@ struct SpringTerm {
 
   OGC_HD void operator()(int i, double* sum) const {
     const SpringRest& rest = springs[i];
-    sum[sum_bending] += spring_energy(rest, spring_length(position[rest.end[0]] - position[rest.end[1]]));
+    const Vec end[3] = {position[rest.end[0]], position[rest.end[1]], position[rest.end[2]]};
+    sum[sum_bending] += spring_energy(rest, spring_length(spring_apart(rest, end)));
   }
 };
 

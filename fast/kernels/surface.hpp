@@ -48,19 +48,34 @@ struct SurfaceView {
   const EdgeSeeds* edge_seeds = nullptr;
   const FacetSeeds* facet_seeds = nullptr;
   const VertexSeeds* vertex_seeds = nullptr;
+  Rows partners;  ///< pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there is none
 
   /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.
   OGC_HD int vertex_face(int v) const { return v; }
   OGC_HD int edge_face(int e) const { return vertex_count + e; }
   OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
 
-  OGC_HD bool in_one_group(int v, const Facet& t) const {
+  /// A pair that is none although it shares no vertex.
+  OGC_HD bool left_out(int v, const Facet& t) const {
     const int g = groups[v];
-    return g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g;
+    if (g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g) return true;
+    if (partners.offsets == nullptr) return false;
+    return is_partner(v, t.corner[0]) || is_partner(v, t.corner[1]) || is_partner(v, t.corner[2]);
   }
-  OGC_HD bool in_one_group(const EdgeEnds& p, const EdgeEnds& q) const {
+  OGC_HD bool left_out(const EdgeEnds& p, const EdgeEnds& q) const {
     const int g = groups[p.a];
-    return g >= 0 && groups[p.b] == g && groups[q.a] == g && groups[q.b] == g;
+    if (g >= 0 && groups[p.b] == g && groups[q.a] == g && groups[q.b] == g) return true;
+    if (partners.offsets == nullptr) return false;
+    return is_partner(p.a, q.a) || is_partner(p.a, q.b) || is_partner(p.b, q.a) || is_partner(p.b, q.b);
+  }
+
+ private:
+  /// Rows are short, nearly all of them empty.
+  OGC_HD bool is_partner(int v, int of) const {
+    for (int i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i) {
+      if (partners.items[i] == of) return true;
+    }
+    return false;
   }
 };
 

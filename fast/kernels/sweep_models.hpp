@@ -9,9 +9,10 @@
 
 namespace ogc::fast {
 
-/// A spring seen from one of its ends; `index`: the other one, encoded as in sweep.hpp.
+/// A spring seen from the end `place`; `index`: all ends, encoded as in sweep.hpp.
 struct SpringIncidence {
-  int index = 0;
+  int index[3] = {0, 0, 0};
+  int place = 0;
   SpringRest spring{};
 };
 
@@ -83,18 +84,25 @@ OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& in
   add_hinge_incidence(damper, reads, undamped, own.position, sum);
 }
 
-OGC_HD inline void add_any_spring(const SweepView& view, int vertex, const SpringIncidence& incidence, const SurfaceModels& models, const OwnVertex& own,
+OGC_HD inline void add_any_spring(const SweepView& view, const SpringIncidence& incidence, const SurfaceModels& models, const OwnVertex& own,
                                   ForceAndBlock& sum) {
   const SpringRest& spring = incidence.spring;
-  const Vec apart = own.position - view.read(incidence.index);
+  Vec end[3];
+  for (int k = 0; k < 3; ++k) end[k] = k == incidence.place ? own.position : view.read(incidence.index[k]);
+  const Vec apart = spring_apart(spring, end);
+  const float weight = spring_weight(spring, incidence.place);
   if (models.damping == compare::DampingForm::per_vertex) {
     ForceAndBlock elastic;
-    add_spring(spring, 0.0f, apart, 0.0f, elastic);
+    add_spring(spring, weight, 0.0f, apart, 0.0f, elastic);
     add_damped_by_vertex(elastic, spring.damping, own.moved, sum);
     return;
   }
-  const float length_start = spring.damping > 0 ? spring_length(view.start[vertex] - view.start[decoded(incidence.index)]) : 0.0f;
-  add_spring(spring, spring.damping, apart, length_start, sum);
+  float length_start = 0;
+  if (spring.damping > 0) {
+    for (int k = 0; k < 3; ++k) end[k] = view.start[decoded(incidence.index[k])];
+    length_start = spring_length(spring_apart(spring, end));
+  }
+  add_spring(spring, weight, spring.damping, apart, length_start, sum);
 }
 
 /// A hinge with its weights, where it has any.
@@ -126,7 +134,7 @@ struct GatherEveryModel {
              [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
         part(vertex.hinge_count, load_hinge, [&](const AnyHinge& any, ForceAndBlock& sum) { add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum); }),
         part(springs.count, [&](int k) { return view.springs[springs.begin + k]; },
-             [&](const SpringIncidence& spring, ForceAndBlock& sum) { add_any_spring(view, vertex.vertex, spring, models, at, sum); }),
+             [&](const SpringIncidence& spring, ForceAndBlock& sum) { add_any_spring(view, spring, models, at, sum); }),
         contacts.vertex_facet(), contacts.edge_edge());
   }
 };

@@ -22,7 +22,7 @@ compare::CompressedRows conflict_graph(const RestState& rest) {
   };
   for (const TriangleRest& triangle : rest.triangles) connect(triangle.corner, 3);
   for (const HingeRest& hinge : rest.hinges) connect(hinge.vertex, 4);
-  for (const SpringRest& spring : rest.springs) connect(spring.end, 2);
+  for (const SpringRest& spring : rest.springs) connect(spring.end, end_count(spring));
   compare::CompressedRows rows;
   for (auto& row : neighbours) {
     std::sort(row.begin(), row.end());

@@ -12,8 +12,8 @@ template <class Backend>
 class BackendContactEngine : public ContactEngine {
  public:
   /// `topology` must outlive the engine. `capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
-  BackendContactEngine(Backend& backend, const compare::Topology& topology, std::span<const compare::Index> rigid_groups, int capacity = 0)
-      : backend_(backend), topology_(topology), detection_(backend, topology, rigid_groups, capacity, usual_skin) {}
+  BackendContactEngine(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions, int capacity = 0)
+      : backend_(backend), topology_(topology), detection_(backend, topology, exclusions, capacity, usual_skin) {}
 
   ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {
     positions_.upload(reinterpret_cast<const Vec*>(positions.data()), positions.size());

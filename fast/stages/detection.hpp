@@ -52,11 +52,11 @@ struct PrepareDetection {
 template <class Backend>
 class Detection {
  public:
-  /// `rigid_groups`: see compare/stages/detect.hpp; empty where no pair is left out. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`: largest
+  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`: largest
   /// margin of the list of pairs as a part of r; 0 for none. It changes the time alone.
-  Detection(Backend& backend, const compare::Topology& topology, std::span<const compare::Index> rigid_groups, int capacity = 0, float skin = 0)
+  Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions, int capacity = 0, float skin = 0)
       : backend_(backend),
-        surface_(topology, rigid_groups),
+        surface_(topology, exclusions),
         bvh_(surface_.view()),
         skin_(surface_.view(), skin),
         lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count) {

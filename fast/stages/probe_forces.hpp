@@ -149,8 +149,9 @@ struct ProbeSpring {
 
   OGC_HD void operator()(int i) const {
     ForceAndBlock sum;
-    const Vec own = view.old[2 * i];
-    add_any_spring(view, 2 * i, view.springs[i], view.models[i], {own, own - view.start[2 * i]}, sum);
+    const int v = 3 * i + view.springs[i].place;
+    const Vec own = view.old[v];
+    add_any_spring(view, view.springs[i], view.models[i], {own, own - view.start[v]}, sum);
     out.store(i, sum);
   }
 };
@@ -160,12 +161,12 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   ProbeMemory<Backend> memory(backend);
   compare::ForceOut out;
   const int n = static_cast<int>(in.cases.size());
-  const std::vector<int> colours(2 * in.cases.size(), 0);
+  const std::vector<int> colours(3 * in.cases.size(), 0);
   std::vector<SpringIncidence> incidences;
   std::vector<SurfaceModels> models;
   for (int i = 0; i < n; ++i) {
     const compare::SpringCase& c = in.cases[static_cast<std::size_t>(i)];
-    incidences.push_back(detail::spring_incidence({{2 * i, 2 * i + 1}, c.stiffness, c.rest_length, c.damping}, 0, colours));
+    incidences.push_back(detail::spring_incidence({{3 * i, 3 * i + 1, 3 * i + 2}, c.stiffness, c.rest_length, c.damping, c.ratio}, c.own, colours));
     models.push_back({compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
   }
   SweepView view;

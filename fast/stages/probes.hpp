@@ -93,7 +93,7 @@ compare::ClosestPointsOut probe_closest_points(Backend& backend, const compare::
 
 template <class Backend>
 ContactSets probe_detection(Backend& backend, const compare::DetectIn& in) {
-  BackendContactEngine<Backend> engine(backend, *in.topology, in.rigid_groups);
+  BackendContactEngine<Backend> engine(backend, *in.topology, in.exclusions);
   return engine.find(in.positions, {.contact_radius = in.contact_radius, .query_radius = in.query_radius});
 }
 

@@ -29,8 +29,9 @@ RestState without_shape(const compare::Scene& scene) {
   }
   rest.activation = scene.settings.activation;
   for (const compare::Spring& spring : scene.springs) {
-    rest.springs.push_back({{spring.first, spring.second}, static_cast<float>(spring.stiffness), static_cast<float>(spring.rest_length),
-                            static_cast<float>(spring.damping / h)});
+    const int third = spring.ratio > 0 ? spring.third : spring.second;
+    rest.springs.push_back({{spring.first, spring.second, third}, static_cast<float>(spring.stiffness), static_cast<float>(spring.rest_length),
+                            static_cast<float>(spring.damping / h), static_cast<float>(spring.ratio)});
   }
   for (const compare::PrescribedMotion& motion : scene.motions) {
     for (const int v : motion.vertices) rest.mobility[at(v)] = Mobility::prescribed;

@@ -26,8 +26,8 @@ class ResidentSimulation : public compare::Simulation {
         topology_(compare::build_topology(scene_)),
         rest_(build_rest_state(scene_, topology_)),
         colouring_(colour_vertices(rest_)),
-        groups_(compare::rigid_groups(scene_)),
-        detection_(backend_, topology_, groups_, list_capacity),
+        exclusions_(compare::exclusions(scene_)),
+        detection_(backend_, topology_, exclusions_, list_capacity),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(std::count_if(rest_.mobility.begin(), rest_.mobility.end(), [](Mobility m) { return m != Mobility::fixed; }))),
@@ -269,7 +269,7 @@ class ResidentSimulation : public compare::Simulation {
   compare::Topology topology_;
   RestState rest_;
   Colouring colouring_;
-  std::vector<compare::Index> groups_;
+  compare::Exclusions exclusions_;
   Detection<Backend> detection_;
   Sweep<Backend> sweep_;
   StageClock<Backend> clock_;

@@ -9,7 +9,8 @@ namespace {
 
 class SeedFinder {
  public:
-  SeedFinder(const compare::Topology& topology, const std::vector<int>& groups) : topology_(topology), groups_(groups) {}
+  SeedFinder(const compare::Topology& topology, const std::vector<int>& groups, const compare::CompressedRows* partners)
+      : topology_(topology), groups_(groups), partners_(partners) {}
 
   EdgeSeeds of_edge(int e) const {
     EdgeSeeds seeds{{-1, -1}};
@@ -54,18 +55,32 @@ class SeedFinder {
     return std::find(std::begin(vertices), std::end(vertices), v) != std::end(vertices);
   }
 
-  /// v and the face do not touch, and not all of them are in one group.
+  /// v and the face do not touch, neither there nor by a stitch.
+  template <class Vertices>
+  bool is_apart(int v, const Vertices& face) const {
+    if (contains(face, v)) return false;
+    if (partners_ == nullptr) return true;
+    const auto& row = (*partners_)[static_cast<std::size_t>(v)];
+    return std::none_of(row.begin(), row.end(), [&](int partner) { return contains(face, partner); });
+  }
+
+  /// All of them are in one group.
+  template <class Vertices>
+  bool is_rigid(int v, const Vertices& face) const {
+    const auto group = [this](int i) { return groups_[static_cast<std::size_t>(i)]; };
+    return group(v) >= 0 && std::all_of(std::begin(face), std::end(face), [&](int i) { return group(i) == group(v); });
+  }
+
   template <class Vertices>
   bool is_pair(int v, const Vertices& face) const {
-    const auto group = [this](int i) { return groups_[static_cast<std::size_t>(i)]; };
-    return !contains(face, v) && !(group(v) >= 0 && std::all_of(std::begin(face), std::end(face), [&](int i) { return group(i) == group(v); }));
+    return is_apart(v, face) && !is_rigid(v, face);
   }
 
   /// Some edge at v forms a pair with e.
   bool has_pair(int e, int v) const {
     const auto& neighbours = topology_.vertex_neighbours[static_cast<std::size_t>(v)];
-    return !contains(edge(e), v) && std::any_of(neighbours.begin(), neighbours.end(), [&](int w) {
-      return !contains(edge(e), w) && (is_pair(v, edge(e)) || is_pair(w, edge(e)));
+    return is_apart(v, edge(e)) && std::any_of(neighbours.begin(), neighbours.end(), [&](int w) {
+      return is_apart(w, edge(e)) && !(is_rigid(v, edge(e)) && is_rigid(w, edge(e)));
     });
   }
 
@@ -77,6 +92,7 @@ class SeedFinder {
 
   const compare::Topology& topology_;
   const std::vector<int>& groups_;
+  const compare::CompressedRows* partners_;
 };
 
 }  // namespace
@@ -91,8 +107,8 @@ Facet facet_of(const compare::Topology& topology, std::size_t t) {
   return facet;
 }
 
-Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const std::vector<Facet>& facets) {
-  const SeedFinder finder(topology, groups);
+Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const compare::CompressedRows* partners, const std::vector<Facet>& facets) {
+  const SeedFinder finder(topology, groups, partners);
   Seeds seeds;
   for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e) seeds.edges.push_back(finder.of_edge(e));
   for (const Facet& facet : facets) seeds.facets.push_back(finder.of_facet(facet));

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/exclusions.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -13,21 +13,20 @@ namespace ogc::fast {
 /// Corners, edges and directions of a triangle as the kernels read them.
 Facet facet_of(const compare::Topology& topology, std::size_t t);
 
-/// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor in one rigid group.
+/// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor left out.
 struct Seeds {
   std::vector<EdgeSeeds> edges;
   std::vector<FacetSeeds> facets;
   std::vector<VertexSeeds> vertices;
 };
 
-/// `groups`: one number for each vertex (compare/stages/detect.hpp).
-Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const std::vector<Facet>& facets);
+/// `groups`: one number for each vertex; `partners`: null where there is none (compare/problem/exclusions.hpp).
+Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 
 template <class Backend>
 class Surface {
  public:
-  /// `rigid_groups`: one number for each vertex, or empty where no pair is left out.
-  Surface(const compare::Topology& topology, std::span<const compare::Index> rigid_groups)
+  Surface(const compare::Topology& topology, const compare::ExclusionView& exclusions)
       : vertex_count_(topology.vertex_count),
         edge_count_(static_cast<int>(topology.edges.size())),
         triangle_count_(static_cast<int>(topology.triangles.size())) {
@@ -41,16 +40,18 @@ class Surface {
     opposites_.upload(topology.edge_opposite);
     vertex_edges_.upload(topology.vertex_edges);
     vertex_triangles_.upload(topology.vertex_triangles);
-    std::vector<int> groups(rigid_groups.begin(), rigid_groups.end());
+    std::vector<int> groups(exclusions.groups.begin(), exclusions.groups.end());
     groups.resize(static_cast<std::size_t>(vertex_count_), -1);
     groups_.upload(groups.data(), groups.size());
-    upload_seeds(find_seeds(topology, groups, facets));
+    if (exclusions.partners != nullptr) partners_.upload(*exclusions.partners);
+    has_partners_ = exclusions.partners != nullptr;
+    upload_seeds(find_seeds(topology, groups, exclusions.partners, facets));
   }
 
   SurfaceView view() const {
     return {vertex_count_,        edge_count_,        triangle_count_,      facets_.data(),           edges_.data(),
             neighbours_.view(),   opposites_.view(),  vertex_edges_.view(), vertex_triangles_.view(), groups_.data(),
-            edge_seeds_.data(),   facet_seeds_.data(), vertex_seeds_.data()};
+            edge_seeds_.data(),   facet_seeds_.data(), vertex_seeds_.data(), has_partners_ ? partners_.view() : Rows{}};
   }
 
  private:
@@ -72,7 +73,8 @@ class Surface {
   int vertex_count_, edge_count_, triangle_count_;
   typename Backend::template Buffer<Facet> facets_;
   typename Backend::template Buffer<EdgeEnds> edges_;
-  RowBuffers neighbours_, opposites_, vertex_edges_, vertex_triangles_;
+  RowBuffers neighbours_, opposites_, vertex_edges_, vertex_triangles_, partners_;
+  bool has_partners_ = false;
   typename Backend::template Buffer<int> groups_;
   typename Backend::template Buffer<EdgeSeeds> edge_seeds_;
   typename Backend::template Buffer<FacetSeeds> facet_seeds_;

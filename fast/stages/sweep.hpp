@@ -70,15 +70,19 @@ inline IsometricStencil isometric_stencil(const HingeWeights& rest, int role) {
 }
 
 inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const std::vector<int>& colour) {
-  return {encoded(spring.end[1 - end], colour, colour[static_cast<std::size_t>(spring.end[end])]), spring};
+  const int own = colour[static_cast<std::size_t>(spring.end[end])];
+  return {{encoded(spring.end[0], colour, own), encoded(spring.end[1], colour, own), encoded(spring.end[2], colour, own)}, end, spring};
 }
 
-/// (element, role) of each vertex, by element.
+/// (element, role) of each vertex, by element; −1 for a vertex: nobody has that role.
 template <class Element, class Vertices>
 std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_count, const std::vector<Element>& elements, Vertices vertices, int roles) {
   std::vector<std::vector<std::pair<int, int>>> rows(vertex_count);
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    for (int role = 0; role < roles; ++role) rows[static_cast<std::size_t>(vertices(elements[i])[role])].emplace_back(static_cast<int>(i), role);
+    for (int role = 0; role < roles; ++role) {
+      const int v = vertices(elements[i])[role];
+      if (v >= 0) rows[static_cast<std::size_t>(v)].emplace_back(static_cast<int>(i), role);
+    }
   }
   return rows;
 }
@@ -89,7 +93,8 @@ std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_coun
 inline SweepStreams build_streams(const RestState& rest, const Colouring& colouring, double step) {
   const auto triangles = detail::incidences(rest.mass.size(), rest.triangles, [](const TriangleRest& t) { return t.corner; }, 3);
   const auto hinges = detail::incidences(rest.mass.size(), rest.hinges, [](const HingeRest& hinge) { return hinge.vertex; }, 4);
-  const auto springs = detail::incidences(rest.mass.size(), rest.springs, [](const SpringRest& spring) { return spring.end; }, 2);
+  const auto with_roles = [](const SpringRest& s) { return std::vector<int>{s.end[0], s.end[1], end_count(s) == 3 ? s.end[2] : -1}; };
+  const auto springs = detail::incidences(rest.mass.size(), rest.springs, with_roles, 3);
   SweepStreams streams;
   for (const int v : colouring.order) {
     const auto i = static_cast<std::size_t>(v);

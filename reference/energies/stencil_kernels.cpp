@@ -6,7 +6,7 @@
 namespace ogc::reference {
 
 const StencilKernels OGC_FOR_LANES(stencil_kernels){&SideBySide<ByDifferences<MembraneTermOf, 3>>::differentiate, &SideBySide<ByDifferences<HingeTermOf, 4>>::differentiate,
-                                     &SideBySide<ByDifferences<SpringTermOf, 2>>::differentiate,   &SideBySide<ByDifferences<PlacedContactOf, 2>>::differentiate,
+                                     &SideBySide<ByWeights<SpringTermOf>>::differentiate,          &SideBySide<ByDifferences<PlacedContactOf, 2>>::differentiate,
                                      &SideBySide<ByDifferences<PlacedContactOf, 3>>::differentiate, &SideBySide<ByDifferences<PlacedContactOf, 4>>::differentiate,
                                      &SideBySide<ByWeights<PlacedContactOf>>::differentiate,       &SideBySide<ByWeights<FrictionTermOf>>::differentiate};
 

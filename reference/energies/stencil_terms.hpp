@@ -104,33 +104,38 @@ struct HingeTermOf {
 };
 using HingeTerm = HingeTermOf<double>;
 
-/// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²).
+/// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²), l = ‖Σ wᵢ xᵢ‖: of an end and a point between two others, or another vertex.
 template <class Number>
 struct SpringTermOf {
-  std::array<compare::Index, 2> vertex{};
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
+  std::array<Number, 4> weight{1.0, -1.0, 0.0, 0.0};
   Number stiffness = 0.0, rest_length = 0.0, damping = 0.0;  ///< k_s [N/m], l₀ [m], k [1]
   Number start = 0.0;                                  ///< lᵗ [m]
 
   template <class T>
-  T elastic(const std::array<Triple<T>, 2>& x) const {
-    return about(x, rest_length);
+  T elastic(const std::array<Triple<T>, 4>& x) const {
+    return about(separation(weight, x), rest_length);
+  }
+  /// Of Σ wᵢ xᵢ.
+  template <class T>
+  T energy_between(const Triple<T>& apart) const {
+    return damping == 0.0 ? about(apart, rest_length) : about(apart, rest_length) + damping * about(apart, start);
   }
   template <class T>
-  T energy(const std::array<Triple<T>, 2>& x) const {
-    return damping == 0.0 ? elastic(x) : elastic(x) + damping * about(x, start);
+  T energy(const std::array<Triple<T>, 4>& x) const {
+    return energy_between(separation(weight, x));
   }
 
-  auto numbers() { return std::tie(stiffness, rest_length, damping, start); }
-  auto numbers() const { return std::tie(stiffness, rest_length, damping, start); }
+  auto numbers() { return std::tie(weight, stiffness, rest_length, damping, start); }
+  auto numbers() const { return std::tie(weight, stiffness, rest_length, damping, start); }
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 
  private:
   /// At length 0 from a length the direction is open: there the root has no derivatives.
   template <class T>
-  T about(const std::array<Triple<T>, 2>& x, const Number& from) const {
+  T about(const Triple<T>& apart, const Number& from) const {
     using std::sqrt;
-    const Triple<T> apart = x[0] - x[1];
     const T squared = dot(apart, apart);
     return from == 0.0 ? 0.5 * stiffness * squared : spring_energy(T(sqrt(squared)), stiffness, T(from));
   }

@@ -46,7 +46,12 @@ Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius) {
   return gap_points(mesh.at(a[0]), mesh.at(b[0]), radius);
 }
 
-bool in_one_group(std::span<const Index> groups, std::span<const Index> first, std::span<const Index> second) {
+bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first, std::span<const Index> second) {
+  if (exclusions.partners != nullptr)
+    for (const Index v : first)
+      for (const Index partner : (*exclusions.partners)[static_cast<std::size_t>(v)])
+        if (std::find(second.begin(), second.end(), partner) != second.end()) return true;
+  const std::span<const Index> groups = exclusions.groups;
   if (groups.empty()) return false;
   const Index group = groups[static_cast<std::size_t>(first.front())];
   const auto same = [&](Index v) { return groups[static_cast<std::size_t>(v)] == group; };

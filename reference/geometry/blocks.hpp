@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/exclusions.hpp"
 #include "reference/geometry/conditions.hpp"
 
 namespace ogc::reference {
@@ -137,7 +137,7 @@ void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
 /// The distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
 Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius);
 
-/// True where all given vertices carry the same rigid group ≥ 0 (see compare::DetectIn); false where there are no groups.
-bool in_one_group(std::span<const Index> groups, std::span<const Index> first, std::span<const Index> second);
+/// True where a pair of primitives, given by their vertices, is none although they share no vertex (compare::Exclusions).
+bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first, std::span<const Index> second);
 
 }  // namespace ogc::reference

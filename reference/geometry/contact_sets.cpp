@@ -40,7 +40,7 @@ Index owner_of(const Complex& mesh, Face face) {
 /// Neither does the triangle contain the vertex, nor are they in one rigid group.
 bool is_candidate(const compare::DetectIn& in, Index v, Index t) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
-  return !contains(corners, v) && !in_one_group(in.rigid_groups, {&v, 1}, corners);
+  return !contains(corners, v) && !is_excluded(in.exclusions, {&v, 1}, corners);
 }
 
 bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
@@ -91,7 +91,7 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
   std::set<VertexFacetContact> found;
   for (Index v = 0; v < in.topology->vertex_count; ++v) {
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
-      if (in_one_group(in.rigid_groups, {&v, 1}, mesh.triangle(t))) continue;
+      if (is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
         // A face without v is a face of some triangle without v, or of triangles with v only; Eq. 12 asks about v ⊄ a alone.
         if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius)) found.insert({v, face, owner_of(mesh, face)});

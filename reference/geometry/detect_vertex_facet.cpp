@@ -165,10 +165,10 @@ class VertexQuery {
     return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
   }
 
-  /// Eq. 12 ranges over faces of triangles, and at least one of them must make a pair with the vertex that no rigid group leaves out.
+  /// Eq. 12 ranges over faces of triangles, and at least one of them must make a pair with the vertex that is not left out.
   bool is_candidate(Face face) const {
     const std::vector<Index> around = triangles_around(face);
-    return std::any_of(around.begin(), around.end(), [&](Index t) { return !in_one_group(in_.rigid_groups, {&vertex_, 1}, mesh_.triangle(t)); });
+    return std::any_of(around.begin(), around.end(), [&](Index t) { return !is_excluded(in_.exclusions, {&vertex_, 1}, mesh_.triangle(t)); });
   }
 
   const compare::DetectIn& in_;
@@ -203,7 +203,7 @@ VertexAnswer query_vertex(const compare::DetectIn& in, DetectionExtent extent, c
   include(box, in.positions[static_cast<std::size_t>(v)]);
   tree.query(widened(box, in.query_radius * search_margin), [&](Index t) {
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
-    if (std::find(corners.begin(), corners.end(), v) != corners.end() || in_one_group(in.rigid_groups, {&v, 1}, corners)) return;
+    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in.exclusions, {&v, 1}, corners)) return;
     if (extent == DetectionExtent::exact && changes_nothing(in, v, t, of_vertex, of_triangle)) return;
     const float d = query.visit(t);
     of_vertex.lower(static_cast<std::size_t>(v), d);

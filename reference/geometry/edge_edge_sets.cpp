@@ -28,7 +28,7 @@ void enter(Entered& entered, const FacePair& faces, const EdgeNumbers& edges) {
 bool is_candidate(const compare::DetectIn& in, Index e, Index f) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(f)];
   const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
-  return !adjacent && !in_one_group(in.rigid_groups, a, b);
+  return !adjacent && !is_excluded(in.exclusions, a, b);
 }
 
 /// Calls visit(e, f) for all candidates, e < f, ascending.

@@ -23,7 +23,7 @@ struct NearestPrimitives {
   std::vector<Nearest> vertex, edge, triangle;
 };
 
-/// Decided exactly; pairs in rigid groups are left out, as in the detections.
+/// Decided exactly; what the detections leave out is left out.
 NearestPrimitives nearest_primitives(const compare::DetectIn& in);
 
 /// The smallest of d_min,v, of d_min,e of v's edges and of d_min,t of v's triangles, by vertex (Eq. 21, 23, 25 before γ_p).

@@ -62,7 +62,7 @@ class Facets {
   /// Lowers both by their distance unless it is surely beyond `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
-    if (std::find(corners.begin(), corners.end(), v) != corners.end() || in_one_group(in_.rigid_groups, {&v, 1}, corners)) return;
+    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in_.exclusions, {&v, 1}, corners)) return;
     const Corners places{mesh_.at(corners[0]), mesh_.at(corners[1]), mesh_.at(corners[2])};
     if (surely_beyond_triangle({mesh_.at(v), places[0], places[1], places[2]}, double{known})) return;
     const float d = distance_below(feature_gap(places, closest_feature(places, mesh_.at(v)), mesh_.at(v)));
@@ -103,7 +103,7 @@ class Edges {
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
-    if (adjacent || in_one_group(in_.rigid_groups, a, b)) return;
+    if (adjacent || is_excluded(in_.exclusions, a, b)) return;
     const std::array<Vec3f, 4> x{mesh_.at(a[0]), mesh_.at(a[1]), mesh_.at(b[0]), mesh_.at(b[1])};
     if (surely_beyond_edge(x, double{known})) return;
     const EdgePair pair{std::array<Vec3f, 2>{x[0], x[1]}, std::array<Vec3f, 2>{x[2], x[3]}};

@@ -34,8 +34,8 @@ std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, co
 
 /// Whether two primitives are a pair at all: no shared vertex, not inside one rigid group.
 template <class First, class Second>
-bool is_pair(const std::vector<compare::Index>& groups, const First& first, const Second& second) {
-  return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() && !in_one_group(groups, first, second);
+bool is_pair(const compare::ExclusionView& exclusions, const First& first, const Second& second) {
+  return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() && !is_excluded(exclusions, first, second);
 }
 
 /// What `count` queries find, ascending if each `query(i, found)` appends items that begin with i. Threads change nothing.

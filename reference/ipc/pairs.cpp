@@ -140,14 +140,14 @@ std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, c
   const auto facets = found_by<PrimitivePair>(from.size(), [&](Index v, std::vector<PrimitivePair>& found) {
     const std::array<Index, 1> vertex{v};
     triangles.query(swept_box(vertex, from, to, distance / 2), [&](Index t) {
-      if (is_pair(mesh.groups, vertex, topology.triangles[at(t)])) found.push_back({ContactSides::point_triangle, v, t});
+      if (is_pair(mesh.exclusions, vertex, topology.triangles[at(t)])) found.push_back({ContactSides::point_triangle, v, t});
     });
   });
   const std::vector<Box> edge_boxes = boxes_of(topology.edges);
   const BoxTree edges(edge_boxes);
   std::vector<PrimitivePair> pairs = found_by<PrimitivePair>(edge_boxes.size(), [&](Index e, std::vector<PrimitivePair>& found) {
     edges.query(edge_boxes[at(e)], [&](Index f) {
-      if (e < f && is_pair(mesh.groups, topology.edges[at(e)], topology.edges[at(f)])) found.push_back({ContactSides::edge_edge, e, f});
+      if (e < f && is_pair(mesh.exclusions, topology.edges[at(e)], topology.edges[at(f)])) found.push_back({ContactSides::edge_edge, e, f});
     });
   });
   pairs.insert(pairs.end(), facets.begin(), facets.end());

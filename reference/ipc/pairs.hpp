@@ -20,7 +20,7 @@ struct PrimitivePair {
 /// What the pairs are made of: everything that does not move. All of it must outlive the user.
 struct PairMesh {
   const compare::Topology& topology;
-  const std::vector<compare::Index>& groups;  ///< rigid groups, by vertex (compare::rigid_groups)
+  const compare::Exclusions& exclusions;  ///< pairs that are none (compare::exclusions)
   const std::vector<float>& edge_length_squared;  ///< ‖ē‖² [m²]
 };
 

@@ -75,10 +75,10 @@ IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topol
       topology_(topology),
       settings_(scene.settings),
       options_(options),
-      groups_(rigid_groups(scene)),
+      exclusions_(exclusions(scene)),
       shape_(shape_of(scene)),
       forces_(scene, topology, shape_),
-      mesh_{topology_, groups_, forces_.potential().rest().edge_length_squared},
+      mesh_{topology_, exclusions_, forces_.potential().rest().edge_length_squared},
       guard_({rest_diagonal(scene), 0}, shape_, settings_.ipc_adaptation),
       free_(forces_.potential().mobility()) {
   scale_ = {rest_diagonal(scene), mean_inertia(forces_.potential())};

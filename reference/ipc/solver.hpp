@@ -103,7 +103,7 @@ class IpcSolver {
   const compare::Topology& topology_;
   const compare::Settings& settings_;
   compare::SimulationOptions options_;
-  std::vector<compare::Index> groups_;
+  compare::Exclusions exclusions_;
   BarrierShape shape_;
   StiffnessScale scale_;
   IpcForces forces_;

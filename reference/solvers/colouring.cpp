@@ -15,7 +15,10 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
   };
   for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
   for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
-  for (const compare::Spring& s : scene.springs) meet(std::array{s.first, s.second});
+  for (const compare::Spring& s : scene.springs) {
+    meet(std::array{s.first, s.second});
+    if (s.third >= 0) meet(std::array{s.first, s.second, s.third});
+  }
   std::vector<Index> colour(groups.size(), -1);
   for (std::size_t v = 0; v < groups.size(); ++v) {
     if (groups[v] != -1) continue;

@@ -27,10 +27,10 @@ ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& t
       topology_(topology),
       settings_(scene.settings),
       options_(options),
-      groups_(rigid_groups(scene)),
+      exclusions_(exclusions(scene)),
       potential_(scene, topology),
       stage_ms_(stages, 0) {
-  for (std::size_t v = 0; v < groups_.size(); ++v)
+  for (std::size_t v = 0; v < exclusions_.groups.size(); ++v)
     if (potential_.mobility()[v] != Mobility::fixed) movable_.push_back(v);
 }
 
@@ -54,8 +54,8 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
 void ContactStep::detect_here() {
   detected_ = timed(detection_stage, [&] {
     std::vector<Vec3f> here = rounded(x_);
-    const float radius = sufficient_query_radius(topology_, groups_, movable_, here, static_cast<float>(settings_.contact_radius), query_radius_);
-    return detect(scene_, topology_, groups_, std::move(here), radius);
+    const float radius = sufficient_query_radius(topology_, exclusions_, movable_, here, static_cast<float>(settings_.contact_radius), query_radius_);
+    return detect(scene_, topology_, exclusions_, std::move(here), radius);
   });
   balls_ = Balls(detected_);
   for (const std::size_t v : movable_) x_[v] = balls_.inside(v, x_[v]).x;

@@ -74,7 +74,7 @@ class ContactStep {
   const compare::Topology& topology_;
   const compare::Settings& settings_;
   compare::SimulationOptions options_;
-  std::vector<compare::Index> groups_;
+  compare::Exclusions exclusions_;
   Potential potential_;
   std::vector<std::size_t> movable_;          ///< free and prescribed vertices: K of them
 

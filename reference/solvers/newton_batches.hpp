@@ -45,4 +45,12 @@ inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides
   return corners;
 }
 
+/// Zero where there is no vertex, as its weight is.
+inline std::array<Triple<double>, 4> spring_corners(const SpringTerm& term, const State& x) {
+  std::array<Triple<double>, 4> corners{};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (term.vertex[k] >= 0) corners[k] = x[static_cast<std::size_t>(term.vertex[k])];
+  return corners;
+}
+
 }  // namespace ogc::reference

@@ -29,7 +29,7 @@ std::vector<compare::Vec3f> rounded(const State& x) {
   return positions;
 }
 
-float sufficient_query_radius(const compare::Topology& topology, const std::vector<compare::Index>& groups, const std::vector<std::size_t>& movable,
+float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions, const std::vector<std::size_t>& movable,
                               const std::vector<compare::Vec3f>& positions, float contact_radius, float most) {
   double radius = double{contact_radius};
   const auto at = [&](compare::Index v) { return wide(positions[static_cast<std::size_t>(v)]); };
@@ -42,7 +42,7 @@ float sufficient_query_radius(const compare::Topology& topology, const std::vect
         if (side[0] == vertex || side[1] == vertex) continue;
         for (const compare::Index other : topology.edge_triangles[static_cast<std::size_t>(e)]) {
           const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(other)];
-          if (std::find(corners.begin(), corners.end(), vertex) != corners.end() || in_one_group(groups, {&vertex, 1}, corners)) continue;
+          if (std::find(corners.begin(), corners.end(), vertex) != corners.end() || is_excluded(exclusions, {&vertex, 1}, corners)) continue;
           nearest = std::min(nearest, distance_to_segment(at(vertex), at(side[0]), at(side[1])));
         }
       }
@@ -52,10 +52,10 @@ float sufficient_query_radius(const compare::Topology& topology, const std::vect
   return std::min(most, static_cast<float>(radius * (1 + 0x1p-20)));
 }
 
-Detected detect(const compare::Scene& scene, const compare::Topology& topology, const std::vector<compare::Index>& groups,
+Detected detect(const compare::Scene& scene, const compare::Topology& topology, const compare::ExclusionView& exclusions,
                 std::vector<compare::Vec3f> positions, float query_radius) {
   const auto radius = static_cast<float>(scene.settings.contact_radius);
-  const compare::DetectIn in{&topology, groups, positions, radius, query_radius};
+  const compare::DetectIn in{&topology, exclusions, positions, radius, query_radius};
   compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
   compare::DetectEdgeEdgeOut edges = exact_edge_edge(in);
   const auto relaxation = static_cast<float>(scene.settings.bound_relaxation);

@@ -22,11 +22,11 @@ std::vector<compare::Vec3f> rounded(const State& x);
 /// A query radius, between r and `most`, that gives the `movable` vertices the contacts and bounds of `most` at these positions. Beyond a side opposite v lies a
 /// triangle without v, so b_v is γ_p times the distance to the nearest such side at most, and the largest of these distances is enough; `most` where a vertex
 /// has no such triangle. Both radii in metres, r ≤ most.
-float sufficient_query_radius(const compare::Topology& topology, const std::vector<compare::Index>& groups, const std::vector<std::size_t>& movable,
+float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions, const std::vector<std::size_t>& movable,
                               const std::vector<compare::Vec3f>& positions, float contact_radius, float most);
 
 /// Stages detect_vertex_facet, detect_edge_edge and bound at `positions`.
-Detected detect(const compare::Scene& scene, const compare::Topology& topology, const std::vector<compare::Index>& groups,
+Detected detect(const compare::Scene& scene, const compare::Topology& topology, const compare::ExclusionView& exclusions,
                 std::vector<compare::Vec3f> positions, float query_radius);
 
 /// Balls about X_prev.

@@ -60,7 +60,8 @@ HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest
 }
 
 SpringTerm spring_term(const compare::Scene& scene, const compare::Spring& spring) {
-  return {{spring.first, spring.second}, spring.stiffness, spring.rest_length, spring.damping / scene.settings.time_step};
+  const double s = spring.ratio;
+  return {{spring.first, spring.second, spring.third, -1}, {1, s - 1, -s, 0}, spring.stiffness, spring.rest_length, spring.damping / scene.settings.time_step};
 }
 
 double angle_at(const Hinge<double>& x) {
@@ -115,8 +116,7 @@ void Potential::begin_step(const State& start, const State& target) {
   for (MembraneTerm& term : membranes_) term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
   for (HingeTerm& term : hinges_) term.start = angle_at(gathered<4>(term.vertex, start));
   for (SpringTerm& term : springs_) {
-    const auto ends = gathered<2>(term.vertex, start);
-    term.start = norm(ends[0] - ends[1]);
+    term.start = norm(separation(term.weight, spring_corners(term, start)));
   }
 }
 
@@ -163,7 +163,7 @@ std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
   stencil -= membranes_.size();
   if (stencil < hinges_.size()) return hinges_[stencil].vertex;
   stencil -= hinges_.size();
-  if (stencil < springs_.size()) return {springs_[stencil].vertex[0], springs_[stencil].vertex[1], -1, -1};
+  if (stencil < springs_.size()) return springs_[stencil].vertex;
   stencil -= springs_.size();
   return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
 }
@@ -186,7 +186,7 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   stencil -= membranes_.size();
   if (stencil < hinges_.size()) return hinges_[stencil].energy(gathered<4>(hinges_[stencil].vertex, x));
   stencil -= hinges_.size();
-  if (stencil < springs_.size()) return springs_[stencil].energy(gathered<2>(springs_[stencil].vertex, x));
+  if (stencil < springs_.size()) return springs_[stencil].energy(spring_corners(springs_[stencil], x));
   stencil -= springs_.size();
   if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
   const FrictionTerm& term = frictions_[stencil - contacts_.size()];
@@ -285,7 +285,7 @@ double Potential::elastic_energy(const State& x) const {
   double sum = 0;
   for (const MembraneTerm& term : membranes_) sum += term.elastic(gathered<3>(term.vertex, x));
   for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
-  for (const SpringTerm& term : springs_) sum += term.elastic(gathered<2>(term.vertex, x));
+  for (const SpringTerm& term : springs_) sum += term.elastic(spring_corners(term, x));
   return sum;
 }
 

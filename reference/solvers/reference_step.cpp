@@ -27,14 +27,14 @@ Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float
 class ReferenceStep {
  public:
   explicit ReferenceStep(const compare::StepIn& in)
-      : in_(in), settings_(in.scene->settings), groups_(compare::rigid_groups(*in.scene)), start_(compare::to_single(in.scene->mesh.positions)), x_(start_) {}
+      : in_(in), settings_(in.scene->settings), exclusions_(compare::exclusions(*in.scene)), start_(compare::to_single(in.scene->mesh.positions)), x_(start_) {}
 
   compare::StepOut run() {
     out_.rest = rest_state({in_.scene, in_.topology}).exact;
-    out_.colour = colours_of(*in_.scene, out_.rest, groups_);
+    out_.colour = colours_of(*in_.scene, out_.rest, exclusions_.groups);
     set_targets();
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
-    StepOrder order(settings_, static_cast<Index>(std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; })));
+    StepOrder order(settings_, static_cast<Index>(std::count_if(exclusions_.groups.begin(), exclusions_.groups.end(), [](Index group) { return group != 0; })));
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;
@@ -68,14 +68,14 @@ class ReferenceStep {
     const compare::InitialGuessTruth guess = initial_guess(question);
     const std::vector<Vec3f> prescribed = step(in_, with_start()).prescribed_target;
     for (std::size_t v = 0; v < start_.size(); ++v) {
-      if (groups_[v] == -1) out_.target[v] = single(guess.target[v]);
-      if (groups_[v] > 0) out_.target[v] = prescribed[v];
+      if (exclusions_.groups[v] == -1) out_.target[v] = single(guess.target[v]);
+      if (exclusions_.groups[v] > 0) out_.target[v] = prescribed[v];
     }
   }
 
   void detect(StepEvent& event) {
     previous_ = x_;
-    const compare::DetectIn question{in_.topology, groups_, x_, static_cast<float>(settings_.contact_radius), out_.query_radius};
+    const compare::DetectIn question{in_.topology, exclusions_, x_, static_cast<float>(settings_.contact_radius), out_.query_radius};
     event.vertex_facet = detect_vertex_facet(question).exact;
     event.edge_edge = detect_edge_edge(question).exact;
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge, event.vertex_facet.d_min_triangle,
@@ -110,7 +110,7 @@ class ReferenceStep {
 
   const compare::StepIn& in_;
   const compare::Settings& settings_;
-  std::vector<Index> groups_;
+  compare::Exclusions exclusions_;
   std::vector<Vec3f> start_, x_, previous_;
   std::vector<float> bound_;
   ContactSets contacts_;

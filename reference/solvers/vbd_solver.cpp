@@ -28,9 +28,9 @@ Triple<double> solved(const VertexSystem& system) {
 
 VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<Index> colour)
     : ContactStep(scene, topology, options, stage_count), systems_(potential_), colour_(std::move(colour)) {
-  if (colour_.empty()) colour_ = colours_of(scene, potential_.rest(), groups_);
-  for (std::size_t v = 0; v < groups_.size(); ++v) {
-    if ((groups_[v] == -1) != (colour_.at(v) >= 0)) throw std::invalid_argument("reference VBD: a colour for each free vertex, and for no other");
+  if (colour_.empty()) colour_ = colours_of(scene, potential_.rest(), exclusions_.groups);
+  for (std::size_t v = 0; v < exclusions_.groups.size(); ++v) {
+    if ((exclusions_.groups[v] == -1) != (colour_.at(v) >= 0)) throw std::invalid_argument("reference VBD: a colour for each free vertex, and for no other");
     if (colour_[v] < 0) continue;
     const auto c = static_cast<std::size_t>(colour_[v]);
     classes_.resize(std::max(classes_.size(), c + 1));

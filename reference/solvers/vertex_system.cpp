@@ -126,15 +126,16 @@ void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple
   add_outer(energy.bend(0), angle.slope, angle.slope, sum);
 }
 
-/// k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and k k_s n nᵀ of the damping (compare/stages/spring.hpp).
-void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 2>& ends, VertexSystem& sum) {
-  const std::array<Triple<Own>, 2> x = with_own<Own>(ends, place);
-  const Triple<Own> apart = x[0] - x[1];
+/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping (compare/stages/spring.hpp).
+void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 4>& ends, VertexSystem& sum) {
+  const std::array<Triple<Own>, 4> x = with_own<Own>(ends, place);
+  const Triple<Own> apart = separation(term.weight, x);
   const Own length = sqrt(dot(apart, apart));
-  if (length.value == 0) return add_identity(term.rest_length == 0 ? term.stiffness : 0, sum);
+  const double squared_weight = term.weight[place] * term.weight[place];
+  if (length.value == 0) return add_identity(term.rest_length == 0 ? squared_weight * term.stiffness : 0, sum);
   const double across = std::max(0.0, 1 - term.rest_length / length.value);
   add_force(1, term.energy(x).slope, sum);
-  add_identity(term.stiffness * across, sum);
+  add_identity(squared_weight * term.stiffness * across, sum);
   add_outer(term.stiffness * (1 - across + term.damping), length.slope, length.slope, sum);
 }
 

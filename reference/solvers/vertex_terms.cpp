@@ -64,11 +64,15 @@ compare::BendingCase bending_question(const compare::SweepIn& in, const compare:
   return question;
 }
 
-/// Seen from the end `place`.
+/// The second vertex for a third one that is not there.
+std::array<Index, 3> ends_of(const compare::Spring& spring) { return {spring.first, spring.second, spring.third < 0 ? spring.second : spring.third}; }
+
 compare::SpringCase spring_question(const compare::SweepIn& in, const compare::Spring& spring, std::size_t place, const SweepPositions& x) {
-  const std::array<Index, 2> ends = place == 0 ? std::array{spring.first, spring.second} : std::array{spring.second, spring.first};
+  const std::array<Index, 3> ends = ends_of(spring);
   compare::SpringCase question;
-  for (std::size_t k = 0; k < 2; ++k) {
+  question.own = static_cast<std::int32_t>(place);
+  question.ratio = rounded(spring.ratio);
+  for (std::size_t k = 0; k < 3; ++k) {
     question.vertex[k] = x[ends[k]];
     question.start[k] = in.start[static_cast<std::size_t>(ends[k])];
   }
@@ -86,7 +90,11 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &vertex_facet, &edge_edge}) rows->resize(count);
   for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
-  for (std::size_t i = 0; i < in.scene->springs.size(); ++i) add_element(springs, i, std::array{in.scene->springs[i].first, in.scene->springs[i].second});
+  for (std::size_t i = 0; i < in.scene->springs.size(); ++i) {
+    const compare::Spring& spring = in.scene->springs[i];
+    if (spring.ratio > 0) add_element(springs, i, ends_of(spring));
+    else add_element(springs, i, std::array{spring.first, spring.second});
+  }
   for (std::size_t i = 0; i < in.vertex_facet.size(); ++i) add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i) add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
 }

@@ -69,6 +69,14 @@ std::vector<Fault> force_faults() {
       asked_wrongly<BendingIn>("bending: a hinge for the isometric model", Stage::bending, &Contestant::bending,
                                [](BendingCase& c) { c.model = BendingModel::discrete_hinge; }),
       asked_wrongly<SpringIn>("spring: rest length forgotten", Stage::spring, &Contestant::spring, [](SpringCase& c) { c.rest_length = 0; }),
+      asked_wrongly<SpringIn>("spring: the nearer end of the edge for the point between", Stage::spring, &Contestant::spring,
+                              [](SpringCase& c) {
+                                if (c.own < 2) c.ratio = 0;
+                              }),
+      asked_wrongly<SpringIn>("spring: weights of the edge's ends exchanged", Stage::spring, &Contestant::spring,
+                              [](SpringCase& c) {
+                                if (c.ratio > 0 && c.ratio < 1) c.ratio = 1 - c.ratio;
+                              }),
       asked_wrongly<SpringIn>("spring: damping forgotten", Stage::spring, &Contestant::spring, [](SpringCase& c) { c.damping = 0; }),
       spoiled<SpringIn>("spring: no stiffness across a stretched spring", Stage::spring, &Contestant::spring,
                         [](const SpringCase& c, Vec3f&, std::array<float, 6>& block) {

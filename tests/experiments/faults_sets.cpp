@@ -41,8 +41,8 @@ Fault edge_fault(const std::string& name, const SpoilEdges& spoil) {
 bool has(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
 
 bool rigid(const DetectIn& in, std::initializer_list<Index> vertices) {
-  const Index group = in.rigid_groups[*vertices.begin()];
-  return group >= 0 && std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return in.rigid_groups[v] == group; });
+  const Index group = in.exclusions.groups[*vertices.begin()];
+  return group >= 0 && std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return in.exclusions.groups[v] == group; });
 }
 
 Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
@@ -140,9 +140,23 @@ Fault groups_ignored() {
             contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet](const DetectIn& in) {
               const std::vector<Index> free(in.positions.size(), -1);
               DetectIn other = in;
-              other.rigid_groups = free;
+              other.exclusions.groups = free;
               return right(other);
             };
+          }};
+}
+
+/// Pairs beside a seam kept.
+Fault partners_ignored(Stage stage) {
+  return {std::string(stage_name(stage)) + ": excluded pairs ignored", stage, [stage](Contestant& contestant, const Authority&) {
+            const auto without = [](DetectIn in) {
+              in.exclusions.partners = nullptr;
+              return in;
+            };
+            if (stage == Stage::detect_vertex_facet)
+              contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, without](const DetectIn& in) { return right(without(in)); };
+            else
+              contestant.detect_edge_edge = [right = contestant.detect_edge_edge, without](const DetectIn& in) { return right(without(in)); };
           }};
 }
 
@@ -170,6 +184,7 @@ std::vector<Fault> facet_faults() {
       facet_fault("detect_vertex_facet: d_min of a vertex always 0",
                   [](const auto&, const auto&, auto& out) { std::fill(out.d_min_vertex.begin(), out.d_min_vertex.end(), 0.0f); }),
       groups_ignored(),
+      partners_ignored(Stage::detect_vertex_facet),
   };
 }
 

@@ -158,6 +158,19 @@ class Accepting(Scratch):
             rows = {row["file"]: row for row in csv.DictReader(file)}
         self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
 
+    def test_runs_without_logs_of_steps_took_what_their_manifests_say(self):
+        self.finished(started="2026-11-22T10:00:00Z", ended="2026-11-22T10:01:30Z")
+        self.accept("fig18")
+        self.assertEqual((self.results / "machine/durations.csv").read_text().splitlines()[1:], ["fig18,paper,cuda,90.0,machine"])
+
+    def test_a_missing_movie_is_refused_unless_said_so(self):
+        folder = self.make_run("fig11-paper-cuda/run")
+        (folder.parent / "fig11.png").write_bytes(b"picture")
+        with self.assertRaisesRegex(accept.AcceptError, "fig11.mp4 is missing"):
+            self.accept("fig11")
+        accept.accept([self.BOOK["fig11"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True)
+        self.assertEqual({path.name for path in (self.results / "machine").glob("fig11*")}, {"fig11_paper.png", "fig11_paper_run.json", "fig11_paper_steps.csv"})
+
     def test_files_of_an_earlier_acceptance_of_the_figure_go(self):
         """Else the runs of two programs lie in one folder, and claims are judged by either."""
         for name in ("first", "second"):

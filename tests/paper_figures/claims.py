@@ -49,7 +49,7 @@ class Judging(unittest.TestCase):
 
     def test_another_machine_has_no_band_and_a_missing_run_no_verdict(self):
         self.assertEqual(verdicts.judge({k: v for k, v in claim(instead="s.c").items() if k != "band"}, Evidence()).verdict, "not comparable")
-        self.assertEqual(self.verdict(run={"scale": "paper", "steps": 101}), "not yet run")
+        self.assertEqual(self.verdict(run={"scale": "paper", "steps": 100000}), "not yet run")
         self.assertEqual(self.verdict(run={"scale": "paper", "solver": "ipc", "backend": "cuda"}), "not yet run")
 
     def test_the_second_of_two_printed_values_counts(self):
@@ -89,7 +89,7 @@ class Judging(unittest.TestCase):
         self.assertEqual((found.measured.value, found.measured.source), (1, "a/fig99_paper.csv"))
 
     def test_a_wait_that_is_not_declared_and_one_that_is_over_are_found(self):
-        judged, waiting = claim(), claim(id="s.d", run={"scale": "paper", "steps": 101})
+        judged, waiting = claim(), claim(id="s.d", run={"scale": "paper", "steps": 100000})
         found = [verdicts.judge(each, Evidence()) for each in (judged, waiting, {**judged, "waits_for": "x"})]
         self.assertEqual(verdicts.unjudged(found), (["s.d"], ["s.c"]))
 

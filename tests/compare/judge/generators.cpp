@@ -42,7 +42,8 @@ struct IsLegal {
   }
   bool operator()(const BendingCase& c) const { return all_finite(c.vertex) && all_finite(c.start) && c.stiffness > 0 && c.damping >= 0 && c.own >= 0 && c.own < 4; }
   bool operator()(const SpringCase& c) const {
-    return all_finite(c.vertex) && all_finite(c.start) && c.stiffness > 0 && c.rest_length >= 0 && c.damping >= 0;
+    return all_finite(c.vertex) && all_finite(c.start) && c.stiffness > 0 && c.rest_length >= 0 && c.damping >= 0 && c.ratio >= 0 && c.ratio <= 1 &&
+           c.own >= 0 && c.own <= (c.ratio > 0 ? 2 : 1);
   }
   bool operator()(const SweepCase& c) const {
     const Topology topology = build_topology(*c.scene);
@@ -52,7 +53,10 @@ struct IsLegal {
     for (std::size_t v = 0; v < groups.size(); ++v) legal = legal && (c.colour[v] >= 0) == (groups[v] < 0) && c.largest_bound[v] >= 0;
     for (const Edge& e : topology.edges) legal = legal && coloured(e[0], e[1]);
     for (const Hinge& hinge : topology.hinges) legal = legal && coloured(hinge.opposite[0], hinge.opposite[1]);
-    for (const Spring& spring : c.scene->springs) legal = legal && coloured(spring.first, spring.second);
+    for (const Spring& spring : c.scene->springs) {
+      legal = legal && coloured(spring.first, spring.second);
+      if (spring.third >= 0) legal = legal && coloured(spring.first, spring.third) && coloured(spring.second, spring.third);
+    }
     return legal && all_finite(c.old) && all_finite(c.start) && all_finite(c.target) && all_finite(c.previous);
   }
   bool operator()(const StepCase& c) const {

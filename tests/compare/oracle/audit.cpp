@@ -126,6 +126,19 @@ TEST_CASE("a pair inside one rigid group is left out, a pair of two groups is no
   CHECK(mesh.audit(std::vector<Index>{0, 0, 0, 0, 1, 0}).count == 1);  // edge 3–5 is inside, edge 3–4 is not
 }
 
+TEST_CASE("a pair beside an excluded pair of vertices is left out, either way round, others are not", "[unit]") {
+  const TwoTriangles mesh({1, 1, -1});
+  const auto count = [&](std::vector<std::array<Index, 2>> pairs) {
+    const Exclusions exclusions{{}, partner_rows(6, pairs)};
+    return audit(mesh.topology, mesh.positions, exclusions).count;
+  };
+  CHECK(count({{5, 0}}) == 1);  // edge 3–5
+  CHECK(count({{0, 5}}) == 1);
+  CHECK(count({{4, 1}, {2, 5}}) == 0);
+  CHECK(count({{2, 3}}) == 0);  // of both edges
+  CHECK(count({{4, 5}, {0, 1}}) == 2);  // within a side
+}
+
 TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[unit]") {
   const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/validate.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/small_scene.hpp"
 
@@ -54,6 +55,43 @@ TEST_CASE("rigid groups: free, fixed, and one for each motion", "[unit]") {
   CHECK(rigid_groups(scene) == std::vector<Index>{1, -1, 2, -1, 0, 0, 0});
 }
 
+TEST_CASE("partners stand in the rows of both, once, ascending", "[unit]") {
+  const std::vector<std::array<Index, 2>> pairs{{3, 1}, {1, 3}, {0, 3}, {1, 2}};
+  const CompressedRows rows = partner_rows(5, pairs);
+  const std::vector<std::vector<Index>> expected{{3}, {2, 3}, {1}, {0, 1}, {}};
+  REQUIRE(rows.rows() == 5);
+  for (std::size_t v = 0; v < 5; ++v) CHECK(std::equal(rows[v].begin(), rows[v].end(), expected[v].begin(), expected[v].end()));
+  CHECK(pairs_of(rows) == std::vector<std::array<Index, 2>>{{0, 3}, {1, 2}, {1, 3}});
+  CHECK(partner_rows(5, {}).rows() == 0);
+}
+
+TEST_CASE("a stitch to an end of the edge is a spring between two vertices; the pairs beside every stitch are excluded", "[unit]") {
+  Scene scene = small_scene();
+  scene.springs.clear();
+  add_stitch(scene, 0, 1, 2, 0.25, 9);
+  add_stitch(scene, 0, 1, 2, 0, 9);
+  add_stitch(scene, 0, 1, 2, 1, 9);
+  CHECK(scene.springs == std::vector<Spring>{{0, 1, 9, 0, 0, 2, 0.25}, {0, 1, 9, 0, 0, -1, 0}, {0, 2, 9, 0, 0, -1, 0}});
+  CHECK(scene.excluded_pairs == std::vector<std::array<Index, 2>>{{0, 1}, {0, 2}, {0, 1}, {0, 2}});
+  CHECK(validate(scene).empty());
+}
+
+TEST_CASE("keyframes: each comes back bit for bit, straight lines lead from one to the next, and it rests before and after", "[unit]") {
+  Scene scene = small_scene();
+  PrescribedMotion motion;
+  motion.vertices = {0, 2};
+  motion.keyframes.times = {0.5, 1, 3};
+  const Vec3f a{0.1f, 0.2f, 0.3f}, b{1, 2, 3}, c{-1, 0.5f, 7};
+  motion.keyframes.positions = {a, b, b, c, c, a};
+  const auto at = [&](double t) { return prescribed_targets(scene, motion, t); };
+  CHECK(at(0) == std::vector<Vec3f>{a, b});
+  CHECK(at(0.5) == std::vector<Vec3f>{a, b});
+  CHECK(at(1) == std::vector<Vec3f>{b, c});
+  CHECK(at(3) == std::vector<Vec3f>{c, a});
+  CHECK(at(9) == std::vector<Vec3f>{c, a});
+  CHECK(at(2)[0] == Vec3f{0, 1.25f, 5});  // the middle between b and c
+}
+
 TEST_CASE("each vertex knows its body", "[unit]") {
   const Scene scene = small_scene();
   CHECK(body_of_vertex(scene) == std::vector<Index>{0, 0, 0, 0, 1, 1, 1});
@@ -94,35 +132,6 @@ TEST_CASE("after its end a motion stands still", "[unit]") {
   motion.end = 0.75;
   CHECK(prescribed_targets(scene, motion, 0.75) == prescribed_targets(scene, motion, 100));
   CHECK(prescribed_targets(scene, motion, 0.75) != prescribed_targets(scene, motion, 0.5));
-}
-
-TEST_CASE("keyframes are met exactly, with straight lines between them and rest before and after", "[unit]") {
-  const Scene scene = small_scene();
-  PrescribedMotion motion;
-  motion.vertices = {2, 0};
-  motion.keyframes = {{0.25, 0.5, 1.5}, {{0.1f, 0, 0}, {0, 1, 0}, {0.3f, 0, 0}, {0, 3, 0}, {0.3f, 2, 0}, {0, 3, -4}}};
-  const auto at = [&](double t) { return prescribed_targets(scene, motion, t); };
-  using Targets = std::vector<Vec3f>;
-  for (const double t : {-1.0, 0.0, 0.25}) CHECK(at(t) == Targets{{0.1f, 0, 0}, {0, 1, 0}});
-  CHECK(at(0.5) == Targets{{0.3f, 0, 0}, {0, 3, 0}});
-  for (const double t : {1.5, 9.0}) CHECK(at(t) == Targets{{0.3f, 2, 0}, {0, 3, -4}});
-  CHECK(at(0.75) == Targets{{0.3f, 0.5f, 0}, {0, 3, -1}});
-  CHECK(at(0.375)[1] == Vec3f{0, 2, 0});
-}
-
-TEST_CASE("a stitch is a spring of no length, and what it joins is no contact", "[unit]") {
-  Scene scene = small_scene();
-  add_stitch(scene, 0, 4, 5, 0.25, 100);
-  add_stitch(scene, 1, 4, 6, 0, 100);
-  add_stitch(scene, 3, 4, 6, 1, 100);
-  CHECK(scene.springs == std::vector<Spring>{{0, 4, 100, 0, 0, 5, 0.25}, {1, 4, 100}, {3, 6, 100}});
-  CHECK(scene.excluded_pairs == std::vector<std::array<Index, 2>>{{0, 4}, {0, 5}, {1, 4}, {3, 6}});
-  const CompressedRows partners = exclusions(scene).partners;
-  REQUIRE(partners.rows() == 7);
-  CHECK(std::vector<Index>(partners[0].begin(), partners[0].end()) == std::vector<Index>{4, 5});
-  CHECK(std::vector<Index>(partners[4].begin(), partners[4].end()) == std::vector<Index>{0, 1});
-  CHECK(partners[2].empty());
-  CHECK(exclusions(small_scene()).partners.rows() == 0);
 }
 
 TEST_CASE("a quarter turn follows the right-hand rule about the centre, and translation adds up", "[unit]") {

@@ -223,10 +223,55 @@ TEST_CASE("validate names each sort of problem of a motion", "[unit]") {
   }
 }
 
+TEST_CASE("validate names an excluded pair that is none, and keyframes that tell no motion", "[unit]") {
+  Scene scene = small_scene();
+  SECTION("pairs") {
+    scene.excluded_pairs = {{0, 6}, {3, 3}, {1, 7}, {-1, 2}};
+    const std::vector<Problem> problems = validate(scene);
+    REQUIRE(problems.size() == 3);
+    CHECK(problems[0].where == "excluded pair 1");
+    CHECK(problems[2].what.find("-1, 2") != std::string::npos);
+  }
+  PrescribedMotion& motion = scene.motions[0];
+  motion.angular_velocity = 0;
+  motion.velocity = {};
+  motion.keyframes.times = {0, 1};
+  motion.keyframes.positions.assign(2 * motion.vertices.size(), Vec3f{});
+  SECTION("right") { CHECK(validate(scene).empty()); }
+  SECTION("one frame") {
+    motion.keyframes.times = {0};
+    motion.keyframes.positions.resize(motion.vertices.size());
+    check_only(validate(scene), "motion 'left'", "has 1 keyframes");
+  }
+  SECTION("times") {
+    motion.keyframes.times = {1, 1};
+    check_only(validate(scene), "motion 'left'", "do not rise");
+  }
+  SECTION("count") {
+    motion.keyframes.positions.pop_back();
+    check_only(validate(scene), "motion 'left'", "positions in 2 keyframes");
+  }
+  SECTION("not a number") {
+    motion.keyframes.positions.back().z = std::numeric_limits<float>::quiet_NaN();
+    check_only(validate(scene), "motion 'left', keyframe 1, vertex " + std::to_string(motion.vertices.back()), "not finite");
+  }
+  SECTION("two motions in one") {
+    motion.velocity = {1, 0, 0};
+    check_only(validate(scene), "motion 'left'", "keyframes and velocities");
+  }
+}
+
 TEST_CASE("validate names a spring that joins no two vertices, or has a number out of range", "[unit]") {
   Scene scene = small_scene();
   scene.springs = {{1, 5, 10, 0.2, 0}};
   CHECK(validate(scene).empty());
+  SECTION("a point on no line") {
+    for (const auto& [third, ratio] : std::vector<std::pair<Index, double>>{{-1, 0.5}, {5, 0.5}, {1, 0.5}, {7, 0.5}, {2, 1.5}, {2, -0.5}, {-2, 0}}) {
+      scene.springs[0].third = third;
+      scene.springs[0].ratio = ratio;
+      check_only(validate(scene), "spring 0", "has no such point");
+    }
+  }
   SECTION("unknown vertex") {
     scene.springs[0].second = 7;
     check_only(validate(scene), "spring 0", "does not join two vertices: 1, 7");

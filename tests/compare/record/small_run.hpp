@@ -21,7 +21,7 @@ inline compare::Scene recorded_scene() {
                   {.name = "yarn", .first_vertex = 7, .vertex_count = 3, .first_triangle = 3, .triangle_count = 0, .fixed = false, .material = {}}};
   for (std::size_t v = 0; v < 4; ++v) scene.velocities[v] = {};
   scene.bodies[1].material.density = 0.3;
-  scene.motions = {{.name = "handle", .vertices = {4}, .centre = {0, 1, 0}, .axis = {0, 1, 0}, .angular_velocity = 1, .velocity = {0, 1, 0}}};
+  scene.motions = {{.name = "handle", .vertices = {4}, .centre = {0, 1, 0}, .axis = {0, 1, 0}, .angular_velocity = 1, .velocity = {0, 1, 0}, .keyframes = {}}};
   scene.motions[0].end = 2;
   scene.settings.steps = 4;
   scene.settings.seed = 42;

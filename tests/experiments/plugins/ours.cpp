@@ -67,13 +67,17 @@ Scene scene_of(const ogc_scene& in) {
   for (Index k = 0; k < in.body_count; ++k) scene.bodies.push_back(body_of(in.bodies[k]));
   for (Index k = 0; k < in.spring_count; ++k) {
     const ogc_scene_spring& s = in.springs[k];
-    scene.springs.push_back({s.vertex[0], s.vertex[1], s.stiffness, s.rest_length, s.damping});
+    scene.springs.push_back({s.vertex[0], s.vertex[1], s.stiffness, s.rest_length, s.damping, s.vertex[2], s.ratio});
   }
   for (Index v = 0; v < t.vertex_count; ++v) {
     const auto group = static_cast<std::size_t>(std::max(0, in.rigid_groups[v]));
     if (group > scene.motions.size()) scene.motions.resize(group);
     if (group > 0) scene.motions[group - 1].vertices.push_back(v);
   }
+  const ogc_rows& partners = in.excluded_partners;
+  for (Index v = 0; v < t.vertex_count; ++v)
+    for (Index i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i)
+      if (partners.items[i] > v) scene.excluded_pairs.push_back({v, partners.items[i]});
   scene.gravity = {in.gravity.x, in.gravity.y, in.gravity.z};
   scene.settings = settings_of(in.settings);
   return scene;
@@ -125,7 +129,7 @@ std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& 
   };
   for (const RestTriangle& t : rest.triangles) join(t.corner);
   for (const RestHinge& h : rest.hinges) join(h.vertex);
-  for (const Spring& s : springs) join(std::array{s.first, s.second});
+  for (const Spring& s : springs) s.third < 0 ? join(std::vector{s.first, s.second}) : join(std::vector{s.first, s.second, s.third});
   std::vector<Index> colour(groups.size(), -1);
   for (std::size_t v = 0; v < groups.size(); ++v) {
     if (groups[v] != -1) continue;
@@ -142,7 +146,7 @@ class Step {
  public:
   explicit Step(const ogc_step_in& in)
       : count_(static_cast<std::size_t>(in.scene.topology.vertex_count)), scene_(scene_of(in.scene)), topology_(build_topology(scene_)),
-        groups_(rigid_groups(scene_)), start_(points(in.start, count_)), velocity_(points(in.velocity, count_)), x_(start_) {
+        groups_(rigid_groups(scene_)), left_out_(exclusions(scene_)), start_(points(in.start, count_)), velocity_(points(in.velocity, count_)), x_(start_) {
     rest = ours().rest_state({&scene_, &topology_});
     colour = colours(rest, scene_.springs, groups_);
     set_targets(in);
@@ -193,7 +197,7 @@ class Step {
   }
 
   void detect() {
-    const DetectIn in{&topology_, groups_, x_, static_cast<float>(scene_.settings.contact_radius), query_radius};
+    const DetectIn in{&topology_, left_out_, x_, static_cast<float>(scene_.settings.contact_radius), query_radius};
     detected_ = {StepEventKind::detection, x_, 0, ours().detect_vertex_facet(in), ours().detect_edge_edge(in), {}};
     detected_.bound = ours()
                           .bound({&topology_, detected_.vertex_facet.d_min_vertex, detected_.edge_edge.d_min_edge, detected_.vertex_facet.d_min_triangle,
@@ -239,6 +243,7 @@ class Step {
   Scene scene_;
   Topology topology_;
   std::vector<Index> groups_;
+  Exclusions left_out_;
   std::vector<Vec3f> start_, velocity_, x_;
   StepEvent detected_;
 };

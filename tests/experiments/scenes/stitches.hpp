@@ -24,25 +24,16 @@ inline double largest_gap(const compare::Scene& scene) {
   return largest;
 }
 
-/// Intersections at the start outside rigid groups, by whether the scene excludes the pair.
+/// Intersections at the start outside rigid groups, and those of them that the scene does not exclude, as the oracle counts them.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };
 
 inline StitchedStart stitched_start(const compare::Scene& scene) {
   const compare::Topology topology = build_topology(scene);
-  const compare::Exclusions left_out = exclusions(scene);
-  StitchedStart start;
-  for (const compare::Intersection& found : compare::audit(topology, scene.mesh.positions, rigid_groups(scene), {.limit = 1'000'000}).intersections) {
-    const bool is_edge = found.kind == compare::IntersectionKind::edge_triangle;
-    const compare::Edge ends = is_edge ? topology.edges[static_cast<std::size_t>(found.first)] : compare::Edge{found.first, found.first};
-    const bool partners = std::ranges::any_of(ends, [&](compare::Index u) {
-      return std::ranges::any_of(topology.triangles[static_cast<std::size_t>(found.second)],
-                                 [&](compare::Index v) { return std::ranges::count(left_out.partners[static_cast<std::size_t>(u)], v) > 0; });
-    });
-    ++(partners ? start.between_partners : start.others);
-  }
-  return start;
+  const std::size_t all = compare::audit(topology, scene.mesh.positions, rigid_groups(scene)).count;
+  const std::size_t others = compare::audit(topology, scene.mesh.positions, exclusions(scene)).count;
+  return {all - others, others};
 }
 
 /// By how much an edge of the body differs from its rest length at the start, at most [1].

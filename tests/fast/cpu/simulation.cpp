@@ -350,3 +350,78 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
     ends.push_back(outcome.end.positions);
   }
 }
+
+namespace {
+
+/// Two sheets beside each other in one plane, 8 mm apart, at rest and without gravity, stitched along their border, each vertex of the second to the border of the first.
+compare::Scene seam_scene(bool excluded) {
+  compare::Scene scene = empty_scene();
+  scene.gravity = {};
+  add_sheet(scene, 9, 0.08, 0, false);
+  add_sheet(scene, 7, 0.08, 0, false);
+  for (std::size_t v = 81; v < 130; ++v) {
+    scene.mesh.positions[v].x += 0.088;
+    scene.rest_positions[v].x += 0.088;
+  }
+  for (int k = 0; k < 7; ++k) {
+    const double place = 8 * k / 6.0;
+    const int below = std::min(7, static_cast<int>(place));
+    add_stitch(scene, 81 + k, 72 + below, 73 + below, place - below, 20);
+  }
+  if (!excluded) scene.excluded_pairs.clear();
+  round_to_single(scene);
+  return scene;
+}
+
+/// The widest gap of its stitches [m].
+double widest_gap(const compare::Scene& scene, const std::vector<compare::Vec3f>& x) {
+  double widest = 0;
+  for (const compare::Spring& s : scene.springs) {
+    const auto at = [&](compare::Index v) { return x[static_cast<std::size_t>(v)]; };
+    const auto apart = [&](float compare::Vec3f::*axis) {
+      const double other = s.third < 0 ? at(s.second).*axis : (1 - s.ratio) * (at(s.second).*axis) + s.ratio * (at(s.third).*axis);
+      return at(s.first).*axis - other;
+    };
+    widest = std::max(widest, std::hypot(apart(&compare::Vec3f::x), apart(&compare::Vec3f::y), apart(&compare::Vec3f::z)));
+  }
+  return widest;
+}
+
+}  // namespace
+
+TEST_CASE("a seam of stitches closes where the pairs beside it are no contacts, and stays open where they are", "[property]") {
+  const compare::Scene seam = seam_scene(true), repelled = seam_scene(false);
+  const Outcome closed = run(seam, 150), open = run(repelled, 150);
+  CHECK(closed.rows.back().status == compare::step_clean);
+  CHECK(open.rows.back().status == compare::step_clean);
+  // A stitch of 20 N/m against a contact of at most k_c r/2: they balance more than a tenth of r apart; without contacts nothing holds a stitch open but the sheets.
+  CHECK(widest_gap(seam, closed.end.positions) < 0.05 * seam.settings.contact_radius);
+  CHECK(widest_gap(repelled, open.end.positions) > 0.1 * seam.settings.contact_radius);
+}
+
+TEST_CASE("a surface that keyframes deform carries a sheet along, and follows its keyframes", "[property]") {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 8, 0.06, 6e-3, false);
+  add_sheet(scene, 9, 0.10, 0, false);
+  scene.bodies[1].material.membrane = compare::MembraneModel::none;
+  scene.bodies[1].material.bending = compare::BendingModel::none;
+  compare::PrescribedMotion motion;
+  motion.name = "swell";
+  motion.keyframes.times = {0, 0.1, 0.4};
+  for (const double time : motion.keyframes.times)
+    for (compare::Index v = 64; v < 145; ++v) {
+      const compare::Vec3 x = scene.mesh.positions[static_cast<std::size_t>(v)];
+      if (time == 0) motion.vertices.push_back(v);
+      motion.keyframes.positions.push_back({static_cast<float>(x.x), static_cast<float>(x.y + time * (0.1 + 0.5 * std::cos(20 * x.x))), static_cast<float>(x.z)});
+    }
+  scene.motions.push_back(motion);
+  const Outcome outcome = run(scene, 50);
+  CHECK(outcome.rows.back().status == compare::step_clean);
+  CHECK(outcome.rows.back().largest_lag == 0);  // at rest since t = 0.4 s
+  for (std::size_t k = 0; k < 81; ++k) {
+    const compare::Vec3f& x = outcome.end.positions[64 + k];
+    CHECK(x == motion.keyframes.positions[162 + k]);
+  }
+  // The surface has risen by 0.4 (0.1 + 0.5 cos 20 x) ≥ 0.2 m under the sheet, which began 6 mm above it.
+  CHECK(mean(outcome.end.positions, 0, 64, &compare::Vec3f::y) > 0.2);
+}

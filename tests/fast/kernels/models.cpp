@@ -112,7 +112,7 @@ TEST_CASE("isometric kernel: flat hinges exert nothing, and force and block are 
 TEST_CASE("spring kernel: force and block where stretched, pressed, stitched and without a length", "[unit]") {
   const auto of = [](float rest_length, const Vec& apart, float damping = 0, float start = 0) {
     ForceAndBlock sum;
-    add_spring({{0, 1}, 8, rest_length, damping}, damping, apart, start, sum);
+    add_spring({{0, 1, 1}, 8, rest_length, damping}, 1, damping, apart, start, sum);
     return sum;
   };
   const ForceAndBlock stretched = of(1, {2, 0, 0}), pressed = of(4, {2, 0, 0}), stitch = of(0, {0.5f, 0, 0}), damped = of(2, {2, 0, 0}, 3, 1.5f);
@@ -128,6 +128,22 @@ TEST_CASE("spring kernel: force and block where stretched, pressed, stitched and
   CHECK(of(0, {}).block.xx == 8);
   CHECK(of(1, {}).block.xx == 0);
   CHECK(of(1, {1e-30f, 0, 0}).force.x == 0);
+}
+
+TEST_CASE("spring kernel: the ends of a stitch share its force by their weights, and feel w² k I", "[unit]") {
+  const SpringRest stitch{{0, 1, 2}, 16, 0, 0, 0.25f};
+  const Vec end[3] = {{0, 2, 0}, {-1, 0, 0}, {3, 0, 0}};
+  const Vec apart = spring_apart(stitch, end);
+  CHECK((apart.x == 0 && apart.y == 2 && apart.z == 0));
+  const float weight[3] = {1, -0.75f, -0.25f};
+  for (int place = 0; place < 3; ++place) {
+    ForceAndBlock sum;
+    CHECK(spring_weight(stitch, place) == weight[place]);
+    add_spring(stitch, weight[place], 0, apart, 0, sum);
+    CHECK(sum.force.y == -32 * weight[place]);
+    CHECK(sum.block.xx == 16 * weight[place] * weight[place]);
+    CHECK(sum.block.xy == 0);
+  }
 }
 
 TEST_CASE("damping by vertex adds k times the elastic block, on the motion and to the block", "[unit]") {

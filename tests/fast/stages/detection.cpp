@@ -327,6 +327,40 @@ TEST_CASE("detection: pairs inside one rigid group are left out, of contacts and
   CHECK(find(topology, surface.positions, 0.5F, 0.75F, two).vertex_facet == find(topology, surface.positions, 0.5F, 0.75F).vertex_facet);
 }
 
+TEST_CASE("detection: pairs beside excluded ones are left out, of contacts and of distances, and of nothing else", "[property]") {
+  TestMesh surface = tests::sheet(5, 1.0F, 0);
+  surface.add(tests::jittered(tests::sheet(5, 1.0F, 0.25F), 0.1F, 3));
+  const compare::Topology topology = surface.topology();
+  std::vector<std::array<compare::Index, 2>> pairs;
+  for (compare::Index v = 0; v < 5; ++v) pairs.push_back({v, 25 + v}), pairs.push_back({25 + v, std::max(0, v - 1)});
+  const compare::Exclusions exclusions{{}, compare::partner_rows(50, pairs)};
+  CpuBackend backend;
+  const auto found = [&](const compare::ExclusionView& left_out) {
+    BackendContactEngine<CpuBackend> engine(backend, topology, left_out);
+    return engine.find(surface.positions, {.contact_radius = 0.5F, .query_radius = 1.0F});
+  };
+  const ContactSets all = found({}), some = found(exclusions);
+  const auto beside = [&](std::span<const compare::Index> a, std::span<const compare::Index> b) {
+    return std::any_of(a.begin(), a.end(), [&](compare::Index v) {
+      const auto row = exclusions.partners[static_cast<std::size_t>(v)];
+      return std::find_first_of(row.begin(), row.end(), b.begin(), b.end()) != row.end();
+    });
+  };
+  int lost = 0;
+  for (const auto& contact : all.edge_edge) {
+    const bool kept = std::find(some.edge_edge.begin(), some.edge_edge.end(), contact) != some.edge_edge.end();
+    lost += !kept;
+    // A pair of faces with a vertex may be entered under another pair of edges; of two interiors there is one.
+    if (contact.first.kind != compare::FaceKind::edge || contact.second.kind != compare::FaceKind::edge) continue;
+    CHECK(kept != beside(topology.edges[static_cast<std::size_t>(contact.first_edge)], topology.edges[static_cast<std::size_t>(contact.second_edge)]));
+  }
+  CHECK(lost > 0);
+  for (const auto& contact : some.vertex_facet) CHECK(std::find(all.vertex_facet.begin(), all.vertex_facet.end(), contact) != all.vertex_facet.end());
+  CHECK(some.vertex_facet.size() < all.vertex_facet.size());
+  for (std::size_t v = 0; v < 50; ++v) CHECK(some.d_min_vertex[v] >= all.d_min_vertex[v]);
+  CHECK(std::equal(some.d_min_vertex.begin() + 10, some.d_min_vertex.begin() + 25, all.d_min_vertex.begin() + 10));
+}
+
 TEST_CASE("detection: the bound is the relaxed minimum over the vertex, its edges and its triangles, rounded down", "[unit]") {
   const TestMesh surface = layers(12);
   const compare::Topology topology = surface.topology();

@@ -134,10 +134,8 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
     for (int round = 0; round < 30; ++round) {
       std::vector<MembraneTerm> membranes;
       std::vector<HingeTerm> hinges;
-      std::vector<SpringTerm> springs;
       std::vector<Corners<3>> triangles;
       std::vector<Corners<4>> folds;
-      std::vector<Corners<2>> pairs;
       for (std::size_t i = 0; i < batch_width; ++i) {
         // First all alike, then with other branches among them, by chance.
         const auto other = [&] { return round % 3 == 2 && draw.between(0, 1) < 0.3; };
@@ -147,12 +145,9 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
         triangles.push_back({fold[0], fold[1], other() ? fold[1] : fold[3]});
         folds.push_back(fold);
         hinges.push_back({{}, 5e-7, draw.between(-1, 1), other() ? 0 : draw.between(0, 0.5), draw.between(-1, 1), other(), {30, 70, -60, -40}});
-        pairs.push_back({fold[0], other() ? fold[0] : fold[3]});
-        springs.push_back({{}, 10, other() ? 0 : draw.between(0, 0.02), other() ? 0 : draw.between(0, 0.5), draw.between(0.005, 0.02)});
       }
       check_against_alone<3>(kernels->membranes, membranes, triangles, alone<3>());
       check_against_alone<4>(kernels->hinges, hinges, folds, alone<4>());
-      check_against_alone<2>(kernels->springs, springs, pairs, alone<2>());
     }
   }
 }
@@ -198,6 +193,7 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
     for (int round = 0; round < 30; ++round) {
       std::vector<FrictionTerm> frictions;
       std::vector<PlacedContact> contacts;
+      std::vector<SpringTerm> springs;
       std::vector<Corners<4>> corners;
       for (std::size_t i = 0; i < batch_width; ++i) {
         Corners<4> x{{{0.1 * r, 0, 0.4 * r}, {r, 0, 0.5 * r}, {0.2 * r, 0, 0}, {1.2 * r, 0, 0}}};
@@ -209,6 +205,7 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
         const double slip = i % 3 == 0 ? 0 : i % 3 == 1 ? 5e-5 : 1e-3;
         frictions.push_back({compare::ContactSides::edge_edge, {}, weight, {0, 0.6, 0.8}, apart - Triple<double>{slip, 0, 0}, 0.01, 1e-4});
         contacts.push_back({{compare::ContactSides::edge_edge, {}, 2 * r, 10, 1, 0, compare::ContactActivation::ogc}, weight, FormKind::fixed_weights});
+        springs.push_back({{}, {1, s - 1, -s, 0}, 10, i % 2 == 0 ? 0 : 0.3 * r, i % 3 == 0 ? 0 : 0.2, 0.5 * r});
         corners.push_back(x);
       }
       const auto nearly = [](const StencilDerivatives& a, const StencilDerivatives& b) {
@@ -223,9 +220,12 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
       for (const auto projection : {HessianProjection::none, HessianProjection::clamp, HessianProjection::absolute}) {
         const auto rubbed = differentiated<4>(kernels->frictions, frictions, corners, projection);
         const auto pushed = differentiated<4>(kernels->weighted_contacts, contacts, corners, projection);
+        const auto pulled = differentiated<4>(kernels->springs, springs, corners, projection);
         for (std::size_t i = 0; i < batch_width; ++i) {
           nearly(rubbed[i], alone<4>()(frictions[i], corners[i], projection));
           const auto over_weights = [&](const auto& x) { return contacts[i].energy_between(separation(contacts[i].weight, x)); };
+          nearly(pulled[i], alone<4>()(springs[i], corners[i], projection));
+          CHECK(same_bits(pulled[i], differentiated<4>(kernels->springs, {springs[i]}, {corners[i]}, projection)[0]));
           nearly(pushed[i], stencil_derivatives<4>(corners[i], projection, over_weights));
           CHECK(same_bits(rubbed[i], differentiated<4>(kernels->frictions, {frictions[i]}, {corners[i]}, projection)[0]));
           CHECK(same_bits(pushed[i], differentiated<4>(kernels->weighted_contacts, {contacts[i]}, {corners[i]}, projection)[0]));

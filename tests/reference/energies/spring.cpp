@@ -12,7 +12,7 @@ namespace {
 
 SpringCase random_case(Draw& draw) {
   SpringCase c;
-  for (auto* points : {&c.vertex, &c.start}) *points = {draw.in_box(1), draw.in_box(1)};
+  for (auto* points : {&c.vertex, &c.start}) *points = {draw.in_box(1), draw.in_box(1), draw.in_box(1)};
   c.stiffness = draw.single(1, 20);
   c.rest_length = draw.single(0, 2);
   c.damping = draw.single(0, 2);
@@ -22,6 +22,19 @@ SpringCase random_case(Draw& draw) {
 double energy(const Point& own, const SpringCase& c) {
   const double length = norm(minus(own, point(c.vertex[1]))), before = norm(minus(point(c.start[0]), point(c.start[1])));
   return c.stiffness / 2 * ((length - c.rest_length) * (length - c.rest_length) + c.damping * (length - before) * (length - before));
+}
+
+/// Of a stitch, with the vertex asked about at `own`.
+double seam_energy(const Point& own, const SpringCase& c) {
+  const auto length = [&](const std::array<compare::Vec3f, 3>& at, const Point* moved) {
+    std::array<Point, 3> x{point(at[0]), point(at[1]), point(at[2])};
+    if (moved != nullptr) x[static_cast<std::size_t>(c.own)] = *moved;
+    Point apart{};
+    for (std::size_t k = 0; k < 3; ++k) apart[k] = x[0][k] - (1 - double{c.ratio}) * x[1][k] - double{c.ratio} * x[2][k];
+    return norm(apart);
+  };
+  const double now = length(c.vertex, &own), before = length(c.start, nullptr);
+  return c.stiffness / 2 * ((now - c.rest_length) * (now - c.rest_length) + c.damping * (now - before) * (now - before));
 }
 
 Point force_of(const compare::ForceAnswer& answer) { return {answer.force.x, answer.force.y, answer.force.z}; }
@@ -62,9 +75,49 @@ TEST_CASE("the reference's spring block is the second derivative where stretched
   }
 }
 
+TEST_CASE("a spring to a point of an edge: its forces are minus the energy's slopes, their sum and their moment are 0", "[property]") {
+  Draw draw(5);
+  for (int i = 0; i < 200; ++i) {
+    SpringCase c = random_case(draw);
+    c.ratio = draw.single(0.01, 0.99);
+    Point sum{}, moment{};
+    double size = 0;
+    for (c.own = 0; c.own < 3; ++c.own) {
+      const auto own = static_cast<std::size_t>(c.own);
+      const Point force = force_of(reference::spring(c)), fallen = slope([&](const Point& x) { return seam_energy(x, c); }, point(c.vertex[own]), 1e-5);
+      for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(std::abs(force[k] + fallen[k]) < 1e-3);  // energies as above, at lengths that may be shorter
+        sum[k] += force[k];
+        moment[k] += outer(point(c.vertex[own]), force)[k];
+      }
+      size += norm(force);
+    }
+    CHECK(norm(sum) < 1e-14 * size);
+    CHECK(norm(moment) < 1e-13 * size);
+  }
+}
+
+TEST_CASE("a stitch to a point of an edge has the blocks w² k I, and none is pulled where it is closed", "[unit]") {
+  SpringCase c;
+  c.vertex = {{{0, 0, 0}, {-1, 0, 0}, {3, 0, 0}}};
+  c.start = c.vertex;
+  c.stiffness = 16;
+  c.ratio = 0.25f;
+  const std::array<double, 3> weight{1, -0.75, -0.25};
+  for (c.own = 0; c.own < 3; ++c.own) {
+    const double w = weight[static_cast<std::size_t>(c.own)], block = w * w * 16;
+    CHECK(reference::spring(c).force == compare::Vec3{});
+    CHECK(reference::spring(c).block == std::array<double, 6>{block, 0, 0, block, 0, block});
+    SpringCase open = c;
+    open.vertex[0].y = 2;
+    CHECK(reference::spring(open).force.y == -w * 32);
+    CHECK(reference::spring(open).block[0] == Approx(block));
+  }
+}
+
 TEST_CASE("a stitch is k I at every length, and a spring without a length exerts nothing", "[unit]") {
   SpringCase c;
-  c.vertex = {{{0.25f, -1, 2}, {0, 0, 0}}};
+  c.vertex = {{{0.25f, -1, 2}, {0, 0, 0}, {0, 0, 0}}};
   c.start = c.vertex;
   c.stiffness = 8;
   const compare::ForceAnswer stitch = reference::spring(c);
@@ -80,8 +133,8 @@ TEST_CASE("a stitch is k I at every length, and a spring without a length exerts
 
 TEST_CASE("damping of a spring's strain sees no rigid motion, damping by vertex a translation, too", "[property]") {
   SpringCase c;
-  c.vertex = {{{1, 0, 0}, {0, 0, 0}}};
-  c.start = {{{5, 1, 0}, {5, 0, 0}}};  // turned and shifted, as long
+  c.vertex = {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // turned and shifted, as long
   c.stiffness = 2;
   c.rest_length = 1;
   c.damping = 3;

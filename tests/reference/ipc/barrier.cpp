@@ -26,7 +26,7 @@ Many exact_barrier(const Many& gap, const Many& support) { return -(gap - suppor
 struct Pieces {
   State x;
   compare::Topology topology;
-  std::vector<Index> groups;
+  compare::Exclusions groups;
   std::vector<float> rest;
   PairMesh mesh() const { return {topology, groups, rest}; }
 };

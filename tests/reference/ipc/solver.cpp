@@ -41,7 +41,7 @@ struct Stepper {
     return next.metrics;
   }
   bool intersects() const {
-    const std::vector<compare::Index> groups = rigid_groups(scene);
+    const compare::Exclusions groups = exclusions(scene);
     const std::vector<float> rest(topology.edges.size(), 1);
     return !reference::intersections({topology, groups, rest}, x).empty();
   }

@@ -58,7 +58,7 @@ TEST_CASE("IPC: CCD of all pairs misses no active pair and none that comes withi
   add_sheet(scene, 4, 0.07, 1.2e-3, false);
   round_to_single(scene);
   const compare::Topology topology = build_topology(scene);
-  const std::vector<Index> groups = rigid_groups(scene);
+  const compare::Exclusions groups = exclusions(scene);
   const std::vector<float> rest(topology.edges.size(), 4e-4F);
   const PairMesh mesh{topology, groups, rest};
   const BarrierShape shape{1e-3, 0};
