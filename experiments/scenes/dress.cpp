@@ -162,7 +162,7 @@ class Band {
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) { return static_cast<Index>(std::lround(around * radians / (2 * std::numbers::pi))); };
-  const Index inner = slot_at(0.436), outer = std::max(inner + 1, slot_at(0.75)), columns = outer - inner;
+  const Index inner = slot_at(0.436), outer = std::max(inner + 1, slot_at(0.85)), columns = outer - inner;
   const auto front = [&](Index j) { return (around + side * (inner + j)) % around; };
   const auto back = [&](Index j) { return (around + around / 2 - side * (inner + j)) % around; };
   const auto edge = [&](Index slot) { return bodice.vertices_at(0, slot)[0]; };
@@ -235,6 +235,23 @@ void append_character(Scene& scene, const DressData& data) {
   scene.motions.push_back(std::move(motion));
 }
 
+/// Vertices that are stitched to the same one and start there, nearer to each other than `within` [m]: where seams meet. They are drawn together as well, so they
+/// are no contacts either; neighbours in a panel go on to be what they are.
+void exclude_junctions(Scene& scene, double within) {
+  const compare::Topology topology = build_topology(scene);
+  const compare::Exclusions direct = exclusions(scene);
+  for (std::size_t v = 0; v < direct.partners.rows(); ++v) {
+    const auto partners = direct.partners[v];
+    for (auto a = partners.begin(); a != partners.end(); ++a) {
+      for (auto b = a + 1; b != partners.end(); ++b) {
+        const Vec3 &x = scene.mesh.positions[at(*a)], &y = scene.mesh.positions[at(*b)];
+        const bool near = std::hypot(x.x - y.x, x.y - y.y, x.z - y.z) < within;
+        if (near && find_edge(topology, *a, *b) < 0) scene.excluded_pairs.push_back({*a, *b});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Scene dress(const DressSizes& sizes) {
@@ -247,7 +264,9 @@ Scene dress(const DressSizes& sizes) {
   skirt.append(scene, &chest);
   lowest.append(scene, &skirt);
   for (const int side : {-1, 1}) append_strap(scene, chest, sizes.strap, side);
-  append_mannequin(scene, {.shoulders = shoulders, .torso_radius = chest_radius - 1.5 * radius, .spacing = sizes.body_spacing}, skin());
+  constexpr double inside_hips = 0.172;  // of the largest ball about (0, 0.86 m, 0) in the cone of the hips [m]
+  append_mannequin(scene, {.shoulders = shoulders, .torso_radius = chest_radius - 1.5 * radius, .pelvis_radius = inside_hips - 1.5 * radius,
+                           .spacing = sizes.body_spacing}, skin());
   return scene;
 }
 
@@ -263,6 +282,7 @@ Scene dress(const DressData& data, std::int64_t steps) {
     stitch(scene, first, second, third, s.ratio);
     scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});  // a stitch to an end of an edge is still one to the edge, and drawn together with it
   }
+  exclude_junctions(scene, scene.settings.contact_radius);
   return scene;
 }
 

@@ -8,14 +8,15 @@ namespace ogc::experiments {
 
 /// How many cells, [along the body, around a panel], the stand-in's panels have; defaults: about the data set's size. The contact radius follows the spacing.
 struct DressSizes {
-  std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{27, 48};
+  std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{26, 48};
   compare::Index strap = 50;           ///< cells along a strap
-  double body_spacing = 0.01285;        ///< edges of the body [m]
+  double body_spacing = 0.01437;        ///< edges of the body [m]
   std::int64_t steps = 968;            ///< 4.84 s
 };
 
 /// The stand-in: bodice (cylinder), hips and hem (cones), four panels each, and two straps over the shoulders (half cones), on a mannequin of capsules that
-/// walks (experiments/scenes/mannequin.hpp). Starts free of intersections but between stitched primitives, 1.5 r away from the torso, at rest in its rest shape
+/// walks (experiments/scenes/mannequin.hpp). Starts free of intersections but between stitched primitives, 1.5 r away from torso and pelvis, which
+/// carry it, at rest in its rest shape
 /// but for the straps, which lie on a ball instead of a cone (1.3 %). y is up; bodies: the panels, then the body.
 ///
 /// Material: wool with 5 % lycra, 543.29 kg/m³ and 0.328 mm, ν 0.071, of Penava et al. (2014) as in Codimensional IPC's scripts. They know it with E = 76 kPa,

@@ -28,6 +28,7 @@ struct Limb {
 std::vector<Limb> limbs(const MannequinSizes& sizes) {
   const double top = sizes.shoulders;
   std::vector<Limb> all{{{0, sizes.waist, 0}, {0, top, 0}, sizes.torso_radius, Joint::none, 0},
+                        {{0, 0.855, 0}, {0, 0.865, 0}, sizes.pelvis_radius, Joint::none, 0},
                         {{0, top + 0.10, 0}, {0, top + 0.20, 0}, 0.045, Joint::none, 0},
                         {{0, top + 0.28, 0.01}, {0, top + 0.34, 0.01}, 0.09, Joint::none, 0}};
   for (const int side : {-1, 1}) {

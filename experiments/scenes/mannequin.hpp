@@ -5,10 +5,10 @@
 
 namespace ogc::experiments {
 
-/// Height of the shoulders' centre, of the torso's lower end, and the torso's radius [m]; `spacing`: about the length of the surface's edges [m].
+/// Height of the shoulders' centre, of the torso's lower end, and radii of torso and pelvis (a ball at 0.86 m) [m]; `spacing`: about the length of the surface's edges [m].
 struct MannequinSizes {
-  double shoulders = 1.30, waist = 0.98, torso_radius = 0.142;
-  double spacing = 0.01285;
+  double shoulders = 1.30, waist = 0.98, torso_radius = 0.142, pelvis_radius = 0.169;
+  double spacing = 0.01437;
   double seconds = 4.84;  ///< how long it walks
 };
 
