@@ -1,5 +1,5 @@
-// Panels are cut from surfaces that can be laid flat, so that the rest shapes are exact. Vertices of different panels at one place are stitched to each other, each
-// to each: then all pairs of faces that touch at the start are between direct partners.
+// Panels are cut from surfaces that can be laid flat, so that the rest shapes are exact. Vertices of different panels at one place are stitched to each other,
+// each to each: then all pairs of faces that touch at the start are between direct partners.
 #include "experiments/scenes/dress.hpp"
 
 #include <algorithm>
@@ -235,8 +235,8 @@ void append_character(Scene& scene, const DressData& data) {
   scene.motions.push_back(std::move(motion));
 }
 
-/// Vertices that are stitched to the same one and start there, nearer to each other than `within` [m]: where seams meet. They are drawn together as well, so they
-/// are no contacts either; neighbours in a panel go on to be what they are.
+/// Vertices that are stitched to the same one and start nearer to each other than `within` [m]: where seams meet. They are drawn together as well, so they are
+/// no contacts either; neighbours in a panel go on to be what they are.
 void exclude_junctions(Scene& scene, double within) {
   const compare::Topology topology = build_topology(scene);
   const compare::Exclusions direct = exclusions(scene);
@@ -280,7 +280,8 @@ Scene dress(const DressData& data, std::int64_t steps) {
   for (const Stitch& s : data.stitches) {
     const Index first = renumbered[at(s.first)], second = renumbered[at(s.second)], third = renumbered[at(s.third)];
     stitch(scene, first, second, third, s.ratio);
-    scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});  // a stitch to an end of an edge is still one to the edge, and drawn together with it
+    // A stitch to an end of an edge is still one to the edge: the published start has them cross.
+    scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});
   }
   exclude_junctions(scene, scene.settings.contact_radius);
   return scene;

@@ -17,7 +17,7 @@ struct DressSizes {
 /// The stand-in: bodice (cylinder), hips and hem (cones), four panels each, and two straps over the shoulders (half cones), on a mannequin of capsules that
 /// walks (experiments/scenes/mannequin.hpp). Starts free of intersections but between stitched primitives, 1.5 r away from torso and pelvis, which
 /// carry it, at rest in its rest shape
-/// but for the straps, which lie on a ball instead of a cone (1.3 %). y is up; bodies: the panels, then the body.
+/// but for the straps, which lie on a ball instead of a cone (2.2 %). y is up; bodies: the panels, then the body.
 ///
 /// Material: wool with 5 % lycra, 543.29 kg/m³ and 0.328 mm, ν 0.071, of Penava et al. (2014) as in Codimensional IPC's scripts. They know it with E = 76 kPa,
 /// and take 0.01 of that, 760 Pa, for garments, because there strain limiting (at 1.134) carries the load. We have no strain limiting. With 760 Pa, E·t =

@@ -45,7 +45,8 @@ std::vector<Limb> limbs(const MannequinSizes& sizes) {
 compare::Mesh surface_of(const Limb& limb, double spacing) {
   const double length = std::hypot(limb.to.x - limb.from.x, limb.to.y - limb.from.y, limb.to.z - limb.from.z);
   const auto cells = [&](double size, Index least) { return std::max(least, static_cast<Index>(std::lround(size / spacing))); };
-  return capsule({cells(2 * std::numbers::pi * limb.radius, 6), cells(length, 1), cells(std::numbers::pi / 2 * limb.radius, 2)}, limb.radius, limb.from, limb.to);
+  const double quarter = std::numbers::pi / 2 * limb.radius;
+  return capsule({cells(4 * quarter, 6), cells(length, 1), cells(quarter, 2)}, limb.radius, limb.from, limb.to);
 }
 
 /// Forwards (towards +z) by `angle` about an axis along x at this height and depth.

@@ -5,7 +5,8 @@
 
 namespace ogc::experiments {
 
-/// Height of the shoulders' centre, of the torso's lower end, and radii of torso and pelvis (a ball at 0.86 m) [m]; `spacing`: about the length of the surface's edges [m].
+/// Heights of the shoulders' centre and of the torso's lower end, radii of torso and pelvis (a ball at 0.86 m) [m]; `spacing`: about the length of the
+/// surface's edges [m].
 struct MannequinSizes {
   double shoulders = 1.30, waist = 0.98, torso_radius = 0.142, pelvis_radius = 0.169;
   double spacing = 0.01437;

@@ -29,7 +29,8 @@ struct SmallData {
       "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 0\nvt 5 1\n"
       "g panel0\nf 1/1 2/2 3/3\ng panel1\nf 4/4 6/6 5/5\nseam 0 1\nstitch 3 0 1 0.000000e+000\nstitch 4 0 1 1\n";
   std::string drape = "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 -1 0\nv 1 -1 0\nv 0 -1 1\nf 1 2 3\nf 4 6 5\nf 7 8 9\n";
-  std::array<std::string, 3> shells{"v 0 -0.25 0\nv 1 -0.25 0\nv 0 -0.25 1\nf 1 2 3\n", "v 0 -0.125 0\nv 1 -0.125 0\nv 0 -0.125 1\n", "v 0 0 0\nv 1 0 0\nv 0 0 1\n"};
+  std::array<std::string, 3> shells{"v 0 -0.25 0\nv 1 -0.25 0\nv 0 -0.25 1\nf 1 2 3\n", "v 0 -0.125 0\nv 1 -0.125 0\nv 0 -0.125 1\n",
+                                    "v 0 0 0\nv 1 0 0\nv 0 0 1\n"};
   DressCounts counts{.vertices = 6, .triangles = 2, .panels = 2, .stitches = 2, .body_vertices = 3, .body_triangles = 1, .frames = 3};
 
   DressData read(const TemporaryFolder& folder) const {
@@ -50,12 +51,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 TEST_CASE("dress has the paper's numbers, and the stand-in about the data set's size", "[unit]") {
   const Scene scene = make_scene("dress", Scale::paper);
   REQUIRE(scene.bodies.size() == 15);
-  CHECK(free_vertices(scene) == 15694);
-  CHECK(scene.bodies.back().first_triangle == 29456);
+  CHECK(free_vertices(scene) == 15702);
+  CHECK(scene.bodies.back().first_triangle == 29472);
   CHECK(scene.bodies.back().name == "body");
-  CHECK(scene.bodies.back().vertex_count == 12784);
-  CHECK(scene.bodies.back().triangle_count == 25516);
-  CHECK(scene.motions[0].vertices.size() == 12784);
+  CHECK(scene.bodies.back().vertex_count == 12843);
+  CHECK(scene.bodies.back().triangle_count == 25630);
+  CHECK(scene.motions[0].vertices.size() == 12843);
   CHECK(scene.settings.contact_radius == static_cast<double>(2e-3f));
   CHECK(scene.settings.time_step == static_cast<double>(1.0f / 200));
   CHECK(scene.settings.iterations == 20);
@@ -110,7 +111,7 @@ TEST_CASE("dress: panels are cut so that only straps are strained at the start",
     largest = std::max(largest, largest_edge_strain(scene, body));
   }
   CHECK(others < 1.5e-3);  // chords of arcs of 1/120 of a turn
-  CHECK(straps < 0.013);
+  CHECK(straps < 0.023);
 }
 
 TEST_CASE("dress: the body stands, then walks slower than 2 m/s", "[unit]") {
@@ -135,7 +136,7 @@ TEST_CASE("a data set becomes a scene: panels are bodies, stitches join them to 
   REQUIRE(scene.springs.size() == 2);
   CHECK(scene.springs[0] == Spring{3, 0, 1000});
   CHECK(scene.springs[1] == Spring{4, 1, 1000});
-  // Each stitch names an edge, so both of its ends are partners.
+  // Each stitch names an edge, so both of its ends are partners; those of one vertex are no partners of each other unless they lie there together.
   const Exclusions left_out = exclusions(scene);
   for (const Index v : {3, 4}) CHECK(std::ranges::equal(left_out.partners[static_cast<std::size_t>(v)], std::array{0, 1}));
   CHECK(stitched_start(scene).others == 0);
@@ -145,6 +146,23 @@ TEST_CASE("a data set becomes a scene: panels are bodies, stitches join them to 
   CHECK(prescribed_targets(scene, motion, 0.08)[2] == Vec3f{0, -0.75f, 1});
   CHECK(prescribed_targets(scene, motion, 1)[2] == Vec3f{0, -0.75f, 1});
   CHECK(prescribed_targets(scene, motion, 0.02)[1].y == Approx(-0.9375));
+}
+
+TEST_CASE("where seams of data meet, vertices stitched to the same one are no contacts, neighbours in a panel are", "[unit]") {
+  SmallData files;
+  // A third panel whose corner lies 1 mm from that of the second, which is stitched to the same vertex.
+  files.stage = replaced(files.stage, "g panel0", "v 0 0 0\nv 0 1 0\nv -1 0 0\nvt 9 0\nvt 9 1\nvt 8 0\ng panel0");
+  files.stage += "g panel2\nf 7/7 8/8 9/9\nstitch 6 0 1 0\n";
+  files.drape = replaced(files.drape, "v 0 -1 0\n", "v 0 0.001 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\n");
+  files.drape = replaced(files.drape, "f 7 8 9\n", "f 7 8 9\nf 10 11 12\n");
+  files.counts.vertices = 9;
+  files.counts.triangles = files.counts.panels = files.counts.stitches = 3;
+  const TemporaryFolder folder;
+  const Exclusions left_out = exclusions(dress(files.read(folder), 1));
+  const auto partners = [&](std::size_t v) { return std::vector<Index>(left_out.partners[v].begin(), left_out.partners[v].end()); };
+  CHECK(partners(3) == std::vector<Index>{0, 1, 6});
+  CHECK(partners(6) == std::vector<Index>{0, 1, 3});
+  CHECK(partners(0) == std::vector<Index>{3, 4, 6});
 }
 
 TEST_CASE("lengths of data below 2⁻²⁰ m become 0, all others stay", "[unit]") {
