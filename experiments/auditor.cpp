@@ -39,6 +39,15 @@ std::vector<std::string> body_names(const compare::Scene& scene) {
   return names;
 }
 
+std::string left_out_of_audits(const compare::Scene& scene) {
+  std::string text;
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (!scene.excluded_pairs.empty()) add("pairs beside " + counted(scene.excluded_pairs.size(), "excluded pair") + " of vertices");
+  for (const compare::PrescribedMotion& motion : scene.motions)
+    if (!motion.keyframes.empty()) add("pairs inside '" + motion.name + "', which moves by keyframes");
+  return text;
+}
+
 StateJudge::StateJudge(const compare::Scene& scene)
     : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges)),
       exclusions_(compare::exclusions(scene)),

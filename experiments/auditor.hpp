@@ -28,6 +28,9 @@ AuditMode audit_mode(const std::string& name);
 /// A body's name for each vertex.
 std::vector<std::string> body_names(const compare::Scene& scene);
 
+/// What audits of a scene leave out beyond pairs inside fixed and rigidly moved bodies, in words; empty where nothing.
+std::string left_out_of_audits(const compare::Scene& scene);
+
 /// What is exactly true of one state.
 struct Verdict {
   std::int64_t step = 0;

@@ -123,7 +123,9 @@ std::string describe_distances(const std::vector<State>& states) {
 }
 
 int run(const std::string& path, const CommandContext& context) {
-  const std::vector<State> states = std::filesystem::is_directory(path) ? audit_run(path) : audit_mesh(path);
+  const bool is_run = std::filesystem::is_directory(path);
+  const std::vector<State> states = is_run ? audit_run(path) : audit_mesh(path);
+  const std::string left_out = is_run ? left_out_of_audits(compare::RunReader(path).scene()) : "";
   std::size_t total = 0;
   std::string text;
   Json json{{"audited", path}, {"states", Json::array()}};
@@ -135,11 +137,13 @@ int run(const std::string& path, const CommandContext& context) {
   json["intersections"] = total;
   json["clean"] = total == 0;
   json["complete"] = !interrupted();
+  if (!left_out.empty()) json["left_out"] = left_out;
   if (context.json) {
     print_result(json);
   } else {
     print_result(text + counted(states.size(), "state") + " audited exactly, " + counted(total, "intersection") +
-                 (interrupted() ? "; interrupted, the rest was not looked at" : "") + "\n" + (states.empty() ? "" : describe_distances(states)));
+                 (interrupted() ? "; interrupted, the rest was not looked at" : "") + "\n" +
+                 (left_out.empty() ? "" : "left out: " + left_out + "\n") + (states.empty() ? "" : describe_distances(states)));
   }
   if (total > 0) return exit_check_failed;
   return interrupted() ? exit_interrupted : static_cast<int>(exit_success);
@@ -153,7 +157,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   command->add_option("MESH|RUN", *path, "An .obj or .ply file, or a run folder")->required();
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer("An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a triangle without it; touching\n"
-                  "counts. No rounding decides. In a run, pairs inside one fixed or rigidly moved body are left out. Exit status 1: there is one.\n"
+                  "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded pairs, are left out. Exit status\n"
+                  "1: there is one.\n"
                   "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are found exactly too, and\n"
                   "rounded down; of pairs equally near the one with the lowest numbers is named.\n\n"
                   "Examples:\n"

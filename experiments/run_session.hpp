@@ -40,6 +40,7 @@ struct RunRequest {
 /// What a run comes to. Times [ms]; not-a-number where no step was done.
 struct RunSummary {
   std::string scene, scale, solver, backend, device, folder, status;
+  std::string left_out_of_audits;      ///< in words; empty where nothing is
   std::string failure;                 ///< what went wrong, naming primitives; empty where nothing did
   bool was_interrupted = false;
   std::int64_t first_step = 0, last_step = 0;   ///< states: from, to

@@ -47,13 +47,14 @@ Json to_json(const RunSummary& summary) {
   json["smallest_distance_m"] = summary.smallest_distance;
   json["audit"] = {{"states", summary.audited_states},       {"failed_states", summary.failed_states}, {"intersections", summary.intersections},
                    {"beyond_bound", summary.certificate_violations}, {"unsafe_bounds", summary.unsafe_bounds}};
+  if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
   if (!summary.failure.empty()) json["failure"] = summary.failure;
   return json;
 }
 
 std::string describe(const RunSummary& summary) {
   const std::int64_t steps = summary.last_step - summary.first_step;
-  const std::vector<std::vector<std::string>> rows{
+  std::vector<std::vector<std::string>> rows{
       {"run folder", summary.folder},
       {"status", summary.status},
       {"computed by", summary.solver + " on " + summary.backend + ", " + summary.device},
@@ -71,6 +72,7 @@ std::string describe(const RunSummary& summary) {
       {"guarantee kept", guarantee(summary)},
       {"final state", summary.final_hash + " (FNV-1a of the positions' bits)"},
   };
+  if (!summary.left_out_of_audits.empty()) rows.insert(rows.end() - 1, {"not audited", summary.left_out_of_audits});
   return table(rows, 2);
 }
 

@@ -4,6 +4,7 @@ A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its
 and a device in each row. Runs that are unfinished, of a changed tree, or that failed their audit are no evidence.
 """
 
+import copy
 import csv
 import gzip
 import json
@@ -99,6 +100,14 @@ class RunEvidence:
                    "membrane": lambda name: self.membranes == {name}, "audited": lambda yes: (m.get("audit", "off") != "off") == yes, "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
 
+    def first(self, steps):
+        """The run up to this step: beyond the end of its scene a run is no evidence of it."""
+        if len(self.column("step")) <= steps:
+            return self
+        cut = copy.copy(self)
+        cut.columns = {name: self.columns[name][:steps] for name in self.columns}
+        return cut
+
     @property
     def membranes(self):
         """Of the moving bodies: two figures may have one scene with different materials."""
@@ -173,14 +182,18 @@ class Evidence:
         if "ratio" in spec:
             return self._ratio(spec, wanted)
         wanted = {**wanted, **spec.get("run", {})}
-        runs = [run for run in self.runs if run.matches(wanted)]
+        runs = self.runs_as(wanted)
         if "manifest" in spec:  # one failed audit outweighs every run that kept the guarantee, whatever step it stopped at and whatever the material
             runs += [run for run in self.failed if run.matches({key: value for key, value in wanted.items() if key not in ("steps", "membrane")})]
         return runs[-1].measured(value_of(runs[-1], spec)) if runs else None
 
+    def runs_as(self, wanted):
+        found = [run for run in self.runs if run.matches(wanted)]
+        return [run.first(wanted["steps"]) for run in found] if "steps" in wanted else found
+
     def _ratio(self, spec, wanted):
         """Of two runs of one commit and of the same materials, and of one machine unless the ratio is about two."""
-        over, under = ([run for run in self.runs if run.matches({**wanted, **part.get("run", {})})] for part in spec["ratio"])
+        over, under = (self.runs_as({**wanted, **part.get("run", {})}) for part in spec["ratio"])
         alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"] and a.membranes == b.membranes
                  and (spec.get("devices") == "differ" or a.manifest["device"] == b.manifest["device"])]
         if not alike:

@@ -100,7 +100,7 @@ CaseData stitch(Random& random) {
 
 /// Of any shape, open or nearly closed.
 CaseData seam(Random& random) {
-  const double edge = some_length(random), length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : random.rung());
+  const double edge = some_length(random), length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : std::abs(random.rung()));
   return seam_case(random, edge, random.unit(), length, length * random.between(0.5, 2), random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
 }
 
@@ -123,8 +123,8 @@ constexpr std::array<Generator, 9> table{{{"uniform", 40, true, uniform},
                                           {"ladder.rest", 20, false, at_rest},
                                           {"ladder.zero", 15, false, at_zero},
                                           {"ladder.stitch", 10, false, stitch},
-                                          {"seam", 25, true, seam},
-                                          {"seam.lattice", 10, false, seam_lattice},
+                                          {"seam", 20, true, seam},
+                                          {"ladder.seam_lattice", 10, false, seam_lattice},
                                           {"ladder.seam", 15, false, seam_end}}};
 
 }  // namespace

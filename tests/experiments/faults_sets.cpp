@@ -194,6 +194,7 @@ std::vector<Fault> edge_faults() {
                  [](const auto&, const auto&, auto& out) {
                    if (!out.contacts.empty()) out.contacts.pop_back();
                  }),
+      partners_ignored(Stage::detect_edge_edge),
       edge_fault("detect_edge_edge: all but pairs of end points", all_but_end_points),
       edge_fault("detect_edge_edge: edge ends swapped",
                  [](const auto& in, const auto&, auto& out) {

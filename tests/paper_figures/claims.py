@@ -181,6 +181,20 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         self.make("2_window", "st_venant_kirchhoff", 3, begin=101)
         self.assertEqual(self.sources("Table 1")["cuda_average"], "1_table/run.json")
 
+    def test_steps_beyond_the_end_of_the_scene_are_no_evidence(self):
+        self.make("1_longer", "st_venant_kirchhoff", 1)
+        rows = self.folder / "1_longer/steps.csv"
+        head, *steps = rows.read_text().splitlines()
+        wall = next(i for i, title in enumerate(head.split(",")) if title.startswith("wall"))
+        average = sum(float(line.split(",")[wall]) for line in steps) / len(steps)
+        later = [line.split(",") for line in steps]
+        for line in later:
+            line[0], line[wall] = str(int(line[0]) + len(steps)), "1000"
+        rows.write_text("\n".join([head, *steps, *map(",".join, later)]) + "\n")
+        claim = next(each for each in verdicts.load() if each["id"] == "cloth_on_sphere.cuda_average")
+        self.assertEqual(claim["run"]["steps"], len(steps))
+        self.assertAlmostEqual(verdicts.judge(claim, Evidence(self.folder)).measured.value, average)
+
     def test_a_ratio_is_of_the_same_materials(self):
         cpu = {"backend": "cpu", "device": "8 threads"}
         self.make("1_ipc", "stable_neo_hookean", 6, solver="ipc", **cpu)

@@ -87,7 +87,7 @@ TEST_CASE("a rest state put into an answer and taken out again is the same, bit 
   soft.contact_stiffness = 10, soft.membrane_damping = 0.1, soft.bending_damping = 0.2;
   test::add_sheet(scene, 5, 0.7, 0.1, false, soft);
   test::add_sheet(scene, 3, 1, 0, true);
-  scene.motions.push_back({.name = "held", .vertices = {0, 3, {}}});
+  scene.motions.push_back({.name = "held", .vertices = {0, 3}, .keyframes = {}});
   const compare::Topology topology = compare::build_topology(scene);
   const RestState rest = build_rest_state(scene, topology), again = rest_state_of({&scene, &topology}, rest_state_out({&scene, &topology}));
   const auto same = [](const auto& a, const auto& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0; };

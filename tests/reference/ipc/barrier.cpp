@@ -26,15 +26,15 @@ Many exact_barrier(const Many& gap, const Many& support) { return -(gap - suppor
 struct Pieces {
   State x;
   compare::Topology topology;
-  compare::Exclusions groups;
+  compare::Exclusions exclusions;
   std::vector<float> rest;
-  PairMesh mesh() const { return {topology, groups, rest}; }
+  PairMesh mesh() const { return {topology, exclusions, rest}; }
 };
 
 Pieces pieces(State x, const std::vector<compare::Triangle>& triangles, const std::vector<compare::Edge>& edges = {}) {
   Pieces p;
   p.topology = compare::build_topology(static_cast<Index>(x.size()), triangles, edges);
-  p.groups.assign(x.size(), -1);
+  p.exclusions.groups.assign(x.size(), -1);
   for (const compare::Edge& e : p.topology.edges) {
     const Triple<double> d = x[static_cast<std::size_t>(e[1])] - x[static_cast<std::size_t>(e[0])];
     p.rest.push_back(static_cast<float>(dot(d, d)));
@@ -127,7 +127,7 @@ TEST_CASE("barrier: the pairs found with the tree are all pairs within reach, wi
   std::vector<compare::Triangle> triangles;
   for (Index k = 0; k + 2 < 60; k += 2) triangles.push_back({k, k + 1, k + 2});
   Pieces p = pieces(x, triangles);
-  for (std::size_t v = 0; v < 20; ++v) p.groups[v] = 0;
+  for (std::size_t v = 0; v < 20; ++v) p.exclusions.groups[v] = 0;
   State to = x;
   for (auto& c : to) c = c + Triple<double>{draw.between(-0.1, 0.1), 0, draw.between(-0.1, 0.1)};
   const auto found = near_pairs(p.mesh(), x, to, reach);

@@ -40,9 +40,9 @@ TEST_CASE("intersections: the guard finds what the audit finds, on lattices wher
     std::vector<EdgeThroughTriangle> expected;
     for (const compare::Intersection& i : compare::audit(topology, positions, {}, {.limit = 100000}).intersections)
       if (i.kind == compare::IntersectionKind::edge_triangle) expected.push_back({i.first, i.second});
-    const std::vector<Index> groups(soup.x.size(), -1);
+    const compare::Exclusions none;
     const std::vector<float> rest(topology.edges.size(), 1);
     CHECK(!expected.empty());
-    CHECK(intersections({topology, groups, rest}, soup.x) == expected);
+    CHECK(intersections({topology, none, rest}, soup.x) == expected);
   }
 }

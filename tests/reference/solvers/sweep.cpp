@@ -134,7 +134,7 @@ TEST_CASE("a vertex beyond its bound is put on its ball and counted, prescribed 
   scene.bodies[0].material.membrane = compare::MembraneModel::none;
   scene.bodies[0].material.bending = compare::BendingModel::none;
   scene.bodies[1].fixed = true;
-  scene.motions.push_back({.name = "held", .vertices = {1}});
+  scene.motions.push_back({.name = "held", .vertices = {1}, .keyframes = {}});
   Question q(scene);
   for (Vec3f& y : q.target) y = {y.x + 3, y.y, y.z + 4};
   q.bound = {1, 2, 5, 6, 1, 1, 1, 1};
