@@ -22,7 +22,7 @@ constexpr Index quarters = 4;                  // panels around the body
 constexpr double stitch_stiffness = 1000;      // [N/m]
 constexpr double chest_radius = 0.145;         // [m]
 constexpr double shoulders = 1.30, waist = 1.00, hips = 0.80, hem = 0.60;  // heights [m]
-constexpr double hips_radius = 0.19, hem_radius = 0.22;                    // [m]
+constexpr double hips_radius = 0.24, hem_radius = 0.30;                    // [m]
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -56,6 +56,7 @@ void set_up(Scene& scene, double contact_radius, std::int64_t steps) {
   scene.settings.steps = steps;
   scene.settings.iterations = 20;
   scene.settings.contact_radius = contact_radius;
+  scene.settings.redetect_fraction = 0;
 }
 
 /// A panel on the body's surface and on the table; returns its first vertex.
@@ -264,7 +265,7 @@ Scene dress(const DressSizes& sizes) {
   skirt.append(scene, &chest);
   lowest.append(scene, &skirt);
   for (const int side : {-1, 1}) append_strap(scene, chest, sizes.strap, side);
-  constexpr double inside_hips = 0.172;  // of the largest ball about (0, 0.86 m, 0) in the cone of the hips [m]
+  constexpr double inside_hips = 0.191;  // of the largest ball about (0, 0.86 m, 0) in the cone of the hips [m]
   append_mannequin(scene, {.shoulders = shoulders, .torso_radius = chest_radius - 1.5 * radius, .pelvis_radius = inside_hips - 1.5 * radius,
                            .spacing = sizes.body_spacing}, skin());
   return scene;

@@ -1,4 +1,5 @@
-// All of a limb turns about the x axis through its joint, then about the joint above; at last everything about the y axis.
+// A limb turns about the x axis through its joint, then everything about the y axis. Knees stay straight: a hollow that
+// closes on cloth can only stop.
 #include "experiments/scenes/mannequin.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ using compare::Vec3;
 constexpr double frame_seconds = 0.04, stride_seconds = 1.6, ease_seconds = 0.8;
 constexpr double hip_height = 0.90, knee_height = 0.50, ankle_height = 0.08;  // [m]
 
-enum class Joint { none, hip, knee, shoulder };
+enum class Joint { none, hip, shoulder };
 
 struct Limb {
   Vec3 from, to;  ///< [m]
@@ -36,8 +37,8 @@ std::vector<Limb> limbs(const MannequinSizes& sizes) {
     all.push_back({{0.15 * s, top + 0.06, 0}, {0.40 * s, top - 0.02, 0}, 0.035, Joint::shoulder, side});
     all.push_back({{0.40 * s, top - 0.02, 0}, {0.62 * s, top - 0.10, 0.04}, 0.030, Joint::shoulder, side});
     all.push_back({{0.075 * s, hip_height, 0}, {0.085 * s, knee_height, 0}, 0.065, Joint::hip, side});
-    all.push_back({{0.085 * s, knee_height, 0}, {0.085 * s, ankle_height, -0.01}, 0.045, Joint::knee, side});
-    all.push_back({{0.085 * s, ankle_height - 0.03, 0}, {0.095 * s, ankle_height - 0.04, 0.15}, 0.035, Joint::knee, side});
+    all.push_back({{0.085 * s, knee_height, 0}, {0.085 * s, ankle_height, -0.01}, 0.045, Joint::hip, side});
+    all.push_back({{0.085 * s, ankle_height - 0.03, 0}, {0.095 * s, ankle_height - 0.04, 0.15}, 0.035, Joint::hip, side});
   }
   return all;
 }
@@ -59,8 +60,7 @@ Vec3 swung(const Vec3& p, double height, double angle) {
 Vec3 posed(Vec3 p, const Limb& limb, const MannequinSizes& sizes, double t) {
   const double eased = std::clamp(t / ease_seconds, 0.0, 1.0), strength = eased * eased * (3 - 2 * eased);
   const double phase = 2 * std::numbers::pi * t / stride_seconds, stride = limb.side * std::sin(phase);
-  if (limb.joint == Joint::knee) p = swung(p, knee_height, -0.25 * strength * (1 - limb.side * std::cos(phase)));
-  if (limb.joint == Joint::knee || limb.joint == Joint::hip) p = swung(p, hip_height, 0.5 * strength * stride);
+  if (limb.joint == Joint::hip) p = swung(p, hip_height, 0.4 * strength * stride);
   if (limb.joint == Joint::shoulder) p = swung(p, sizes.shoulders + 0.06, -0.3 * strength * stride);
   const double turn = 0.15 * strength * std::sin(phase), c = std::cos(turn), s = std::sin(turn);
   return {c * p.x + s * p.z, p.y, c * p.z - s * p.x};

@@ -79,8 +79,8 @@ compare::Scene activation_drop_at(Scale scale) {
 
 compare::Scene dress_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return dress({.bodice = {8, 6}, .hips = {6, 7}, .hem = {5, 10}, .strap = 10, .body_spacing = 0.0718, .steps = 60});
-    case Scale::small: return dress({.bodice = {20, 15}, .hips = {14, 19}, .hem = {13, 24}, .strap = 25, .body_spacing = 0.0287});
+    case Scale::smoke: return dress({.bodice = {8, 6}, .hips = {6, 7}, .hem = {5, 10}, .strap = 10, .body_spacing = 0.0743, .steps = 60});
+    case Scale::small: return dress({.bodice = {20, 15}, .hips = {14, 19}, .hem = {13, 24}, .strap = 25, .body_spacing = 0.0297});
     case Scale::paper: break;
   }
   return dress();

@@ -54,12 +54,13 @@ TEST_CASE("dress has the paper's numbers, and the stand-in about the data set's 
   CHECK(free_vertices(scene) == 15702);
   CHECK(scene.bodies.back().first_triangle == 29472);
   CHECK(scene.bodies.back().name == "body");
-  CHECK(scene.bodies.back().vertex_count == 12843);
-  CHECK(scene.bodies.back().triangle_count == 25630);
-  CHECK(scene.motions[0].vertices.size() == 12843);
+  CHECK(scene.bodies.back().vertex_count == 12798);
+  CHECK(scene.bodies.back().triangle_count == 25540);
+  CHECK(scene.motions[0].vertices.size() == 12798);
   CHECK(scene.settings.contact_radius == static_cast<double>(2e-3f));
   CHECK(scene.settings.time_step == static_cast<double>(1.0f / 200));
   CHECK(scene.settings.iterations == 20);
+  CHECK(scene.settings.redetect_fraction == 0);
   CHECK(scene.settings.steps == 968);
   for (const Body& body : scene.bodies) {
     CHECK(body.material.contact_stiffness == 100);
@@ -110,7 +111,7 @@ TEST_CASE("dress: panels are cut so that only straps are strained at the start",
     double& largest = body.name.starts_with("strap") ? straps : others;
     largest = std::max(largest, largest_edge_strain(scene, body));
   }
-  CHECK(others < 1.6e-3);  // chords of arcs of 1/120 of a turn
+  CHECK(others < 3e-3);  // chords of arcs of 1/120 of a turn in place of the arcs
   CHECK(straps < 0.023);
 }
 
