@@ -82,6 +82,12 @@ class CpuBackend {
     for_each(std::min(*n, capacity), f);
   }
 
+  template <class F, class G>
+  void for_both(int m, F f, const int* n, int capacity, G g) {
+    for_each(m, f);
+    for_each_counted(n, capacity, g);
+  }
+
   template <int W, class F>
   void for_each_team(int n, F f, Start) {
     for_each(n, [&f](int i) { f(i, SerialTeam<W>{}); });

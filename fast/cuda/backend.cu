@@ -53,6 +53,7 @@ bool CudaBackend::read_flag(const int* flag) {
 void CudaBackend::begin_recording() {
   OGC_CUDA_CHECK(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeRelaxed));
   recording_ = true;
+  follows_ = false;
 }
 
 void CudaBackend::end_recording(Recording& recording) {
@@ -108,6 +109,7 @@ cudaStream_t CudaBackend::begin_condition(cudaGraphConditionalHandle handle, cud
   const cudaStream_t outer = current_;
   OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&current_, cudaStreamNonBlocking));
   OGC_CUDA_CHECK(cudaStreamBeginCaptureToGraph(current_, parameters.conditional.phGraph_out[0], nullptr, nullptr, 0, cudaStreamCaptureModeRelaxed));
+  follows_ = false;
   return outer;
 }
 
@@ -116,6 +118,7 @@ void CudaBackend::end_condition(cudaStream_t outer) {
   const cudaError_t error = cudaStreamEndCapture(current_, &body);
   cudaStreamDestroy(current_);
   current_ = outer;
+  follows_ = false;
   OGC_CUDA_CHECK(error);
 }
 

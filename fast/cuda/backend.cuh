@@ -3,6 +3,7 @@
 //   stream_        a blocking stream: Buffer copies (legacy stream) order themselves with it, nothing else waits
 //   current_       where work is enqueued: stream_, or the body of a node while `when` or `repeat` records it
 //   scratch_       temporary memory of scan and sort, shared by all of them: they run one after the other
+//   follows_       whether the last thing enqueued there is a kernel, which the next may follow (fast/cuda/follow.cuh)
 //
 // A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs. So `replay` records what a body
 // enqueues into a graph, once, and launches the graph once for each repetition. It records again when a Buffer has moved, since a graph holds pointers.
@@ -22,6 +23,7 @@
 #include "fast/cuda/buffer.cuh"
 #include "fast/cuda/check.cuh"
 #include "fast/cuda/collectives.cuh"
+#include "fast/cuda/follow.cuh"
 #include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
 #include "fast/stages/backend.hpp"
@@ -38,20 +40,33 @@ inline constexpr int serial_lanes_per_multiprocessor = 240;
 
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
+  follow_launch();
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_counted(const int* n, int capacity, F f) {
+  follow_launch();
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
   const int count = min(*n, capacity);
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
+template <class F, class G>
+__global__ void __launch_bounds__(cuda_block_size) run_both(int m, F f, const int* n, int capacity, G g) {
+  follow_launch();
+  const int stride = static_cast<int>(gridDim.x * blockDim.x);
+  const int count = min(*n, capacity);
+  int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  for (; i < m; i += stride) f(i);
+  for (i -= m; i < count; i += stride) g(i);
+}
+
 /// One thread that decides what a conditional node does.
 template <class F>
 __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const int* flag) {
+  follow_launch();
   decide(0);
   cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
 }
@@ -102,15 +117,19 @@ class CudaBackend {
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
-    run_each<<<blocks(n), block_threads_, 0, current_>>>(n, f);
-    check_launch(typeid(F));
+    follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     if (capacity <= 0) return;
-    run_each_counted<<<blocks(capacity), block_threads_, 0, current_>>>(n, capacity, f);
-    check_launch(typeid(F));
+    follow(typeid(F), run_each_counted<F>, blocks(capacity), block_threads_, n, capacity, f);
+  }
+
+  template <class F, class G>
+  void for_both(int m, F f, const int* n, int capacity, G g) {
+    if (m <= 0) return for_each_counted(n, capacity, g);
+    follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
   }
 
   template <int W, class F>
@@ -118,29 +137,32 @@ class CudaBackend {
     if (n <= 0) return;
     const bool serial = static_cast<std::int64_t>(n) * W >= std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
     const int teams = (serial ? serial_block_size : 32) / W;  // of a block
-    cudaLaunchAttribute overlap{};
-    overlap.id = cudaLaunchAttributeProgrammaticStreamSerialization;
-    overlap.val.programmaticStreamSerializationAllowed = 1;
-    cudaLaunchConfig_t launch{};
-    launch.gridDim = dim3(static_cast<unsigned>((n + teams - 1) / teams));
-    launch.blockDim = dim3(serial ? serial_block_size : 32 * F::parts);
-    launch.stream = current_;
-    launch.attrs = &overlap;
-    launch.numAttrs = start == Start::overlapping ? 1 : 0;
-    cudaLaunchKernelEx(&launch, serial ? run_serial_teams<W, F> : run_spread_teams<W, F>, n, f);
+    const int blocks = (n + teams - 1) / teams;
+    launch_kernel(current_, start == Start::overlapping, serial ? run_serial_teams<W, F> : run_spread_teams<W, F>, blocks,
+                  serial ? serial_block_size : 32 * F::parts, n, f);
     check_launch(typeid(F));
+    follows_ = true;
   }
 
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
     require_searchable(first.tree);
     require_searchable(second.tree);
-    launch_searches(current_, std::min(search_warps, block_threads_ / 32), first, search_group(first.count), second, search_group(second.count));
-    check_launch(typeid(SearchAlone<First, Second>));
+    const int warps = std::min(search_warps, block_threads_ / 32);
+    const SearchGroups first_groups(first.count, search_group(first.count)), second_groups(second.count, search_group(second.count));
+    const int first_blocks = first_groups.blocks(warps), blocks = first_blocks + second_groups.blocks(warps);
+    if (blocks == 0) return;
+    follow(typeid(SearchAlone<First, Second>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks, second, second_groups);
   }
 
-  void exclusive_scan(const int* in, int* out, int n) { fast::exclusive_scan(current_, scratch_, in, out, n); }
-  void sort_pairs(std::uint64_t* keys, int* values, int n) { fast::sort_pairs(current_, scratch_, keys, values, n); }
+  void exclusive_scan(const int* in, int* out, int n) {
+    fast::exclusive_scan(current_, scratch_, recording_ && follows_, in, out, n);
+    follows_ = true;
+  }
+  void sort_pairs(std::uint64_t* keys, int* values, int n) {
+    fast::sort_pairs(current_, scratch_, keys, values, n);
+    follows_ = false;  // it may end with a copy
+  }
 
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {
@@ -210,12 +232,18 @@ class CudaBackend {
     const cudaError_t error = cudaGetLastError();
     if (error != cudaSuccess) throw_cuda_error(error, ("the launch of " + readable_type(functor.name())).c_str(), __FILE__, __LINE__);
   }
+  /// A kernel that begins with follow_launch. Only in a recording: elsewhere copies may stand between two launches.
+  template <class Kernel, class... Arguments>
+  void follow(const std::type_info& functor, Kernel kernel, int blocks, int threads, const Arguments&... arguments) {
+    launch_kernel(current_, recording_ && follows_, kernel, blocks, threads, arguments...);
+    check_launch(functor);
+    follows_ = true;
+  }
   bool read_flag(const int* flag);
   cudaGraphConditionalHandle new_condition();
   template <class F>
   void set_condition(cudaGraphConditionalHandle handle, F decide, const int* flag) {
-    run_decision<<<1, 1, 0, current_>>>(handle, decide, flag);
-    check_launch(typeid(F));
+    follow(typeid(F), run_decision<F>, 1, 1, handle, decide, flag);
   }
   cudaStream_t begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type);
   void end_condition(cudaStream_t outer);
@@ -225,7 +253,7 @@ class CudaBackend {
   void launch(const Recording& recording, int times);
 
   cudaStream_t stream_ = nullptr, current_ = nullptr;
-  bool recording_ = false;
+  bool recording_ = false, follows_ = false;
   int block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_;
   std::vector<cudaEvent_t> events_;  // events_[k], events_[k + 1]: start and end of repetition k

@@ -1,4 +1,4 @@
-// Scan and sort from CUB behind two plain functions, so that CUB is compiled once. Both are deterministic: integers only.
+// Scan and sort behind two plain functions, so that CUB is compiled once. Both are deterministic: integers only.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ class Scratch {
   std::size_t largest_ = 0;
 };
 
-/// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ n; `out` may be `in`.
-void exclusive_scan(cudaStream_t stream, Scratch& scratch, const int* in, int* out, int n);
+/// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ n; `out` may be `in`. `early`: see launch_kernel.
+void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const int* in, int* out, int n);
 
 /// Stable, ascending, in place.
 void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n);

@@ -14,6 +14,7 @@
 
 #include <cuda_runtime.h>
 
+#include "fast/cuda/follow.cuh"
 #include "fast/kernels/search.hpp"
 
 namespace ogc::fast {
@@ -157,10 +158,11 @@ __device__ void run_group(const Searches<Query>& searches, const SearchGroups& g
   WarpSearch<Query>(searches, memory).run(warp, groups.warps, min(groups.group, (searches.count - warp + groups.warps - 1) / groups.warps));
 }
 
-/// The first kind in the first blocks.
+/// The first kind in the first blocks; a block is at most search_warps warps.
 template <class First, class Second>
 __global__ void __launch_bounds__(32 * search_warps, 8)
     run_searches(Searches<First> first, SearchGroups first_groups, int first_blocks, Searches<Second> second, SearchGroups second_groups) {
+  follow_launch();
   __shared__ SearchMemory memory[search_warps];
   const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
   if (block < first_blocks) {
@@ -168,14 +170,6 @@ __global__ void __launch_bounds__(32 * search_warps, 8)
   } else {
     run_group(second, second_groups, (block - first_blocks) * warps + warp, memory[warp]);
   }
-}
-
-/// `warps` of a block: at most search_warps.
-template <class First, class Second>
-void launch_searches(cudaStream_t stream, int warps, const Searches<First>& first, int first_group, const Searches<Second>& second, int second_group) {
-  const SearchGroups first_groups(first.count, first_group), second_groups(second.count, second_group);
-  const int first_blocks = first_groups.blocks(warps), blocks = first_blocks + second_groups.blocks(warps);
-  if (blocks > 0) run_searches<<<blocks, 32 * warps, 0, stream>>>(first, first_groups, first_blocks, second, second_groups);
 }
 
 }  // namespace ogc::fast

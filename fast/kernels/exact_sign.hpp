@@ -1,10 +1,14 @@
 // Signs of polynomials in the coordinates, decided once and for all. A polynomial is a functor over a number type; `exact_sign` evaluates it in double
 // beside the sum of the moduli of its terms (Filtered), and only where the rounding errors could reach the value, a second time in double-double (Wide).
+// Polynomials of degree up to 4 are tried in single precision before (Single), which tells nearly all of generic input; the rest stands out of line, so that
+// what is nearly never run takes neither registers nor room in the instruction cache from what always is.
 //
 // Why double at all: the difference of two single-precision coordinates of similar size is exact in it, so a predicate of degree 2 or 4 loses nothing
 // but a few roundings of 2⁻⁵³, and the doubtful cases become rare enough to be paid for. Double-double carries 106 bits; what stays under 2⁻⁹⁸ of its
 // terms there counts as zero, so exact degeneracies (lattices, coplanar layers, collinear triangles) come out as such.
 #pragma once
+
+#include <cmath>
 
 #include "fast/kernels/rounding.hpp"
 #include "fast/kernels/vector.hpp"
@@ -31,6 +35,27 @@ struct Sign {
 };
 
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
+
+/// The same question in single precision: value and sum of the moduli of its terms, for degrees up to 4. How its operations are contracted changes no sign
+/// that it is certain of, as contraction only leaves roundings out.
+struct Single {
+  float value = 0, scale = 0;
+
+  /// A difference of floats has one relative error of u = 2⁻²⁴, however small. Its modulus counts as 2⁻³⁰ at least: then no scale of degree 4 is below 2⁻¹²⁰, and
+  /// what products of values lose by underflow, 2⁻¹⁵⁰ each, is nothing beside u · scale.
+  OGC_HD static Single difference(float a, float b) {
+    const float d = a - b;
+    return {d, larger(fabsf(d), 0x1p-30F)};
+  }
+  /// `a` has 24 bits.
+  OGC_HD static Single exact(double a) { return {static_cast<float>(a), static_cast<float>(modulus(a))}; }
+  friend OGC_HD Single operator+(Single a, Single b) { return {a.value + b.value, a.scale + b.scale}; }
+  friend OGC_HD Single operator-(Single a, Single b) { return {a.value - b.value, a.scale + b.scale}; }
+  friend OGC_HD Single operator*(Single a, Single b) { return {a.value * b.value, a.scale * b.scale}; }
+
+  /// As Filtered::sign with u = 2⁻²⁴. Where something overflowed nothing is certain: an infinite scale is above all values.
+  OGC_HD Sign sign() const { return {(value > 0) - (value < 0), fabsf(value) > scale * 0x1p-18F}; }
+};
 
 /// A rounded double with the sum of the moduli of the terms that it consists of.
 struct Filtered {
@@ -87,11 +112,21 @@ OGC_HD Vector<N> difference(const Vec& p, const Vec& q) {
   return {N::difference(p.x, q.x), N::difference(p.y, q.y), N::difference(p.z, q.z)};
 }
 
-/// The sign of polynomial.value<N>(), whatever the rounding.
+/// By value: a reference would force the coordinates into memory.
 template <class Polynomial>
-OGC_HD int exact_sign(const Polynomial& polynomial) {
+OGC_HD OGC_OUT_OF_LINE int exact_sign_in_double(Polynomial polynomial) {
   const Sign quick = polynomial.template value<Filtered>().sign();
   return quick.certain ? quick.value : polynomial.template value<Wide>().sign().value;
+}
+
+/// The sign of polynomial.value<N>(), whatever the rounding. `Polynomial::degree`: of its terms.
+template <class Polynomial>
+OGC_HD int exact_sign(const Polynomial& polynomial) {
+  if constexpr (Polynomial::degree <= 4) {
+    const Sign quick = polynomial.template value<Single>().sign();
+    if (quick.certain) return quick.value;
+  }
+  return exact_sign_in_double(polynomial);
 }
 
 /// The sign in plain double: for distances, which do not jump where a sign is doubtful.

@@ -81,7 +81,7 @@ struct PrepareLists {
   }
 };
 
-/// After the contacts are collected, alone. Of pairs that found no room nobody knows which are contacts, so the contacts may want more in a second try.
+/// After the contacts are collected. Of pairs that found no room nobody knows which are contacts, so the contacts may want more in a second try.
 struct CheckCapacity {
   ListsView lists;
 
@@ -91,6 +91,7 @@ struct CheckCapacity {
   }
 };
 
+/// Beside CheckCapacity, so it may or may not see that there was no room: what it does then nobody reads, and it stays within the buckets as counted.
 struct FillBuckets {
   ListsView lists;
 

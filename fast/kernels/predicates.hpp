@@ -14,6 +14,7 @@ OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vec
 
 /// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for an edge of zero length.
 struct End {
+  static constexpr int degree = 2;
   Vec x, a, b;
   template <class N>
   OGC_HD N value() const {
@@ -23,6 +24,7 @@ struct End {
 
 /// Positive where x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x where the triangle has no area.
 struct Side {
+  static constexpr int degree = 4;
   Vec x, a, b, c;
   template <class N>
   OGC_HD N value() const {
@@ -32,6 +34,7 @@ struct Side {
 
 /// Negative where, from v towards w, the distance to the line ab falls. With c(e, v) inside ab this is the plane of Eq. 15 at v: c in U_v iff ≥ 0 for all w.
 struct Receding {
+  static constexpr int degree = 4;
   Vec v, w, a, b;
   template <class N>
   OGC_HD N value() const {
@@ -41,6 +44,7 @@ struct Receding {
 
 /// Positive where ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1): nearly parallel. Never for an edge of zero length.
 struct NearlyParallel {
+  static constexpr int degree = 4;
   Vec a, b, c, d;
   template <class N>
   OGC_HD N value() const {
@@ -51,6 +55,7 @@ struct NearlyParallel {
 
 /// Negative where x is nearer than r to the point a.
 struct PointReach {
+  static constexpr int degree = 2;
   Vec x, a;
   float r;
   template <class N>
@@ -62,6 +67,7 @@ struct PointReach {
 
 /// Negative where x is nearer than r to the line ab.
 struct LineReach {
+  static constexpr int degree = 4;
   Vec x, a, b;
   float r;
   template <class N>
@@ -74,6 +80,7 @@ struct LineReach {
 /// Negative where x is nearer than r to the plane through a spanned by b − a and d − c: a triangle's plane with c = a, or the distance of two lines
 /// ab and cd with x = c.
 struct PlaneReach {
+  static constexpr int degree = 6;
   Vec x, a, b, c, d;
   float r;
   template <class N>

@@ -6,3 +6,6 @@
 #else
 #define OGC_HD
 #endif
+
+/// A function that is called and not inlined.
+#define OGC_OUT_OF_LINE __attribute__((noinline))

@@ -8,6 +8,8 @@
 //
 //   for_each(int n, F f)                 // f(i) for 0 ≤ i < n, in any order; no result may depend on the order
 //   for_each_counted(const int* n, int capacity, F f)   // the same with a count that lives on the device, n ≤ capacity
+//   for_both(int m, F f, const int* n, int capacity, G g)   // for_each(m, f) and for_each_counted(n, capacity, g) side by side: neither reads what the other
+//                                        // writes; on a device it is one launch in place of two
 //   for_each_team<W>(int n, F f, Start start)   // f(i, team): team.sum<Accumulator>(parts...) once, with F::parts parts; the order of its additions
 //                                        // is that of fast/kernels/team.hpp, so only W can change a bit; the lane where team.leader() holds has the total
 //                                        // and writes it. Start::overlapping: all that f reads before a Part's `add` is not written by the launch before
@@ -32,7 +34,7 @@
 
 namespace ogc::fast {
 
-/// For `when` where the flag is known already.
+/// A functor that does nothing: for `when` where the flag is known already, or where nothing has to be done beside something else.
 struct Decided {
   OGC_HD void operator()(int) const {}
 };

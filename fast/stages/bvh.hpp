@@ -36,10 +36,13 @@ class Bvh {
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are rechecked.
-  void refit(Backend& backend, const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
-    backend.for_each(facets_.count + edges_.count + surface_.vertex_count,
-                     RefitPrimitives{{surface_, positions, query_radius, skin.state}, facets_, edges_, vertex_limit_.data()});
+  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are rechecked. First the primitives, for_each over
+  /// primitive_count(), then the nodes above them.
+  RefitPrimitives primitives(const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
+    return {{surface_, positions, query_radius, skin.state}, facets_, edges_, vertex_limit_.data()};
+  }
+  int primitive_count() const { return facets_.count + edges_.count + surface_.vertex_count; }
+  void refit_nodes(Backend& backend, const SkinView& skin = {}) {
     for (int level = 1; level < std::max(facets_.levels, edges_.levels); level += 2) {
       const int facet_nodes = level < facets_.levels ? level_size(facets_.count, level) : 0;
       const int edge_nodes = level < edges_.levels ? level_size(edges_.count, level) : 0;
@@ -49,7 +52,8 @@ class Bvh {
 
   /// A new order for `positions`; boxes are stale until the next refit.
   void rebuild(Backend& backend, const Vec* positions) {
-    refit(backend, positions, no_radius_.data());
+    backend.for_each(primitive_count(), primitives(positions, no_radius_.data()));
+    refit_nodes(backend);
     const int total = facets_at() + surface_.triangle_count;
     backend.for_each(total, HilbertKeys{surface_, positions, facets_, edges_, keys_.data(), order_.data()});
     backend.sort_pairs(keys_.data(), order_.data(), total);

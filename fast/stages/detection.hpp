@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "fast/contact_view.hpp"
-#include "fast/stages/bound.hpp"
+#include "fast/kernels/bound.hpp"
+#include "fast/stages/backend.hpp"
 #include "fast/stages/bvh.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
@@ -38,14 +39,30 @@ struct RecheckPairs {
   }
 };
 
-/// What every launch of a detection starts from.
+/// What every launch of a detection starts from, and what the caller has to do for each vertex before it.
+template <class Before>
 struct PrepareDetection {
+  Before before;
   PrepareLists lists;
   ResetDistances distances;
 
   OGC_HD void operator()(int i) const {
+    if (i < distances.vertex_count) before(i);
     lists(i);
     distances(i);
+  }
+};
+
+/// Both at once, where no skin decides in between whether the trees are needed.
+template <class Before>
+struct PrepareAndRefit {
+  PrepareDetection<Before> prepare;
+  RefitPrimitives refit;
+  int primitives;
+
+  OGC_HD void operator()(int i) const {
+    prepare(i);
+    if (i < primitives) refit(i);
   }
 };
 
@@ -71,21 +88,30 @@ class Detection {
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q = *query_radius ≥ r [m] (on the backend),
-  /// γ_p = bound_relaxation. A no-op while *overflow() is set.
-  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation) {
+  /// γ_p = bound_relaxation. A no-op while *overflow() is set. On the way, to spare launches: before(v) for each vertex, which may read the bounds that end
+  /// here and write nothing that a detection reads; after(0) once overflow() is known.
+  template <class Before = Decided, class After = Decided>
+  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation, const Before& before = {},
+              const After& after = {}) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
     const SkinView skin = skin_.view(contact_radius);
     float *d_vertex = d_min_vertex_.data(), *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
-    backend_.for_each(std::max(lists.buckets, surface.triangle_count),
-                      PrepareDetection{{lists, surface.vertex_count},
-                                       {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex, d_edge,
-                                        d_triangle}});
+    const PrepareDetection<Before> prepare{before,
+                                           {lists, surface.vertex_count},
+                                           {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex,
+                                            d_edge, d_triangle}};
+    const int items = std::max(lists.buckets, surface.triangle_count), primitives = bvh_.primitive_count();
+    const RefitPrimitives refit = bvh_.primitives(positions, query_radius, skin);
     if (skin_.is_used()) {
+      backend_.for_each(items, prepare);
       backend_.for_each(surface.vertex_count, MeasureDrift{skin, positions, lists.overflow});
       backend_.for_each(1, ChooseSkinMode{skin, query_radius, lists.overflow});
+      backend_.for_each(primitives, refit);
+    } else {
+      backend_.for_each(std::max(items, primitives), PrepareAndRefit<Before>{prepare, refit, primitives});
     }
-    bvh_.refit(backend_, positions, query_radius, skin);
+    bvh_.refit_nodes(backend_, skin);
     const DetectVertexFacet vertex_facet{surface, positions, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
                                          d_vertex, d_triangle};
     const DetectEdgeEdge edge_edge{surface, positions, bvh_.edges(), lists, skin, contact_radius, d_edge};
@@ -95,9 +121,9 @@ class Detection {
       backend_.for_each(std::max({surface.vertex_count, surface.edge_count, surface.triangle_count}),
                         KeepAnchor{skin, surface, positions, d_vertex, d_edge, d_triangle});
     }
-    lists_.assemble(backend_, positions, contact_radius);
-    compute_bounds(backend_, surface.vertex_count,
-                   {surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow, bound_.data()});
+    const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow,
+                                   bound_.data()};
+    lists_.assemble(backend_, positions, contact_radius, surface.vertex_count, bounds, after);
   }
 
   /// Of the last complete detection; valid until grow() returns true.

@@ -40,14 +40,15 @@ class Lists {
   int capacity() const { return capacity_; }
   int noted_capacity() const { return noted_capacity_; }
 
-  /// After both searches: noted pairs to records and incidences.
-  void assemble(Backend& backend, const Vec* positions, float contact_radius) {
+  /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other: beside(i) for 0 ≤ i < beside_count with the
+  /// first launch, and after(0) with the last, when overflow() is known.
+  template <class Beside, class After>
+  void assemble(Backend& backend, const Vec* positions, float contact_radius, int beside_count, const Beside& beside, const After& after) {
     const ListsView lists = view();
-    backend.for_each_counted(lists.noted_count, noted_capacity_,
-                             CollectContacts{{surface_, positions, lists, contact_radius}, {surface_, positions, lists, contact_radius}});
-    backend.for_each(1, CheckCapacity{lists});
+    backend.for_both(beside_count, beside, lists.noted_count, noted_capacity_,
+                     CollectContacts{{surface_, positions, lists, contact_radius}, {surface_, positions, lists, contact_radius}});
     backend.exclusive_scan(lists.raw_counts, lists.raw_offsets, buckets_);
-    backend.for_each_counted(lists.cursor, capacity_, FillBuckets{lists});
+    backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists});
     backend.for_each_counted(lists.cursor, capacity_, DropDuplicates{lists});
     backend.exclusive_scan(lists.record_counts, lists.record_offsets, buckets_);
     backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, surface_});
@@ -55,7 +56,7 @@ class Lists {
     ListsView unordered = lists;
     unordered.incidences = unordered_incidences_.data();
     backend.for_each_counted(lists.record_offsets + buckets_, capacity_, FillIncidences{unordered, surface_});
-    backend.for_each_counted(lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences{lists, unordered.incidences});
+    backend.for_both(1, after, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences{lists, unordered.incidences});
   }
 
   /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again, clears the flag and returns true.

@@ -136,9 +136,8 @@ class Step {
 
   /// Bounds that end here are certified, then X_prev ← x and everything is found anew.
   void detect(const Vec* position) {
-    backend_.for_each(state_.vertex_count, BeginBounds{position, detection_.view().bound, state_.previous.data(), control()});
-    detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation);
-    backend_.for_each(1, EndDetection{control(), detection_.overflow()});
+    detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
+                      BeginBounds{position, detection_.view().bound, state_.previous.data(), control()}, EndDetection{control(), detection_.overflow()});
   }
 
   void detect_again(const Vec* position) {

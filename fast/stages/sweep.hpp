@@ -179,10 +179,10 @@ class Sweep {
 
   /// The contact stream of a detection at `detected`.
   void resolve_contacts(const ContactView& view, const Vec* detected, const StepControl* control) {
-    backend_.for_each(static_cast<int>(vertices_.size()),
-                      CopyContactRows{view.incidence_offsets, view.incidences, vertices_.data(), contact_rows_.data(), control});
-    backend_.for_each_counted(view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
-                              ResolveContact{view, tables(detected), colour_.data(), contacts_.data(), control});
+    backend_.for_both(static_cast<int>(vertices_.size()),
+                      CopyContactRows{view.incidence_offsets, view.incidences, vertices_.data(), contact_rows_.data(), control},
+                      view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
+                      ResolveContact{view, tables(detected), colour_.data(), contacts_.data(), control});
   }
 
   /// The streams of this sweep in a view; positions, targets and control are the caller's.
