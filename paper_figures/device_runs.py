@@ -144,6 +144,7 @@ class Machine:
         """By experiments/table1, which keeps and resumes by itself; the figure of the row's scene is drawn of the whole run."""
         o, log = self.options, self.out / part.folder / f"{part.row}_{'windows' if part.windows else 'whole'}.log"
         extra = ["--skip", "whole", "--window", o.window] if part.windows else ["--skip", "cpu"]
+        extra += ["--data", o.data] if o.data and part.row == "dress" else []
         seconds = [] if math.isinf(limit.left()) else ["--seconds", int(limit.left())]
         with DeviceMemory(self.out / part.folder / f"{part.row}_device_memory.json", part.gpu and o.backend == "cuda"):
             where = [self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend]
@@ -280,6 +281,7 @@ def arguments():
     parser.add_argument("--all-seconds", type=float, help="limit of all parts together")
     parser.add_argument("--jobs", type=int, default=1, help="chains of a part that run side by side")
     parser.add_argument("--window", type=int, default=200, help="steps of a CPU window of Table 1")
+    parser.add_argument("--data", metavar="FOLDER", help="of Codimensional IPC's dress and dancer, for the dress (default: its stand-in)")
     parser.add_argument("--keep", type=Path, metavar="FOLDER", help="after each part pack those of this call that are finished")
     parser.add_argument("--pack", type=Path, metavar="FOLDER", help="pack, and run nothing")
     parser.add_argument("--unpack", type=Path, metavar="FOLDER", help="unpack, and run nothing")
