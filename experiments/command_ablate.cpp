@@ -5,7 +5,7 @@
 
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
-#include "compare/record/durable_file.hpp"
+#include "compare/files/durable_file.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"

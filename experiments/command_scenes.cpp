@@ -8,6 +8,7 @@
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/output.hpp"
+#include "experiments/run_options.hpp"
 #include "experiments/scenes/registry.hpp"
 
 namespace ogc::experiments {
@@ -18,6 +19,7 @@ constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"}
 
 struct Options {
   std::string scene, folder, scale = "small";
+  std::vector<std::string> assignments;
   bool schema = false;
 };
 
@@ -78,7 +80,7 @@ void show(const std::string& name, const CommandContext& context) {
 }
 
 void write(const Options& options, const CommandContext& context) {
-  const std::filesystem::path file = compare::write_scene(options.folder, make_scene(options.scene, parse_scale(options.scale)));
+  const std::filesystem::path file = compare::write_scene(options.folder, make_scene(options.scene, parse_scale(options.scale), data_folder(options.assignments)));
   if (context.json) return print_result(Json{{"written", file.string()}});
   print_result(file.string() + "\n");
 }
@@ -86,6 +88,10 @@ void write(const Options& options, const CommandContext& context) {
 void run(const Options& options, const CommandContext& context) {
   if (options.schema) return print_result(compare::scene_schema() + "\n");
   if (!options.folder.empty() && options.scene.empty()) throw compare::InputError("--write needs a scene: ogc scenes NAME --write DIR");
+  for (const std::string& assignment : options.assignments) {
+    if (options.folder.empty() || !assignment.starts_with("data="))
+      throw compare::InputError("--set " + assignment + ": only data=DIR, and only with --write; settings stand in the file that is written");
+  }
   if (options.scene.empty()) return list(context);
   if (options.folder.empty()) return show(options.scene, context);
   write(options, context);
@@ -99,6 +105,7 @@ void add_scenes_command(CLI::App& app, CommandContext& context) {
   command->add_option("NAME", options->scene, "A scene; without it all are listed");
   command->add_option("--write", options->folder, "Write NAME.json and its meshes into this folder");
   command->add_option("--scale", options->scale, "smoke, small or paper: which size --write writes")->capture_default_str();
+  command->add_option("--set", options->assignments, "data=DIR: write dress of Codimensional IPC's published files in DIR")->take_all()->type_size(1)->expected(1);
   command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer("Examples:\n"

@@ -27,13 +27,17 @@ std::string listed(std::span<const std::string_view> names) {
 
 bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
 
+constexpr std::string_view data_key = "data=";
+
 compare::Scene load_scene(const RunOptions& options, std::string& scale) {
+  const std::string data = data_folder(options.assignments);
   if (is_scene_file(options.scene)) {
+    if (!data.empty()) throw compare::InputError("--set data=" + data + " belongs to the built-in scenes; a scene file names its meshes itself");
     if (!options.scale.empty()) throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a scene file has one size");
     return compare::read_scene(options.scene);
   }
   scale = options.scale.empty() ? "small" : options.scale;
-  return make_scene(options.scene, parse_scale(scale));
+  return make_scene(options.scene, parse_scale(scale), data);
 }
 
 /// The model of that name for every body that has one; false where `key` names no model.
@@ -60,7 +64,7 @@ void apply_settings(compare::Scene& scene, const RunOptions& options) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
       throw compare::InputError("--set " + assignment + ": give key=value, for example --set iterations=20");
-    set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
+    if (!assignment.starts_with(data_key)) set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
@@ -107,6 +111,16 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
   return scene;
 }
 
+std::string data_folder(const std::vector<std::string>& assignments) {
+  std::string folder;
+  for (const std::string& assignment : assignments) {
+    if (!assignment.starts_with(data_key)) continue;
+    folder = assignment.substr(data_key.size());
+    if (folder.empty()) throw compare::InputError("--set data=: give the folder of the data, for example --set data=input");
+  }
+  return folder;
+}
+
 std::string scene_names() {
   std::string names;
   for (const SceneInfo& info : scenes()) names += (names.empty() ? "" : ", ") + std::string(info.name);
@@ -121,6 +135,7 @@ std::string settings_help() {
                     info.choices.empty() ? number(info.minimum) + " … " + number(info.maximum) : listed(info.choices), std::string(info.meaning)});
   rows.push_back({"  membrane", "1", "the scene's", listed(compare::membrane_model_names()), "model of every body that has a membrane energy"});
   rows.push_back({"  bending", "1", "the scene's", listed(compare::bending_model_names()), "model of every body that has a bending energy"});
+  rows.push_back({"  data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it"});
   return "Settings for --set (a scene brings its own values; defaults are those of a scene file that says nothing):\n" + table(rows, 5);
 }
 

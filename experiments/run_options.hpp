@@ -25,6 +25,9 @@ std::string scene_names();
 /// The table of settings, for help.
 std::string settings_help();
 
+/// The folder that the last "data=DIR" of --set names, empty where there is none; a property of a scene and no setting.
+std::string data_folder(const std::vector<std::string>& assignments);
+
 /// Throws compare::InputError that says what to give instead.
 RunRequest request_of(const RunOptions& options, const CommandContext& context);
 /// Who computes it.

@@ -43,8 +43,9 @@ def ipc_windows(arguments, scene, whole, starts, steps=20):
     return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
 
 
-def main(scene, frames, camera):
-    """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last of them."""
+def main(scene, frames, camera, driven=False):
+    """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last of them. `camera`:
+    eye, target, up, or a function that says so of a run. `driven`: by a motion that may be faster than bounds allow; its lag is shown in place of detections."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
@@ -56,6 +57,7 @@ def main(scene, frames, camera):
         found = run.manifest["scene"]["name"]
         if found != scene:
             raise RunError(f"{arguments.run} is a run of '{found}', not of '{scene}'")
+        camera = camera(run) if callable(camera) else camera
         if arguments.movie:
             draw_movie(run, camera, arguments.movie)
             sys.exit()
@@ -63,7 +65,7 @@ def main(scene, frames, camera):
         claims = load_claims(CLAIMS / f"{scene}.json", run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
         draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out,
-             Run(arguments.profiled) if arguments.profiled else None)
+             Run(arguments.profiled) if arguments.profiled else None, driven)
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")
     print(out)

@@ -29,7 +29,7 @@ from paper_figures.device_memory import DeviceMemory
 from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, command_in, last_lines, make, manifest_of
 
 TABLE1 = Path(__file__).parent.parent / "experiments/table1"
-ROWS = {"twist": "fig12", "fifty_layers_1m": "", "cloth_on_sphere": "fig18", "fifty_layers": "fig10", "knot": "fig11"}  # and the figures of their whole runs
+ROWS = {"twist": "fig12", "fifty_layers_1m": "", "cloth_on_sphere": "fig18", "fifty_layers": "fig10", "knot": "fig11", "dress": "fig13", "robot_shirt": "fig14"}  # and the figures of their whole runs
 PIECE, TOTAL = 15 * 2**20, 60 * 2**20  # bytes of a packed piece, and of all together
 LEFT_FOR_THE_NEXT = 75  # exit status of experiments/table1 at its limit
 
@@ -68,7 +68,8 @@ def parts(scale, backend):
     on_device = tuple(job for job in single if "cpu" not in job.name or backend == "cpu")
     wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
               "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
-              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot")}
+              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot"),
+              "dress": row("dress", frames=20), "robot_shirt": row("robot_shirt", frames=20)}
     groups = (("ipc", "newton"), ("vbd",), *([("vbd_cuda",)] if backend == "cuda" else []))
     on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
                 "fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), frames=0, last=2),
@@ -143,6 +144,7 @@ class Machine:
         """By experiments/table1, which keeps and resumes by itself; the figure of the row's scene is drawn of the whole run."""
         o, log = self.options, self.out / part.folder / f"{part.row}_{'windows' if part.windows else 'whole'}.log"
         extra = ["--skip", "whole", "--window", o.window] if part.windows else ["--skip", "cpu"]
+        extra += ["--data", o.data] if o.data and part.row == "dress" else []
         seconds = [] if math.isinf(limit.left()) else ["--seconds", int(limit.left())]
         with DeviceMemory(self.out / part.folder / f"{part.row}_device_memory.json", part.gpu and o.backend == "cuda"):
             where = [self.out / part.folder, part.row, "--scale", o.scale, "--backend", o.backend]
@@ -279,6 +281,7 @@ def arguments():
     parser.add_argument("--all-seconds", type=float, help="limit of all parts together")
     parser.add_argument("--jobs", type=int, default=1, help="chains of a part that run side by side")
     parser.add_argument("--window", type=int, default=200, help="steps of a CPU window of Table 1")
+    parser.add_argument("--data", metavar="FOLDER", help="of Codimensional IPC's dress and dancer, for the dress (default: its stand-in)")
     parser.add_argument("--keep", type=Path, metavar="FOLDER", help="after each part pack those of this call that are finished")
     parser.add_argument("--pack", type=Path, metavar="FOLDER", help="pack, and run nothing")
     parser.add_argument("--unpack", type=Path, metavar="FOLDER", help="unpack, and run nothing")

@@ -62,6 +62,11 @@ def columns_of(path, stamp):
     return Columns(path)
 
 
+def is_driven(body):
+    """Whether nothing of the body is simulated: it is fixed, or all of it follows a prescribed motion."""
+    return body["fixed"] or body.get("prescribed_vertices") == body["vertex_count"]
+
+
 class RunEvidence:
     """A run: its manifest, and the columns of its rows without units."""
 
@@ -106,7 +111,7 @@ class RunEvidence:
     @property
     def membranes(self):
         """Of the moving bodies: two figures may have one scene with different materials."""
-        return {body["material"]["membrane"] for body in self.manifest["scene"]["bodies"] if not body["fixed"]}
+        return {body["material"]["membrane"] for body in self.manifest["scene"]["bodies"] if not is_driven(body)}
 
     def measured(self, value):
         m = self.manifest
@@ -233,7 +238,7 @@ def value_of(run, spec):
         return _statistic(run, spec) * spec.get("times", 1)
     if "setting" in spec:
         return m["settings"][spec["setting"]]["value"]
-    moving = [body for body in m["scene"]["bodies"] if not body["fixed"]]
+    moving = [body for body in m["scene"]["bodies"] if not is_driven(body)]
     if "material" in spec:
         values = {body["material"][spec["material"]]["value"] for body in moving}
         return values.pop() if len(values) == 1 else math.nan
@@ -249,8 +254,8 @@ def value_of(run, spec):
 
 
 def _count(scene, moving, what):
-    fixed = [body for body in scene["bodies"] if body["fixed"]]
-    counts = {"vertices": (moving, "vertex_count"), "triangles": (moving, "triangle_count"), "fixed_vertices": (fixed, "vertex_count"), "fixed_triangles": (fixed, "triangle_count")}
+    driven = [body for body in scene["bodies"] if is_driven(body)]
+    counts = {"vertices": (moving, "vertex_count"), "triangles": (moving, "triangle_count"), "fixed_vertices": (driven, "vertex_count"), "fixed_triangles": (driven, "triangle_count")}
     if what in counts:
         bodies, key = counts[what]
         return sum(body[key] for body in bodies)

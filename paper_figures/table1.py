@@ -15,7 +15,7 @@ from pathlib import Path
 from paper_figures.device_memory import taken
 from paper_figures.evidence import EvidenceError, run_at
 
-ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m")
+ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m", "dress", "robot_shirt")
 WINDOWS = 5  # on the CPU, of each row
 CLAIMS = Path(__file__).parent / "claims"
 

@@ -19,13 +19,13 @@ def load_claims(path, backend):
 
 
 def bodies_of(run, frame):
-    """Bodies as `render.picture` wants them, with the frame's positions; fixed bodies grey."""
+    """Bodies as `render.picture` wants them, with the frame's positions; bodies that are fixed or wholly prescribed grey."""
     fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
     result, cloth = [], 0
     for body in run.bodies():
         first, count = body["first_vertex"], body["vertex_count"]
         points, triangles = frame.positions[first:first + count], body["triangles"]
-        if body["fixed"]:
+        if body["fixed"] or body.get("prescribed_vertices") == count:
             result.append((points, triangles, "#B0B0B0", "#B0B0B0"))
         else:
             result.append((points, triangles, fronts[cloth % 3], backs[cloth % 3]))
@@ -53,6 +53,14 @@ def draw_detections(axes, run):
     axes.step(steps, run.column("discrete_detections"), where="mid", label="detections")
     axes.step(steps, run.column("guess_rounds"), where="mid", linestyle="--", label="rounds of the guess loop")
     axes.set(xlabel="step", ylabel="count a step", title="Detections (all discrete; none is continuous)", ylim=(0, None))
+    axes.legend()
+
+
+def draw_lag(axes, run):
+    """Nothing is drawn of a run that never lagged but the axis."""
+    axes.plot(run.column("step"), 1e3 * run.column("largest_lag"), label="of the prescribed vertex that lags most")
+    axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8, label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
+    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion, which obeys bounds", ylim=(0, None))
     axes.legend()
 
 
@@ -108,17 +116,17 @@ def headline(run):
             f"worst {wall.max():.3g} ms a step; {kept}; {commits_in_words([run])}")
 
 
-def draw(run, frames, camera, claims, out, profiled=None):
+def draw(run, frames, camera, claims, out, profiled=None, driven=False):
     """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or failed its audit.
 
-    `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None.
+    `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None. `driven`: lag in place of detections.
     """
     run.require_finished()
     plt = style.use()
     figure = plt.figure(figsize=(11, 8.2))
     grid = figure.add_gridspec(3, 4, height_ratios=[1, 1, 0.95])
     draw_time(figure.add_subplot(grid[0, :2]), run, claims, profiled or run)
-    draw_detections(figure.add_subplot(grid[0, 2:]), run)
+    (draw_lag if driven else draw_detections)(figure.add_subplot(grid[0, 2:]), run)
     draw_contacts(figure.add_subplot(grid[1, :2]), run)
     draw_distance(figure.add_subplot(grid[1, 2:]), run)
     draw_frames(figure, [grid[2, i] for i in range(4)], run, frames, camera)

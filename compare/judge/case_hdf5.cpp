@@ -5,7 +5,7 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/judge/numbers_json.hpp"
-#include "compare/record/hdf5.hpp"
+#include "compare/files/hdf5.hpp"
 
 namespace ogc::compare {
 

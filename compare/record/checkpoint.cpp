@@ -5,8 +5,8 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/record/durable_file.hpp"
-#include "compare/record/hdf5.hpp"
+#include "compare/files/durable_file.hpp"
+#include "compare/files/hdf5.hpp"
 #include "compare/record/run_folder.hpp"
 
 namespace ogc::compare {

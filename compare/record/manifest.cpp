@@ -58,6 +58,14 @@ Json material_json(const Material& material) {
   return json;
 }
 
+/// How many vertices of the body follow a motion.
+std::int64_t prescribed_count(const Scene& scene, const Body& body) {
+  const auto is_in = [&](Index v) { return v >= body.first_vertex && v < body.first_vertex + body.vertex_count; };
+  std::int64_t count = 0;
+  for (const PrescribedMotion& motion : scene.motions) count += std::ranges::count_if(motion.vertices, is_in);
+  return count;
+}
+
 Json bodies_json(const Scene& scene) {
   Json json = Json::array();
   for (const Body& body : scene.bodies)
@@ -67,6 +75,7 @@ Json bodies_json(const Scene& scene) {
                     {"first_triangle", body.first_triangle},
                     {"triangle_count", body.triangle_count},
                     {"fixed", body.fixed},
+                    {"prescribed_vertices", prescribed_count(scene, body)},
                     {"material", material_json(body.material)}});
   return json;
 }

@@ -9,7 +9,7 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/record/hdf5.hpp"
+#include "compare/files/hdf5.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
 

@@ -19,7 +19,7 @@
 
 #include "compare/problem/contestant.hpp"
 #include "compare/record/checkpoint.hpp"
-#include "compare/record/durable_file.hpp"
+#include "compare/files/durable_file.hpp"
 #include "compare/record/manifest.hpp"
 
 namespace ogc::compare {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "compare/problem/error.hpp"
-#include "compare/record/hdf5.hpp"
+#include "compare/files/hdf5.hpp"
 #include "compare/record/run_folder.hpp"
 
 namespace ogc::compare {

@@ -109,11 +109,6 @@ std::vector<Vec3> across(const std::vector<Vec3>& centres) {
   return result;
 }
 
-Vec3 tidy(const Vec3& v) {
-  const auto round = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
-  return {round(v.x), round(v.y), round(v.z)};
-}
-
 compare::Mesh laid_along(const std::vector<Vec3>& centres, Index columns) {
   const std::vector<Vec3> directions = across(centres);
   compare::Mesh mesh;

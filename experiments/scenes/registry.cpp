@@ -8,10 +8,12 @@
 #include "compare/problem/text.hpp"
 #include "experiments/scenes/activation_drop.hpp"
 #include "experiments/scenes/cloth_on_sphere.hpp"
+#include "experiments/scenes/dress.hpp"
 #include "experiments/scenes/fifty_layers.hpp"
 #include "experiments/scenes/knot.hpp"
 #include "experiments/scenes/large_radius_twist.hpp"
 #include "experiments/scenes/one_iteration_drop.hpp"
+#include "experiments/scenes/robot_shirt.hpp"
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
 #include "experiments/scenes/twist.hpp"
 
@@ -75,6 +77,25 @@ compare::Scene activation_drop_at(Scale scale) {
   return activation_drop();
 }
 
+compare::Scene dress_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return dress({.bodice = {8, 6}, .hips = {6, 7}, .hem = {5, 10}, .strap = 10, .body_spacing = 0.0743, .steps = 60});
+    case Scale::small: return dress({.bodice = {20, 15}, .hips = {14, 19}, .hem = {13, 24}, .strap = 25, .body_spacing = 0.0297});
+    case Scale::paper: break;
+  }
+  return dress();
+}
+
+/// The data set has one size: scales differ in steps.
+compare::Scene dress_of(Scale scale, const std::filesystem::path& data) {
+  switch (scale) {
+    case Scale::smoke: return dress(read_dress_data(data), 6);
+    case Scale::small: return dress(read_dress_data(data), 60);
+    case Scale::paper: break;
+  }
+  return dress(read_dress_data(data));
+}
+
 compare::Scene knot_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return knot({.rows = 400, .columns = 5, .hold_steps = 12, .steps = 30});
@@ -102,6 +123,17 @@ compare::Scene one_iteration_drop_at(Scale scale) {
   return one_iteration_drop();
 }
 
+compare::Scene robot_shirt_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke:
+      return robot_shirt({.across = 12, .length = 22, .sleeve_rows = 5, .sleeve_columns = 5, .neck_columns = 2, .front_neck = 2, .back_neck = 1, .steps = 240});
+    case Scale::small:
+      return robot_shirt({.across = 28, .length = 52, .sleeve_rows = 10, .sleeve_columns = 13, .neck_columns = 5, .front_neck = 4, .back_neck = 1});
+    case Scale::paper: break;
+  }
+  return robot_shirt();
+}
+
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 150});
@@ -111,14 +143,16 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 9> table{{
+constexpr std::array<SceneInfo, 11> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence", activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
+    {"dress", "Fig. 13", "a dress of 14 stitched panels on a walking body; --set data=DIR: Codimensional IPC's dress and dancer", dress_at, dress_of},
     {"fifty_layers", "Fig. 10, 1", "fifty square cloths fall off-centre onto a fixed cylinder", fifty_layers_at},
     {"fifty_layers_1m", "Table 1", "the same with a million vertices", fifty_layers_1m_at},
     {"knot", "Fig. 11, 1", "a long strip with four overhand knots, pulled at both ends", knot_at},
     {"large_radius_twist", "Fig. 2", "half a turn of a cloth whose contact radius is as large as its edges", large_radius_twist_at},
     {"one_iteration_drop", "Fig. 20", "a square cloth falls onto a small sphere, one iteration a step", one_iteration_drop_at},
+    {"robot_shirt", "Fig. 14", "two grippers lift, shake and fold a T-shirt", robot_shirt_at},
     {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere", three_cloths_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
 }};
@@ -129,12 +163,14 @@ constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"}
 
 std::span<const SceneInfo> scenes() { return table; }
 
-compare::Scene make_scene(std::string_view name, Scale scale) {
+compare::Scene make_scene(std::string_view name, Scale scale, const std::filesystem::path& data) {
   std::vector<std::string_view> names;
   for (const SceneInfo& info : table) {
     names.push_back(info.name);
     if (info.name != name) continue;
-    compare::Scene scene = info.generate(scale);
+    if (!data.empty() && !info.generate_of)
+      throw compare::InputError("data=" + data.string() + ": " + std::string(name) + " is made of no files; leave it out");
+    compare::Scene scene = data.empty() ? info.generate(scale) : info.generate_of(scale, data);
     compare::round_to_single(scene);
     return scene;
   }

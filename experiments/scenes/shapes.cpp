@@ -71,6 +71,14 @@ void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   }
 }
 
+/// From the pole to the ring that begins at `ring`; `up`: the pole lies towards +axis of the ring.
+void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
+  for (Index i = 0; i < count; ++i) {
+    const Index a = ring + i, b = ring + (i + 1) % count;
+    mesh.triangles.push_back(up ? Triangle{a, b, pole} : Triangle{b, a, pole});
+  }
+}
+
 /// From the ring that begins at `rim` to the centre of its disc; `up`: the disc looks towards +z.
 void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
   Index outer = rim;
@@ -82,13 +90,96 @@ void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& 
   }
   const auto middle = static_cast<Index>(mesh.positions.size());
   mesh.positions.push_back({centre.x, centre.y, z});
-  for (Index i = 0; i < cells.around; ++i) {
-    const Index a = outer + i, b = outer + (i + 1) % cells.around;
-    mesh.triangles.push_back(up ? Triangle{a, b, middle} : Triangle{b, a, middle});
-  }
+  add_fan(mesh, cells.around, outer, middle, up);
 }
 
+/// Unit vectors across `axis`, so that (first, second, axis) is right-handed.
+std::array<Vec3, 2> across(const Vec3& axis) {
+  const bool along_y = std::abs(axis.y) > 0.9;
+  const Vec3 first = on_unit_sphere(along_y ? Vec3{0, -axis.z, axis.y} : Vec3{axis.z, 0, -axis.x});
+  return {first, {axis.y * first.z - axis.z * first.y, axis.z * first.x - axis.x * first.z, axis.x * first.y - axis.y * first.x}};
+}
+
+/// Numbers the lattice points of a box's surface as they are first asked for.
+class BoxSurface {
+ public:
+  BoxSurface(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high) : cells_(cells), low_(low), high_(high) {}
+
+  /// The two sides across `axis`, with axes u, v so that (u, v, axis) is right-handed.
+  void add_sides(int axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const bool far : {false, true}) {
+      for (Index i = 0; i < cells_[at(u)]; ++i) {
+        for (Index j = 0; j < cells_[at(v)]; ++j) {
+          const auto corner = [&](Index di, Index dj) {
+            std::array<Index, 3> place{};
+            place[at(axis)] = far ? cells_[at(axis)] : 0;
+            place[at(u)] = i + di;
+            place[at(v)] = j + dj;
+            return vertex(place);
+          };
+          const Index a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+          mesh.triangles.push_back(far ? Triangle{a, b, c} : Triangle{a, c, b});
+          mesh.triangles.push_back(far ? Triangle{a, c, d} : Triangle{a, d, c});
+        }
+      }
+    }
+  }
+  Mesh mesh;
+
+ private:
+  Index vertex(const std::array<Index, 3>& place) {
+    const auto [entry, is_new] = numbers_.try_emplace(place, static_cast<Index>(mesh.positions.size()));
+    const auto between = [&](double low, double high, int axis) { return low + (high - low) * place[at(axis)] / cells_[at(axis)]; };
+    if (is_new) mesh.positions.push_back({between(low_.x, high_.x, 0), between(low_.y, high_.y, 1), between(low_.z, high_.z, 2)});
+    return entry->second;
+  }
+  std::array<Index, 3> cells_;
+  Vec3 low_, high_;
+  std::map<std::array<Index, 3>, Index> numbers_;
+};
+
 }  // namespace
+
+Mesh capsule(const CapsuleCells& cells, double radius, const Vec3& from, const Vec3& to) {
+  const Vec3 axis = on_unit_sphere({to.x - from.x, to.y - from.y, to.z - from.z});
+  const std::array<Vec3, 2> sides = across(axis);
+  Mesh mesh;
+  const auto add = [&](const Vec3& centre, double out, double up, double angle) {
+    const double c = out * std::cos(angle), s = out * std::sin(angle);
+    mesh.positions.push_back(tidy({centre.x + c * sides[0].x + s * sides[1].x + up * axis.x, centre.y + c * sides[0].y + s * sides[1].y + up * axis.y,
+                                   centre.z + c * sides[0].z + s * sides[1].z + up * axis.z}));
+  };
+  const auto ring = [&](const Vec3& centre, double latitude) {
+    for (Index i = 0; i < cells.around; ++i)
+      add(centre, radius * std::cos(latitude), radius * std::sin(latitude), 2 * std::numbers::pi * i / cells.around);
+  };
+  const auto latitude = [&](Index k) { return std::numbers::pi / 2 * k / cells.cap; };
+  for (Index k = cells.cap - 1; k > 0; --k) ring(from, -latitude(k));
+  for (Index k = 0; k <= cells.along; ++k) {
+    const double share = static_cast<double>(k) / cells.along;
+    ring({from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), from.z + share * (to.z - from.z)}, 0);
+  }
+  for (Index k = 1; k < cells.cap; ++k) ring(to, latitude(k));
+  const Index rings = cells.along + 2 * cells.cap - 1, poles = rings * cells.around;
+  for (Index k = 0; k + 1 < rings; ++k) join_rings(mesh, cells.around, k * cells.around, (k + 1) * cells.around);
+  add(from, 0, -radius, 0);
+  add(to, 0, radius, 0);
+  add_fan(mesh, cells.around, 0, poles, false);
+  add_fan(mesh, cells.around, poles - cells.around, poles + 1, true);
+  return mesh;
+}
+
+Mesh box(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high) {
+  BoxSurface surface(cells, low, high);
+  for (int axis = 0; axis < 3; ++axis) surface.add_sides(axis);
+  return std::move(surface.mesh);
+}
+
+Vec3 tidy(const Vec3& v) {
+  const auto round = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
+  return {round(v.x), round(v.y), round(v.z)};
+}
 
 Mesh grid(Index count, double side, double height) {
   Mesh mesh;

@@ -1,6 +1,8 @@
 // The shapes that scenes are built from.
 #pragma once
 
+#include <array>
+
 #include "compare/problem/mesh.hpp"
 
 namespace ogc::experiments {
@@ -27,5 +29,19 @@ struct CylinderCells {
 /// Closed cylinder about an axis through `centre` along z: rings from −`length`/2 to `length`/2 [m], ends as discs; outward normals. A polygon of
 /// `around` ≥ 3 corners on the circle, so that the surface never leaves the round cylinder; `along` ≥ 2, `cap` ≥ 0.
 compare::Mesh cylinder(const CylinderCells& cells, double radius, double length, const compare::Vec3& centre);
+
+/// How finely a capsule is cut: `around` vertices a ring, `along` cells of its straight part, `cap` from its end to its pole.
+struct CapsuleCells {
+  compare::Index around = 12, along = 6, cap = 3;  ///< around (along + 2 cap − 1) + 2 vertices
+};
+
+/// Closed round bar from `from` to `to` [m] with half balls of `radius` as ends; outward normals, every vertex on the surface. `around` ≥ 3, the others ≥ 1.
+compare::Mesh capsule(const CapsuleCells& cells, double radius, const compare::Vec3& from, const compare::Vec3& to);
+
+/// Closed box from corner `low` to corner `high` [m] in `cells` along x, y and z, each ≥ 1; outward normals.
+compare::Mesh box(const std::array<compare::Index, 3>& cells, const compare::Vec3& low, const compare::Vec3& high);
+
+/// Coordinates as multiples of 2⁻²⁰ m, about a micrometre: what is left of the last bit of a sine is gone, so that places that should be the same are.
+compare::Vec3 tidy(const compare::Vec3& v);
 
 }  // namespace ogc::experiments

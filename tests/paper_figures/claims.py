@@ -9,11 +9,12 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 SOURCE = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path(__file__).parents[2]
 sys.path.insert(0, str(SOURCE))
 from paper_figures import verdicts  # noqa: E402
-from paper_figures.evidence import RESULTS, Evidence, EvidenceError  # noqa: E402
+from paper_figures.evidence import RESULTS, Evidence, EvidenceError, value_of  # noqa: E402
 
 
 def claim(**changes):
@@ -115,6 +116,23 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.judged(failed), "not yet run")
         self.assertEqual(self.judged(failed, **guarantee), "refuted")
         self.assertEqual(self.judged(lambda m: None, **{**guarantee, "run": {"scale": "paper", "steps": 100}}), "reproduced")
+
+
+class Counts(unittest.TestCase):
+    """Of a scene: simulated bodies, and those that are fixed or wholly prescribed."""
+
+    def counted(self, what, *bodies):
+        entries = [{"name": "b", "fixed": fixed, "vertex_count": n, "triangle_count": 2 * n, **({} if prescribed is None else {"prescribed_vertices": prescribed})}
+                   for n, fixed, prescribed in bodies]
+        run = SimpleNamespace(manifest={"scene": {"name": "s", "bodies": entries}})
+        return value_of(run, {"scene": what})
+
+    def test_a_body_whose_vertices_all_follow_a_motion_counts_as_fixed(self):
+        bodies = ((100, False, 0), (20, False, 3), (4, True, 0), (7, False, 7))
+        self.assertEqual([self.counted(what, *bodies) for what in ("vertices", "moving_bodies", "fixed_vertices", "fixed_triangles")], [120, 2, 11, 22])
+
+    def test_a_manifest_from_before_that_was_said_has_no_such_body(self):
+        self.assertEqual([self.counted(what, (100, False, None), (4, True, None)) for what in ("vertices", "fixed_vertices")], [100, 4])
 
 
 class OneSceneOfTwoFigures(unittest.TestCase):

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
+#include "compare/files/keyframes.hpp"
 #include "compare/files/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
@@ -43,9 +44,22 @@ Scene full_scene() {
   scene.settings.activation = ContactActivation::cubic;
   scene.settings.damping = DampingForm::per_vertex;
   scene.springs = {{1, 5, 12, 0.25, 1e-4}, {6, 0, 3, 0, 0}};
+  scene.springs.push_back({0, 5, 100, 0, 0, 6, 1.0 / 3});
+  scene.excluded_pairs = {{0, 5}, {0, 6}, {1, 3}, {6, 2}};
   scene.settings.seed = (std::int64_t{1} << 53) - 1;
   scene.settings.contact_radius = 1.0 / 300;
   round_to_single(scene);
+  return scene;
+}
+
+// A vertex of the sheet on a path of three positions.
+Scene keyframed_scene() {
+  Scene scene = full_scene();
+  scene.motions.resize(1);
+  scene.motions[0] = {};
+  scene.motions[0].name = "path";
+  scene.motions[0].vertices = {3, 1};
+  scene.motions[0].keyframes = {{0, 1.0 / 3, 0.5}, {{0.1f, 0, 0}, {0, 0, 0.1f}, {0.1f, 1e-3f, 0}, {0, -1e-3f, 0.1f}, {0.2f, 0, 0}, {-0.1f, 0, 1.0f / 3}}};
   return scene;
 }
 
@@ -100,6 +114,85 @@ TEST_CASE("a scene comes back from its files bit for bit", "[unit]") {
   CHECK(std::signbit(again.velocities[4].y));
   CHECK(read_scene(write_scene(scratch / "again", again)) == scene);
   CHECK(read_bytes(scratch / "new/small.json") == read_bytes(scratch / "again/small.json"));
+}
+
+TEST_CASE("keyframes come back from their file bit for bit", "[unit]") {
+  const Scratch scratch;
+  const Scene scene = keyframed_scene();
+  CHECK(read_scene(write_scene(scratch / "new", scene)) == scene);
+}
+
+TEST_CASE("bad keyframes are named with their file, their path and a remedy", "[unit]") {
+  Edited edited(keyframed_scene());
+  const std::filesystem::path frames = edited.file().parent_path() / "small_path.h5";
+  REQUIRE(std::filesystem::exists(frames));
+  const auto with = [&](const Keyframes& keyframes) {
+    write_keyframes(frames, keyframes);
+    return edited.error();
+  };
+  const Keyframes good = keyframed_scene().motions[0].keyframes;
+  SECTION("no file") {
+    edited.content["motions"][0]["keyframes"] = "gone.h5";
+    CHECK_THAT(edited.error(), Contains("small.json: /motions/0/keyframes: ") && Contains("gone.h5"));
+  }
+  SECTION("no HDF5 file") {
+    write_bytes(frames, "time,x,y,z");
+    CHECK_THAT(edited.error(), Contains("/motions/0/keyframes: ") && Contains("small_path.h5"));
+  }
+  SECTION("no number for a name") {
+    edited.content["motions"][0]["keyframes"] = 3;
+    CHECK_THAT(edited.error(), Contains("/motions/0/keyframes: is 3"));
+  }
+  SECTION("times that do not rise") { CHECK_THAT(with({{0, 0.5, 0.5}, good.positions}), Contains("motion 'path': has keyframes whose times do not rise")); }
+  SECTION("one frame") {
+    CHECK_THAT(with({{0}, {good.positions.begin(), good.positions.begin() + 2}}), Contains("motion 'path': has 1 keyframes; give at least two"));
+  }
+  SECTION("positions of other vertices") {
+    edited.content["motions"][0]["vertices"][0]["indices"] = {3};
+    CHECK_THAT(edited.error(), Contains("motion 'path': has 6 positions in 3 keyframes of 1 vertices"));
+  }
+  SECTION("a position that is none") {
+    Keyframes bad = good;
+    bad.positions[3].z = std::numeric_limits<float>::quiet_NaN();
+    CHECK_THAT(with(bad), Contains("motion 'path', keyframe 1, vertex 1: position is not finite"));
+  }
+  SECTION("velocities besides") {
+    edited.content["motions"][0]["velocity"] = {0, 1, 0};
+    CHECK_THAT(edited.error(), Contains("motion 'path': has keyframes and velocities"));
+  }
+}
+
+TEST_CASE("bad stitches and excluded pairs are named with their path and a remedy", "[unit]") {
+  Edited edited;
+  json& content = edited.content;
+  SECTION("a ratio beyond the edge") {
+    content["springs"][2]["ratio"] = 1.5;
+    CHECK_THAT(edited.error(), Contains("spring 2: has no such point on the line of its second and third vertex: third 6, ratio 1.5"));
+  }
+  SECTION("a ratio without a third vertex") {
+    content["springs"][2].erase("third");
+    CHECK_THAT(edited.error(), Contains("spring 2") && Contains("third -1"));
+  }
+  SECTION("an edge that is none") {
+    content["springs"][2]["third"] = content["springs"][2]["second"];
+    CHECK_THAT(edited.error(), Contains("spring 2") && Contains("third 5"));
+  }
+  SECTION("a pair of unknown bodies") {
+    content["excluded_pairs"][0]["bodies"][1] = "flor";
+    CHECK_THAT(edited.error(), Contains("/excluded_pairs/0/bodies/1: unknown body 'flor'; did you mean 'floor'?"));
+  }
+  SECTION("a pair of three") {
+    content["excluded_pairs"][0]["vertices"][0] = {0, 1, 2};
+    CHECK_THAT(edited.error(), Contains("/excluded_pairs/0/vertices/0"));
+  }
+  SECTION("a vertex beyond its body") {
+    content["excluded_pairs"][0]["vertices"][1][1] = 3;
+    CHECK_THAT(edited.error(), Contains("/excluded_pairs/0/vertices/1/1: is 3; body 'floor' has vertices 0 to 2"));
+  }
+  SECTION("a vertex beside itself") {
+    content["excluded_pairs"][1]["vertices"][0] = {1, 1};
+    CHECK_THAT(edited.error(), Contains("excluded pair 2: does not name two vertices: 1, 1"));
+  }
 }
 
 TEST_CASE("reading rounds to single precision", "[unit]") {

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "compare/problem/error.hpp"
-#include "compare/record/hdf5.hpp"
+#include "compare/files/hdf5.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/record/small_run.hpp"

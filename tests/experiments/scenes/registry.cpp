@@ -53,14 +53,14 @@ TEST_CASE("every scene is valid at every scale, named as registered, and already
 }
 
 // The largest ones, seconds each, are audited by `ogc run` itself at its start.
-TEST_CASE("no scene starts with an intersection", "[unit]") {
+TEST_CASE("no scene starts with an intersection but between stitched primitives", "[unit]") {
   constexpr std::size_t largest = 100'000;
   for (const SceneInfo& info : scenes()) {
     for (const Scale scale : {Scale::smoke, Scale::small, Scale::paper}) {
       INFO(info.name << " at scale " << static_cast<int>(scale));
       const Scene scene = make_scene(info.name, scale);
       if (scale == Scale::paper && scene.mesh.positions.size() > largest) continue;
-      CHECK(audit(build_topology(scene), scene.mesh.positions, rigid_groups(scene)).count == 0);
+      CHECK(audit(build_topology(scene), scene.mesh.positions, exclusions(scene)).count == 0);
     }
   }
 }
@@ -168,4 +168,8 @@ TEST_CASE("unknown scenes and scales are refused with the nearest name", "[unit]
   CHECK(parse_scale("smoke") == Scale::smoke);
   CHECK(parse_scale("small") == Scale::small);
   CHECK(parse_scale("paper") == Scale::paper);
+}
+
+TEST_CASE("a scene without a data set refuses one", "[unit]") {
+  CHECK_THROWS_WITH(make_scene("twist", Scale::smoke, "somewhere"), Contains("twist") && Contains("somewhere"));
 }

@@ -1,5 +1,6 @@
 #include "experiments/scenes/shapes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -23,6 +24,13 @@ double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * 
 Vec3 normal(const Mesh& mesh, const Triangle& t) {
   const Vec3& a = mesh.positions[at(t[0])];
   return cross(difference(mesh.positions[at(t[1])], a), difference(mesh.positions[at(t[2])], a));
+}
+
+/// Of a surface that looks outwards [m³].
+double volume_of(const Mesh& mesh) {
+  double volume = 0;
+  for (const Triangle& t : mesh.triangles) volume += dot(mesh.positions[at(t[0])], cross(mesh.positions[at(t[1])], mesh.positions[at(t[2])])) / 6;
+  return volume;
 }
 
 Topology topology_of(const Mesh& mesh) { return build_topology(static_cast<Index>(mesh.positions.size()), mesh.triangles); }
@@ -119,4 +127,38 @@ TEST_CASE("the ground's triangles have at most a hundred times the area of the c
     CHECK(ground_cell <= 10 * cloth_cell * (1 + 1e-12));
     CHECK(mesh.positions.front() == Vec3{-2, -0.60, -2});
   }
+}
+
+TEST_CASE("a capsule is a closed surface that looks outwards, with every vertex at its radius from the axis", "[unit]") {
+  const auto [from, to] = GENERATE(std::array<Vec3, 2>{{{0, 0, 0}, {0, 0.5, 0}}}, std::array<Vec3, 2>{{{0.25, -0.125, 0.5}, {-0.25, 0.375, 0.25}}},
+                                   std::array<Vec3, 2>{{{0, 0, 0.5}, {0, 0, 0}}}, std::array<Vec3, 2>{{{1, 0, 0}, {0.5, 0, 0}}});
+  const CapsuleCells cells{32, 6, 8};
+  const Mesh mesh = capsule(cells, 0.125, from, to);
+  CHECK(mesh.positions.size() == at(cells.around * (cells.along + 2 * cells.cap - 1) + 2));
+  CHECK(mesh.triangles.size() == 2 * mesh.positions.size() - 4);
+  CHECK(validate(mesh).empty());
+  const Topology topology = topology_of(mesh);
+  CHECK(topology.boundary_edges.empty());
+  CHECK(topology.non_manifold_edges.empty());
+  const Vec3 axis = difference(to, from);
+  const double length = std::sqrt(dot(axis, axis));
+  for (const Vec3& v : mesh.positions) {
+    const double share = std::clamp(dot(difference(v, from), axis) / dot(axis, axis), 0.0, 1.0);
+    const Vec3 off = difference(v, {from.x + share * axis.x, from.y + share * axis.y, from.z + share * axis.z});
+    CHECK(std::sqrt(dot(off, off)) == Approx(0.125).margin(2e-6));
+  }
+  // 3 % below the round one: a polygon of 32 corners around, eight rings to each pole.
+  CHECK(volume_of(mesh) == Approx(std::numbers::pi * 0.125 * 0.125 * (length + 4.0 / 3 * 0.125)).epsilon(0.03));
+  CHECK(validate(capsule({3, 1, 1}, 0.125, from, to)).empty());
+}
+
+TEST_CASE("a box is a closed surface of its volume that looks outwards", "[unit]") {
+  const auto cells = GENERATE(std::array<Index, 3>{1, 1, 1}, std::array<Index, 3>{2, 1, 3}, std::array<Index, 3>{4, 5, 6});
+  const Mesh mesh = box(cells, {-0.5, 0.25, 1}, {0.5, 0.5, 1.5});
+  const auto [a, b, c] = cells;
+  CHECK(mesh.positions.size() == at((a + 1) * (b + 1) * (c + 1) - (a - 1) * (b - 1) * (c - 1)));
+  CHECK(mesh.triangles.size() == at(4 * (a * b + b * c + c * a)));
+  CHECK(validate(mesh).empty());
+  CHECK(topology_of(mesh).boundary_edges.empty());
+  CHECK(volume_of(mesh) == Approx(0.125));
 }

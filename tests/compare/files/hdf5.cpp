@@ -1,12 +1,12 @@
-#include "compare/record/hdf5.hpp"
+#include "compare/files/hdf5.hpp"
 
 #include <fstream>
 #include <random>
 
 #include "compare/problem/error.hpp"
-#include "compare/record/durable_file.hpp"
+#include "compare/files/durable_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/compare/record/small_run.hpp"
+#include "tests/compare/files/scratch.hpp"
 
 using namespace ogc::compare;
 using ogc::tests::Scratch;

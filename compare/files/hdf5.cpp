@@ -1,4 +1,4 @@
-#include "compare/record/hdf5.hpp"
+#include "compare/files/hdf5.hpp"
 
 #include <hdf5.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "compare/problem/error.hpp"
-#include "compare/record/durable_file.hpp"
+#include "compare/files/durable_file.hpp"
 
 namespace ogc::compare {
 namespace {

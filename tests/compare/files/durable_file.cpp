@@ -1,4 +1,4 @@
-#include "compare/record/durable_file.hpp"
+#include "compare/files/durable_file.hpp"
 
 #include <sys/resource.h>
 
@@ -8,7 +8,7 @@
 
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
-#include "tests/compare/record/small_run.hpp"
+#include "tests/compare/files/scratch.hpp"
 
 using namespace ogc::compare;
 using ogc::tests::Scratch;

@@ -1,4 +1,4 @@
-#include "compare/record/durable_file.hpp"
+#include "compare/files/durable_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
