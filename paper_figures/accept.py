@@ -125,7 +125,7 @@ def compressed(name, data):
 def run_files(path, stem):
     """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
-    manifest["command"] = relative(manifest["command"])
+    manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
     names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if path.with_name(name).is_file()]
     rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
