@@ -63,8 +63,9 @@ def program(ogc):
     return words
 
 
-def origin(recipe, folder, ogc):
-    """Commit, compiler, device and end of the figure's runs, or of the program where it has none."""
+def origin(recipe, folder, ogc, backend=None):
+    """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by `backend`, where there is one: windows on the
+    CPU beside it are not what the picture shows."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
     names = {name for name, _ in runs}
     for name, manifest in runs:
@@ -74,7 +75,7 @@ def origin(recipe, folder, ogc):
     commits = sorted({manifest["commit"] for _, manifest in runs})
     if len(commits) > 1:
         raise AcceptError(f"{folder} mixes runs of commits {', '.join(commit[:10] for commit in commits)}: remove it and run again")
-    last = max((manifest for _, manifest in runs), key=lambda manifest: manifest["ended"])
+    last = max((manifest for _, manifest in runs), key=lambda manifest: (manifest.get("backend") == backend, manifest["ended"]))
     return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
 
 
@@ -124,7 +125,7 @@ def compressed(name, data):
 def run_files(path, stem):
     """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
-    manifest["command"] = relative(manifest["command"])
+    manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
     names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if path.with_name(name).is_file()]
     rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
@@ -138,7 +139,7 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
         if missing:
             raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
-        words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
+        words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc, backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
         for name, data in pieces(recipe, scale, backend, Path(runs), incomplete):
             if len(data) > LARGEST:
                 raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")

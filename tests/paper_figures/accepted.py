@@ -148,12 +148,13 @@ class Accepting(Scratch):
         (folder.parent / "fig18.png").write_bytes(b"picture")
 
     def test_data_picture_and_provenance_are_kept(self):
-        self.finished(command="/somewhere/build/default/ogc run cloth_on_sphere --from-state=/else/where/frame.h5 --out fig18-paper-cuda/run")
+        self.finished(command="/somewhere/build/default/ogc run cloth_on_sphere --from-state=/else/where/frame.h5 --out fig18-paper-cuda/run", from_state="/else/where/frame.h5")
         self.accept("fig18")
         kept = self.results / "machine"
         self.assertEqual({path.name for path in kept.iterdir()}, {"fig18_paper.png", "fig18_paper_run.json", "fig18_paper_steps.csv", "provenance.csv", "durations.csv"})
         manifest = json.loads((kept / "fig18_paper_run.json").read_text())
         self.assertEqual(manifest["command"], "ogc run cloth_on_sphere --from-state=frame.h5 --out fig18-paper-cuda/run")
+        self.assertEqual(manifest["from_state"], "frame.h5")
         with (kept / "provenance.csv").open(newline="") as file:
             rows = {row["file"]: row for row in csv.DictReader(file)}
         self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
@@ -162,6 +163,13 @@ class Accepting(Scratch):
         self.finished(started="2026-11-22T10:00:00Z", ended="2026-11-22T10:01:30Z")
         self.accept("fig18")
         self.assertEqual((self.results / "machine/durations.csv").read_text().splitlines()[1:], ["fig18,paper,cuda,90.0,machine"])
+
+    def test_a_picture_is_of_its_own_backend_where_later_windows_on_the_cpu_lie_beside_its_run(self):
+        self.finished(ended="2026-11-22T10:00:00Z")
+        self.make_run("fig18-paper-cuda/cpu_0", backend="cpu", device="16 threads", ended="2026-11-22T11:00:00Z")
+        rows = {row["file"]: row["device"] for row in self.accept("fig18")}
+        self.assertEqual(set(rows), {"fig18_paper.png", *(f"fig18_paper/{run}_{what}" for run in ("run", "cpu_0") for what in ("run.json", "steps.csv"))})
+        self.assertRegex(rows["fig18_paper.png"], "H200")
 
     def test_a_missing_movie_is_refused_unless_said_so(self):
         folder = self.make_run("fig11-paper-cuda/run")
