@@ -130,8 +130,8 @@ class Trajectory {
  public:
   explicit Trajectory(double radius) {
     const double open = 0.03 + 4 * radius, shut = 2.2 * radius, low = 0.05 + 4 * radius;
-    points_ = {{0.0, {0, 0, open}},         {0.3, {0, 0, 4 * radius}},   {0.5, {0, 0, shut}},         {1.7, {0.85, 0, shut}},     {3.2, {0.85, 0, shut}},
-               {3.9, {0.85, -0.30, shut}},  {4.6, {0.45, -0.62, shut}},  {5.3, {low, -0.28, shut}},   {5.5, {low, -0.28, open}},  {5.9, {low, -0.03, open}}};
+    points_ = {{0.0, {0, 0, open}},         {0.3, {0, 0, 4 * radius}},   {0.5, {0, 0, shut}},         {2.0, {0.32, 0, shut}},     {3.0, {0.32, 0, shut}},
+               {3.7, {0.32, -0.15, shut}},  {4.5, {0.20, -0.27, shut}},  {5.3, {low, -0.17, shut}},   {5.5, {low, -0.17, open}},  {5.95, {low, -0.03, open}}};
   }
 
   Pose at(double t) const {
@@ -143,12 +143,12 @@ class Trajectory {
   }
 
  private:
-  /// Three swings of 6 cm, growing and fading.
+  /// Swings of 1.5 cm, growing and fading.
   static double shake(double t) {
-    constexpr double begin = 1.8, end = 3.0, hertz = 2.5;
+    constexpr double begin = 2.0, end = 3.0, hertz = 2.5;
     if (t <= begin || t >= end) return 0;
     const double window = std::sin(std::numbers::pi * (t - begin) / (end - begin));
-    return 0.06 * window * window * std::sin(2 * std::numbers::pi * hertz * (t - begin));
+    return 0.015 * window * window * std::sin(2 * std::numbers::pi * hertz * (t - begin));
   }
   std::vector<Waypoint> points_;
 };
@@ -197,6 +197,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;
   scene.settings.contact_radius = radius;
+  scene.settings.redetect_fraction = 0;
   return scene;
 }
 
