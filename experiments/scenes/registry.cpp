@@ -128,7 +128,7 @@ compare::Scene robot_shirt_at(Scale scale) {
     case Scale::smoke:
       return robot_shirt({.across = 12, .length = 22, .sleeve_rows = 5, .sleeve_columns = 5, .neck_columns = 2, .front_neck = 2, .back_neck = 1, .steps = 240});
     case Scale::small:
-      return robot_shirt({.across = 28, .length = 52, .sleeve_rows = 10, .sleeve_columns = 13, .neck_columns = 5, .front_neck = 4, .back_neck = 1});
+      return robot_shirt({.across = 28, .length = 52, .sleeve_rows = 10, .sleeve_columns = 13, .neck_columns = 5, .front_neck = 4, .back_neck = 1, .steps = 1800});
     case Scale::paper: break;
   }
   return robot_shirt();

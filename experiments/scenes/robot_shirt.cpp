@@ -193,7 +193,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   const Trajectory trajectory(radius);
   append_gripper(scene, "left_gripper", -0.15, spacing, trajectory);
   append_gripper(scene, "right_gripper", 0.15, spacing, trajectory);
-  scene.settings.time_step = 1.0 / 600;
+  scene.settings.time_step = 1.0 / 600 * 56 / sizes.across;  // so that a step of the jaws is the same part of r at every scale
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;
   scene.settings.contact_radius = radius;

@@ -11,7 +11,7 @@ struct RobotShirtSizes {
   compare::Index sleeve_rows = 20, sleeve_columns = 26;  ///< of each sleeve: its width, laid flat, and its length
   compare::Index neck_columns = 10;                      ///< half of the neck's width
   compare::Index front_neck = 8, back_neck = 2;          ///< depth in the middle
-  std::int64_t steps = 3600;                             ///< 6 s
+  std::int64_t steps = 3600;                             ///< 6 s of 1/600 s; a coarser shirt has longer steps, as its radius is larger
 };
 
 /// The shirt lies flat on a fixed table at y = 0, shoulders along the x axis, hem towards −z: back and front 1.05 r apart, at rest in its rest shape (an ironed
