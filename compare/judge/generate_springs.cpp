@@ -12,6 +12,14 @@ namespace {
 
 using namespace placement;
 
+CaseData with_material(Random& random, SpringCase question, double rest_length) {
+  question.stiffness = static_cast<float>(random.magnitude(-2, 5));
+  question.rest_length = static_cast<float>(rest_length);
+  question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
+  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
+  return question;
+}
+
 /// Along x, of that length, after it was `before` long.
 CaseData spring_case(Random& random, double length, double before, double rest_length, bool turned = true) {
   std::array<Vec3, 4> points{Vec3{}, Vec3{length, 0, 0}, Vec3{}, Vec3{before, 0, 0}};
@@ -25,11 +33,7 @@ CaseData spring_case(Random& random, double length, double before, double rest_l
     question.vertex[k] = single(points[k]);
     question.start[k] = single(points[2 + k]);
   }
-  question.stiffness = static_cast<float>(random.magnitude(-2, 5));
-  question.rest_length = static_cast<float>(rest_length);
-  question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
-  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
-  return question;
+  return with_material(random, question, rest_length);
 }
 
 /// An edge along y whose point at `ratio` is the origin, and a vertex at `length` from there.
@@ -47,11 +51,7 @@ CaseData seam_case(Random& random, double edge, double ratio, double length, dou
   }
   question.ratio = static_cast<float>(ratio);
   question.own = random.below(question.ratio > 0 ? 3 : 2);
-  question.stiffness = static_cast<float>(random.magnitude(-2, 5));
-  question.rest_length = static_cast<float>(rest_length);
-  question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
-  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
-  return question;
+  return with_material(random, question, rest_length);
 }
 
 double some_length(Random& random) { return random.magnitude(-3, 0); }

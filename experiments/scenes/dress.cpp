@@ -8,6 +8,7 @@
 
 #include "compare/problem/error.hpp"
 #include "experiments/scenes/mannequin.hpp"
+#include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
 
 namespace ogc::experiments {
@@ -26,20 +27,10 @@ constexpr double hips_radius = 0.24, hem_radius = 0.30;                    // [m
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-compare::Material skin() {
-  compare::Material material;
-  material.membrane = compare::MembraneModel::none;
-  material.bending = compare::BendingModel::none;
-  material.lame_mu = material.lame_lambda = material.bending_stiffness = 0;
-  material.contact_stiffness = 100;
-  material.friction = 0.5;
-  return material;
-}
-
 compare::Material wool() {
   constexpr double thickness = 0.328e-3, youngs_modulus = 76e3, poisson = 0.071, bending_share = 0.1;
   constexpr double tension = youngs_modulus * thickness;  // E·t [N/m]
-  compare::Material material = skin();
+  compare::Material material = driven_surface();
   material.density = 543.29 * thickness;
   material.membrane = compare::MembraneModel::st_venant_kirchhoff;
   material.lame_mu = tension / (2 * (1 + poisson));
@@ -231,7 +222,7 @@ void append_character(Scene& scene, const DressData& data) {
     std::ranges::transform(frame, frame.begin(), without_dust);
     const std::vector<compare::Vec3f> single = compare::to_single(frame);
     motion.keyframes.positions.insert(motion.keyframes.positions.end(), single.begin(), single.end());
-    if (k == 0) append_body(scene, {.name = "body", .material = skin()}, {frame, data.body.triangles, {}});
+    if (k == 0) append_body(scene, {.name = "body", .material = driven_surface()}, {frame, data.body.triangles, {}});
   }
   scene.motions.push_back(std::move(motion));
 }
@@ -267,7 +258,7 @@ Scene dress(const DressSizes& sizes) {
   for (const int side : {-1, 1}) append_strap(scene, chest, sizes.strap, side);
   constexpr double inside_hips = 0.191;  // of the largest ball about (0, 0.86 m, 0) in the cone of the hips [m]
   append_mannequin(scene, {.shoulders = shoulders, .torso_radius = chest_radius - 1.5 * radius, .pelvis_radius = inside_hips - 1.5 * radius,
-                           .spacing = sizes.body_spacing}, skin());
+                           .spacing = sizes.body_spacing}, driven_surface());
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
 
 namespace ogc::experiments {
@@ -80,16 +81,6 @@ class Pattern {
   compare::Mesh mesh_;
   std::array<std::map<std::array<Index, 2>, Index>, 2> vertices_;  ///< by layer; joined ones by the first
 };
-
-compare::Material hard() {
-  compare::Material material;
-  material.membrane = compare::MembraneModel::none;
-  material.bending = compare::BendingModel::none;
-  material.lame_mu = material.lame_lambda = material.bending_stiffness = 0;
-  material.contact_stiffness = 100;
-  material.friction = 0.5;
-  return material;
-}
 
 compare::Material cloth() {
   compare::Material material;
@@ -178,7 +169,7 @@ void append_gripper(Scene& scene, const char* name, double centre, double spacin
       motion.keyframes.positions.push_back({static_cast<float>(x.x), static_cast<float>(x.y + rise), static_cast<float>(x.z + pose.z)});
     }
   }
-  append_body(scene, {.name = name, .material = hard()}, jaws);
+  append_body(scene, {.name = name, .material = driven_surface()}, jaws);
   scene.motions.push_back(std::move(motion));
 }
 
@@ -189,7 +180,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   Scene scene;
   scene.name = "robot_shirt";
   Pattern(sizes, spacing, radius).append(scene, cloth());
-  append_body(scene, {.name = "table", .fixed = true, .material = hard()}, table(spacing));
+  append_body(scene, {.name = "table", .fixed = true, .material = driven_surface()}, table(spacing));
   const Trajectory trajectory(radius);
   append_gripper(scene, "left_gripper", -0.15, spacing, trajectory);
   append_gripper(scene, "right_gripper", 0.15, spacing, trajectory);
