@@ -66,6 +66,12 @@ class Checking(Scratch):
         lines, met = check.check(self.runs)
         return met, next(line for line in lines if line.startswith("fig18-paper-cuda/run"))
 
+    def test_no_manifest_names_a_folder_of_the_machine_that_made_it(self):
+        for path in sorted((SOURCE / "paper_figures/results").rglob("*run.json")):
+            manifest = json.loads(path.read_text())
+            for key in ("command", "from_state"):
+                self.assertNotRegex(manifest.get(key, ""), r"(?<![^\s=])/\S", f"{path.name}: {key}")
+
     def test_the_same_program_must_give_the_same_bits(self):
         self.assertEqual(self.said(), (True, "fig18-paper-cuda/run/run.json: the bits of h200/sphere_cuda_profile_run.json"))
 
