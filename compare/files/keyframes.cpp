@@ -1,7 +1,7 @@
 #include "compare/files/keyframes.hpp"
 
-#include "compare/problem/error.hpp"
 #include "compare/files/hdf5.hpp"
+#include "compare/problem/error.hpp"
 
 namespace ogc::compare {
 

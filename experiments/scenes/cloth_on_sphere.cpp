@@ -1,16 +1,13 @@
 // Numbers: the paper's Table 1, the authors' published parameters, and damping as in their layers (decided here).
 #include "experiments/scenes/cloth_on_sphere.hpp"
 
+#include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
 
 namespace ogc::experiments {
 
 compare::Material sphere_scene_material() {
-  compare::Material material;
-  material.density = 0.2;
-  material.lame_mu = material.lame_lambda = 10;
-  material.bending_stiffness = 5e-7;
-  material.membrane_damping = material.bending_damping = 2e-6;
+  compare::Material material = layer_cloth();
   material.contact_stiffness = 10;
   material.friction = 0.5;
   return material;

@@ -2,23 +2,13 @@
 #include "experiments/scenes/fifty_layers.hpp"
 
 #include "compare/judge/random.hpp"
+#include "experiments/scenes/materials.hpp"
 
 namespace ogc::experiments {
 namespace {
 
-compare::Material cloth() {
-  compare::Material material;
-  material.density = 0.2;
-  material.lame_mu = material.lame_lambda = 10;
-  material.bending_stiffness = 5e-7;
-  material.membrane_damping = material.bending_damping = 2e-6;
-  material.contact_stiffness = 100;
-  material.friction = 0.2;
-  return material;
-}
-
 compare::Material ground_material() {
-  compare::Material material = cloth();
+  compare::Material material = layer_cloth();
   material.friction = 0.3;
   return material;
 }
@@ -43,8 +33,8 @@ compare::Mesh layer(const FiftyLayersSizes& sizes, compare::Index number) {
 compare::Scene fifty_layers(const FiftyLayersSizes& sizes) {
   compare::Scene scene;
   scene.name = sizes.name;
-  for (compare::Index k = 0; k < sizes.layers; ++k) append_body(scene, {.name = "layer_" + std::to_string(k + 1), .material = cloth()}, layer(sizes, k));
-  append_body(scene, {.name = "cylinder", .fixed = true, .material = cloth()}, cylinder(sizes.cylinder, 0.25, 0.5, {-0.18, 0, 0}));
+  for (compare::Index k = 0; k < sizes.layers; ++k) append_body(scene, {.name = "layer_" + std::to_string(k + 1), .material = layer_cloth()}, layer(sizes, k));
+  append_body(scene, {.name = "cylinder", .fixed = true, .material = layer_cloth()}, cylinder(sizes.cylinder, 0.25, 0.5, {-0.18, 0, 0}));
   append_body(scene, {.name = "ground", .fixed = true, .material = ground_material()}, ground(sizes.vertices_a_side, -0.60));
   scene.settings.time_step = 1.0 / 1200;
   scene.settings.steps = sizes.steps;

@@ -2,6 +2,17 @@
 
 namespace ogc::experiments {
 
+compare::Material layer_cloth() {
+  compare::Material material;
+  material.density = 0.2;
+  material.lame_mu = material.lame_lambda = 10;
+  material.bending_stiffness = 5e-7;
+  material.membrane_damping = material.bending_damping = 2e-6;
+  material.contact_stiffness = 100;
+  material.friction = 0.2;
+  return material;
+}
+
 compare::Material driven_surface() {
   compare::Material material;
   material.membrane = compare::MembraneModel::none;

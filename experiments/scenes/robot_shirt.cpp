@@ -83,12 +83,7 @@ class Pattern {
 };
 
 compare::Material cloth() {
-  compare::Material material;
-  material.density = 0.2;
-  material.lame_mu = material.lame_lambda = 10;
-  material.bending_stiffness = 5e-7;
-  material.membrane_damping = material.bending_damping = 2e-6;
-  material.contact_stiffness = 100;
+  compare::Material material = layer_cloth();
   material.friction = 0.5;
   return material;
 }

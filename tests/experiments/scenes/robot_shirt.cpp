@@ -67,6 +67,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
     const Scene scene = make_scene("robot_shirt", scale);
     const Settings& s = scene.settings;
     CHECK(largest_step(scene) < s.bound_relaxation * s.query_radius_cap * s.contact_radius);
+    CHECK(largest_step(scene) < 0.4 * s.contact_radius);  // withdrawn, open, at 0.47 m/s; at 0.85 r lower jaws stayed behind (experiments/scenes/robot_shirt.hpp)
     for (const PrescribedMotion& motion : scene.motions) {
       CHECK(opening(scene, motion, 0) > 0.03);
       for (const double t : {0.5, 2.4, 5.3}) CHECK(opening(scene, motion, t) == Approx(2.2 * s.contact_radius).epsilon(1e-4));
