@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include "fast/cpu/packed_gather.hpp"
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/stages/backend.hpp"
@@ -59,6 +60,14 @@ class CpuBuffer {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
+/// The functor of a team loop as the host runs it.
+template <class F>
+F on_packs(const F& f) {
+  return f;
+}
+inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) { return {f.view, f.first_slot}; }
+inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) { return {f.view, f.first_slot}; }
+
 class CpuBackend {
  public:
   static constexpr bool is_device = false;
@@ -90,7 +99,7 @@ class CpuBackend {
 
   template <int W, class F>
   void for_each_team(int n, F f, Start) {
-    for_each(n, [&f](int i) { f(i, SerialTeam<W>{}); });
+    for_each(n, [f = on_packs(f)](int i) { f(i, SerialTeam<W>{}); });
   }
 
   template <class First, class Second>

@@ -8,36 +8,39 @@
 namespace ogc::fast {
 
 /// Symmetric 3×3 [N/m].
-struct Symmetric3 {
-  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+template <class T>
+struct Symmetric3Of {
+  T xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
 };
+using Symmetric3 = Symmetric3Of<float>;
 
-struct ForceAndBlock {
-  Vec force{};       ///< −∂E/∂x_v [N]
-  Symmetric3 block{};  ///< approximation of ∂²E/∂x_v², positive semidefinite [N/m]
+template <class T>
+struct ForceAndBlockOf {
+  Vector<T> force{};        ///< −∂E/∂x_v [N]
+  Symmetric3Of<T> block{};  ///< approximation of ∂²E/∂x_v², positive semidefinite [N/m]
 
-  OGC_HD void add_force(float scale, const Vec& direction) { force = force + scale * direction; }
+  OGC_HD void add_force(const T& scale, const Vector<T>& direction) { force = force + scale * direction; }
 
   /// block += scale · a aᵀ
-  OGC_HD void add_outer(float scale, const Vec& a) {
-    const Vec b = scale * a;
-    block.xx += b.x * a.x;
-    block.xy += b.x * a.y;
-    block.xz += b.x * a.z;
-    block.yy += b.y * a.y;
-    block.yz += b.y * a.z;
-    block.zz += b.z * a.z;
+  OGC_HD void add_outer(const T& scale, const Vector<T>& a) {
+    const Vector<T> b = scale * a;
+    block.xx = block.xx + b.x * a.x;
+    block.xy = block.xy + b.x * a.y;
+    block.xz = block.xz + b.x * a.z;
+    block.yy = block.yy + b.y * a.y;
+    block.yz = block.yz + b.y * a.z;
+    block.zz = block.zz + b.z * a.z;
   }
 
   /// block += scale · I
-  OGC_HD void add_identity(float scale) {
-    block.xx += scale;
-    block.yy += scale;
-    block.zz += scale;
+  OGC_HD void add_identity(const T& scale) {
+    block.xx = block.xx + scale;
+    block.yy = block.yy + scale;
+    block.zz = block.zz + scale;
   }
 
   /// Rounded by itself: with a product of the other's computation contracted into it, the bits would depend on where that is computed.
-  OGC_HD ForceAndBlock& operator+=(const ForceAndBlock& other) {
+  OGC_HD ForceAndBlockOf& operator+=(const ForceAndBlockOf& other) {
     force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
     block.xx = add(block.xx, other.block.xx);
     block.xy = add(block.xy, other.block.xy);
@@ -48,5 +51,6 @@ struct ForceAndBlock {
     return *this;
   }
 };
+using ForceAndBlock = ForceAndBlockOf<float>;
 
 }  // namespace ogc::fast

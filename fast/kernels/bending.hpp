@@ -27,33 +27,38 @@ struct HingeRest {
 };
 
 /// Angle of a hinge and what its gradients need of the present shape.
-struct HingeShape {
-  Vec normal_a, normal_b;              ///< n_a, n_b
-  float length_squared = 0;            ///< ‖e‖²
-  float beyond_a = 0, beyond_b = 0;    ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
-  float divisor_a = 0, divisor_b = 0;  ///< ‖e‖ ‖n‖²
-  float angle = 0;                     ///< θ
-  bool defined = false;                ///< false where a triangle or the edge collapsed
+template <class T>
+struct HingeShapeOf {
+  Vector<T> normal_a, normal_b;  ///< n_a, n_b
+  T length_squared{};            ///< ‖e‖²
+  T beyond_a{}, beyond_b{};      ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
+  T divisor_a{}, divisor_b{};    ///< ‖e‖ ‖n‖²
+  T angle{};                     ///< θ
+  Mask<T> defined{};             ///< false where a triangle or the edge collapsed: then nothing below ‖e‖² means anything
 };
+using HingeShape = HingeShapeOf<float>;
 
 /// The cross product of two rounded differences has an error of up to 4 u ‖e‖‖a‖ (two differences, two products). A triangle has collapsed where its doubled
 /// area is below eight times that: its normal is known to no better than an eighth, and its square, by which gradients are divided, to no better than a
 /// quarter. The hinge then exerts no force, and the membrane alone opens it again.
-OGC_HD inline bool hinge_side_collapsed(float normal_squared, float length_squared, float side_squared) {
+template <class T>
+OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squared, const T& side_squared) {
   constexpr float relative = 1024 * 0x1p-48f;  // (8 · 4 u)²
   return !(normal_squared > relative * length_squared * side_squared);
 }
 
-OGC_HD inline HingeShape hinge_shape(const Vec& edge, const Vec& a, const Vec& b) {
-  HingeShape shape;
+template <class T>
+OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, const Vector<T>& b) {
+  HingeShapeOf<T> shape;
   shape.normal_a = cross(edge, a);
   shape.normal_b = cross(b, edge);
   shape.length_squared = dot(edge, edge);
-  const float squared_a = dot(shape.normal_a, shape.normal_a), squared_b = dot(shape.normal_b, shape.normal_b);
-  if (hinge_side_collapsed(squared_a, shape.length_squared, dot(a, a)) || hinge_side_collapsed(squared_b, shape.length_squared, dot(b, b))) return shape;
-  shape.defined = true;
-  const float length = sqrtf(shape.length_squared), along = dot(b, edge);
-  const Vec across = b - (along / shape.length_squared) * edge;
+  const T squared_a = dot(shape.normal_a, shape.normal_a), squared_b = dot(shape.normal_b, shape.normal_b);
+  shape.defined =
+      !(hinge_side_collapsed(squared_a, shape.length_squared, dot(a, a)) || hinge_side_collapsed(squared_b, shape.length_squared, dot(b, b)));
+  if (is_false(shape.defined)) return shape;
+  const T length = root(shape.length_squared), along = dot(b, edge);
+  const Vector<T> across = b - (along / shape.length_squared) * edge;
   shape.angle = arctangent2(-length * dot(shape.normal_a, across), dot(shape.normal_a, shape.normal_b));
   shape.beyond_a = shape.length_squared - dot(a, edge);
   shape.beyond_b = shape.length_squared - along;
@@ -63,18 +68,22 @@ OGC_HD inline HingeShape hinge_shape(const Vec& edge, const Vec& a, const Vec& b
 }
 
 /// ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators: the lanes of a team hold both roles at once.
-OGC_HD inline Vec hinge_gradient(const HingeShape& shape, bool opposite) {
-  const float a = opposite ? -shape.length_squared : shape.beyond_a, b = opposite ? 0.0f : shape.beyond_b;
+template <class T>
+OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
+  const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
   return (a / shape.divisor_a) * shape.normal_a + (b / shape.divisor_b) * shape.normal_b;
 }
 
-struct HingeStencil {
-  float stiffness, rest_angle;  ///< c [J], θ₀ [rad]
+template <class T>
+struct HingeStencilOf {
+  T stiffness, rest_angle;  ///< c [J], θ₀ [rad]
 };
+using HingeStencil = HingeStencilOf<float>;
 
 /// Adds −∂/∂x of energy and damping and c (1 + k_d/h) ∇θ ∇θᵀ, for a vertex whose ∂θ/∂x is `gradient`. `angle_start` is θᵗ; `damping` k_d/h.
-OGC_HD inline void add_hinge(const HingeStencil& stencil, float damping, float angle, float angle_start, const Vec& gradient, ForceAndBlock& sum) {
-  const float moment = stencil.stiffness * ((angle - stencil.rest_angle) + damping * (angle - angle_start));
+template <class T>
+OGC_HD void add_hinge(const HingeStencilOf<T>& stencil, float damping, const T& angle, const T& angle_start, const Vector<T>& gradient, ForceAndBlockOf<T>& sum) {
+  const T moment = stencil.stiffness * ((angle - stencil.rest_angle) + damping * (angle - angle_start));
   sum.add_force(-moment, gradient);
   sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
 }

@@ -5,6 +5,7 @@
 #include "compare/problem/scene.hpp"
 #include "fast/kernels/accumulator.hpp"
 #include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/scalar.hpp"
 #include "fast/kernels/vector.hpp"
 
 namespace ogc::fast {
@@ -30,28 +31,35 @@ struct TriangleRest {
 };
 
 /// Symmetric 2×2: a strain [1] or stress [N/m].
-struct Symmetric2 {
-  float xx = 0, xy = 0, yy = 0;
+template <class T>
+struct Symmetric2Of {
+  T xx{}, xy{}, yy{};
 };
+using Symmetric2 = Symmetric2Of<float>;
 
 /// The two columns of F.
-struct DeformationGradient {
-  Vec first, second;
+template <class T>
+struct DeformationGradientOf {
+  Vector<T> first, second;
 };
+using DeformationGradient = DeformationGradientOf<float>;
 
 /// From the edges x_b − x_a, x_c − x_a and the gradients of N_b and N_c.
-OGC_HD inline DeformationGradient deformation_gradient(const Vec& to_b, const Vec& to_c, const float* gradient_b, const float* gradient_c) {
+template <class T>
+OGC_HD DeformationGradientOf<T> deformation_gradient(const Vector<T>& to_b, const Vector<T>& to_c, const T* gradient_b, const T* gradient_c) {
   return {gradient_b[0] * to_b + gradient_c[0] * to_c, gradient_b[1] * to_b + gradient_c[1] * to_c};
 }
 
 /// G = (FᵀF − I)/2; the diagonal as (‖f‖ − 1)(‖f‖ + 1)/2 would need a root, the plain form loses u, which is u of a stress of stiffness λ.
-OGC_HD inline Symmetric2 green_strain(const DeformationGradient& f) {
+template <class T>
+OGC_HD Symmetric2Of<T> green_strain(const DeformationGradientOf<T>& f) {
   return {0.5f * (dot(f.first, f.first) - 1.0f), 0.5f * dot(f.first, f.second), 0.5f * (dot(f.second, f.second) - 1.0f)};
 }
 
 /// S = λ tr(G) I + 2μ G [N/m].
-OGC_HD inline Symmetric2 membrane_stress(const SurfaceMaterial& material, const Symmetric2& strain) {
-  const float trace = material.lame_lambda * (strain.xx + strain.yy);
+template <class T>
+OGC_HD Symmetric2Of<T> membrane_stress(const SurfaceMaterial& material, const Symmetric2Of<T>& strain) {
+  const T trace = material.lame_lambda * (strain.xx + strain.yy);
   return {trace + 2 * material.lame_mu * strain.xx, 2 * material.lame_mu * strain.xy, trace + 2 * material.lame_mu * strain.yy};
 }
 
@@ -62,31 +70,34 @@ OGC_HD inline double membrane_energy_density(const SurfaceMaterial& material, co
 }
 
 /// One triangle seen from its corner a; b and c follow in the triangle's order.
-struct MembraneStencil {
-  float gradient_b[2], gradient_c[2];  ///< ∇N_b, ∇N_c [1/m]; ∇N_a = −∇N_b − ∇N_c
-  float area;                          ///< [m²]
+template <class T>
+struct MembraneStencilOf {
+  T gradient_b[2], gradient_c[2];  ///< ∇N_b, ∇N_c [1/m]; ∇N_a = −∇N_b − ∇N_c
+  T area;                          ///< [m²]
 };
+using MembraneStencil = MembraneStencilOf<float>;
 
 /// Adds −∂ψ/∂x_a and the 3×3 block: A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ ‖∇N_a‖² F Fᵀ) + A max(0, ∇N_aᵀ S ∇N_a) I. `strain_start` is Gᵗ.
-OGC_HD inline void add_membrane(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b, const Vec& to_c,
-                                const Symmetric2& strain_start, ForceAndBlock& sum) {
-  const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
-  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
-  const Symmetric2 strain = green_strain(f), elastic = membrane_stress(material, strain);
-  const Symmetric2 change{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy};
-  const Symmetric2 viscous = membrane_stress(material, change);
+template <class T>
+OGC_HD void add_membrane(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material, const Vector<T>& to_b, const Vector<T>& to_c,
+                         const Symmetric2Of<T>& strain_start, ForceAndBlockOf<T>& sum) {
+  const DeformationGradientOf<T> f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+  const T own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+  const Symmetric2Of<T> strain = green_strain(f), elastic = membrane_stress(material, strain);
+  const Symmetric2Of<T> change{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy};
+  const Symmetric2Of<T> viscous = membrane_stress(material, change);
   const float damping = material.membrane_damping;
-  const float pull_x = (elastic.xx + damping * viscous.xx) * own_x + (elastic.xy + damping * viscous.xy) * own_y;
-  const float pull_y = (elastic.xy + damping * viscous.xy) * own_x + (elastic.yy + damping * viscous.yy) * own_y;
+  const T pull_x = (elastic.xx + damping * viscous.xx) * own_x + (elastic.xy + damping * viscous.xy) * own_y;
+  const T pull_y = (elastic.xy + damping * viscous.xy) * own_x + (elastic.yy + damping * viscous.yy) * own_y;
   sum.add_force(-stencil.area, pull_x * f.first + pull_y * f.second);
 
-  const Vec along = own_x * f.first + own_y * f.second;
-  const float weight = stencil.area * (1.0f + damping), around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
+  const Vector<T> along = own_x * f.first + own_y * f.second;
+  const T weight = stencil.area * (1.0f + damping), around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
   sum.add_outer(weight * (material.lame_lambda + material.lame_mu), along);
   sum.add_outer(around, f.first);
   sum.add_outer(around, f.second);
-  const float geometric = own_x * (elastic.xx * own_x + elastic.xy * own_y) + own_y * (elastic.xy * own_x + elastic.yy * own_y);
-  sum.add_identity(stencil.area * (geometric > 0 ? geometric : 0.0f));
+  const T geometric = own_x * (elastic.xx * own_x + elastic.xy * own_y) + own_y * (elastic.xy * own_x + elastic.yy * own_y);
+  sum.add_identity(stencil.area * select(geometric > T{}, geometric, T{}));
 }
 
 }  // namespace ogc::fast

@@ -60,7 +60,7 @@ OGC_HD inline void add_strain_damping(const MembraneStencil& stencil, const Surf
   const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
   const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
   const Symmetric2 strain = green_strain(f);
-  const Symmetric2 viscous = membrane_stress(material, {strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
+  const Symmetric2 viscous = membrane_stress(material, Symmetric2{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
   const float weight = stencil.area * material.membrane_damping, around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
   sum.add_force(-weight, (viscous.xx * own_x + viscous.xy * own_y) * f.first + (viscous.xy * own_x + viscous.yy * own_y) * f.second);
   sum.add_outer(weight * (material.lame_lambda + material.lame_mu), own_x * f.first + own_y * f.second);

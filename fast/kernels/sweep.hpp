@@ -124,11 +124,17 @@ OGC_HD inline HingeReads read_hinge(const SweepView& view, const HingeIncidence&
   return reads;
 }
 
+/// A hinge as one of its vertices sees it: p as listed in HingeIncidence.
+template <class T>
+OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
+  const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]), side = select(opposite, own, p[1]);
+  return hinge_shape(end - base, side - base, p[2] - base);
+}
+
 OGC_HD inline void add_hinge_incidence(const HingeIncidence& incidence, const HingeReads& reads, const SurfaceMaterial& material, const Vec& own,
                                        ForceAndBlock& sum) {
   const bool opposite = incidence.hinge < 0;
-  const Vec base = opposite ? reads.p[0] : own, end = opposite ? reads.p[1] : reads.p[0], side = opposite ? own : reads.p[1];
-  const HingeShape shape = hinge_shape(end - base, side - base, reads.p[2] - base);
+  const HingeShape shape = hinge_shape_seen<float>(opposite, reads.p, own);
   if (!shape.defined) return;
   add_hinge(incidence.stencil, material.bending_damping, shape.angle, reads.angle_start, hinge_gradient(shape, opposite), sum);
 }

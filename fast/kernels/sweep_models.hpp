@@ -111,6 +111,20 @@ struct AnyHinge {
   IsometricStencil isometric;
 };
 
+/// The springs of a vertex as a part of its sum.
+struct SpringPart {
+  const SweepView& view;
+  int begin = 0, count = 0;
+  SurfaceModels models;
+  OwnVertex own;
+
+  OGC_HD SpringPart(const SweepView& whole, int slot, const SurfaceModels& of_body, const OwnVertex& at) : view(whole), models(of_body), own(at) {
+    if (view.spring_rows != nullptr) begin = view.spring_rows[slot].begin, count = view.spring_rows[slot].count;
+  }
+};
+OGC_HD inline SpringIncidence load_item(const SpringPart& part, int k) { return part.view.springs[part.begin + k]; }
+OGC_HD inline void add_item(const SpringPart& part, const SpringIncidence& spring, ForceAndBlock& sum) { add_any_spring(part.view, spring, part.models, part.own, sum); }
+
 /// As GatherDefault, with springs as a fifth part.
 struct GatherEveryModel {
   static constexpr int parts = 5;
@@ -118,8 +132,6 @@ struct GatherEveryModel {
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
     const ContactParts contacts{view, view.contact_rows[slot], view.activation};
-    SpringRow springs;
-    if (view.spring_rows != nullptr) springs = view.spring_rows[slot];
     const SurfaceMaterial material = view.materials[vertex.body];
     const SurfaceModels models = view.models[vertex.body];
     const OwnVertex at{own, own - view.start[vertex.vertex]};
@@ -133,8 +145,7 @@ struct GatherEveryModel {
         part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
              [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
         part(vertex.hinge_count, load_hinge, [&](const AnyHinge& any, ForceAndBlock& sum) { add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum); }),
-        part(springs.count, [&](int k) { return view.springs[springs.begin + k]; },
-             [&](const SpringIncidence& spring, ForceAndBlock& sum) { add_any_spring(view, spring, models, at, sum); }),
+        SpringPart(view, slot, models, at),
         contacts.vertex_facet(), contacts.edge_edge());
   }
 };

@@ -22,11 +22,11 @@ TEST_CASE("the hinge's arctangent stays within 4 u of the angle in every quadran
 }
 
 TEST_CASE("the hinge's arctangent is exact where angles are known, odd, and 0 at the origin", "[unit]") {
-  CHECK(arctangent2(0, 1) == 0.0f);
-  CHECK(arctangent2(0, 0) == 0.0f);
-  CHECK(arctangent2(1, 0) == static_cast<float>(std::acos(0.0)));
-  CHECK(arctangent2(0, -1) == static_cast<float>(std::acos(-1.0)));
-  CHECK(arctangent2(1, 1) == static_cast<float>(std::atan(1.0)));
+  CHECK(arctangent2(0.0f, 1.0f) == 0.0f);
+  CHECK(arctangent2(0.0f, 0.0f) == 0.0f);
+  CHECK(arctangent2(1.0f, 0.0f) == static_cast<float>(std::acos(0.0)));
+  CHECK(arctangent2(0.0f, -1.0f) == static_cast<float>(std::acos(-1.0)));
+  CHECK(arctangent2(1.0f, 1.0f) == static_cast<float>(std::atan(1.0)));
   for (const float y : {1e-8f, 0.3f, 0.41f, 0.42f, 5.0f}) {
     for (const float x : {-2.0f, -0.1f, 0.7f, 1.0f}) CHECK(arctangent2(-y, x) == -arctangent2(y, x));
   }

@@ -136,7 +136,7 @@ TEST_CASE("a hinge leaves no net force and no net torque", "[property]") {
 TEST_CASE("rest angle and present angle agree in sign and size", "[unit]") {
   const ogc::compare::Vec3 x0{0, 0, 0}, x1{1, 0, 0}, o0{0.5, 1, 0}, up{0.5, -1, 0.5}, down{0.5, -1, -0.5};
   const auto angle = [&](const ogc::compare::Vec3& o1) {
-    return hinge_shape({1, 0, 0}, {0.5f, 1, 0}, {0.5f, -1, static_cast<float>(o1.z)}).angle;
+    return hinge_shape<float>({1, 0, 0}, {0.5f, 1, 0}, {0.5f, -1, static_cast<float>(o1.z)}).angle;
   };
   CHECK(rest_hinge(x0, x1, o0, up).angle == Approx(-std::atan(0.5)));
   CHECK(rest_hinge(x0, x1, o0, down).angle == Approx(std::atan(0.5)));
@@ -146,9 +146,9 @@ TEST_CASE("rest angle and present angle agree in sign and size", "[unit]") {
 }
 
 TEST_CASE("a hinge with a collapsed triangle or edge exerts nothing", "[unit]") {
-  CHECK_FALSE(hinge_shape({1, 0, 0}, {0.5f, 0, 0}, {0.5f, -1, 0}).defined);
-  CHECK_FALSE(hinge_shape({1, 0, 0}, {0.5f, 1, 0}, {2, 0, 0}).defined);
-  CHECK_FALSE(hinge_shape({0, 0, 0}, {0.5f, 1, 0}, {0.5f, -1, 0}).defined);
-  CHECK_FALSE(hinge_shape({0.3f, 0.7f, 0.11f}, {0.15f, 0.35f, 0.055f}, {0.5f, -1, 0}).defined);
-  CHECK(hinge_shape({1, 0, 0}, {0.5f, 1e-3f, 0}, {0.5f, -1, 0}).defined);
+  CHECK_FALSE(hinge_shape<float>({1, 0, 0}, {0.5f, 0, 0}, {0.5f, -1, 0}).defined);
+  CHECK_FALSE(hinge_shape<float>({1, 0, 0}, {0.5f, 1, 0}, {2, 0, 0}).defined);
+  CHECK_FALSE(hinge_shape<float>({0, 0, 0}, {0.5f, 1, 0}, {0.5f, -1, 0}).defined);
+  CHECK_FALSE(hinge_shape<float>({0.3f, 0.7f, 0.11f}, {0.15f, 0.35f, 0.055f}, {0.5f, -1, 0}).defined);
+  CHECK(hinge_shape<float>({1, 0, 0}, {0.5f, 1e-3f, 0}, {0.5f, -1, 0}).defined);
 }
