@@ -1,22 +1,24 @@
-"""Fig. 1, of the scenes that exist: the last state of each run, from the camera of its own figure."""
+"""Fig. 1, of the scenes that exist: one state of each run, the last where nothing else is said, from the camera of its own figure."""
 
 import argparse
 import sys
 
-from paper_figures import fig10_fifty_layers, fig11_knot, fig12_twist, fig18_cloth_on_sphere
+from paper_figures import fig10_fifty_layers, fig11_knot, fig12_twist, fig13_dress, fig14_robot_shirt, fig18_cloth_on_sphere
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
-from plots.scene_figure import bodies_of
+from plots.scene_figure import bodies_of, is_cloth
 
-CAMERAS = {"fifty_layers": fig10_fifty_layers.CAMERA, "knot": fig11_knot.CAMERA, "twist": fig12_twist.CAMERA, "cloth_on_sphere": fig18_cloth_on_sphere.CAMERA}
+CAMERAS = {"fifty_layers": fig10_fifty_layers.CAMERA, "knot": fig11_knot.CAMERA, "twist": fig12_twist.CAMERA, "dress": fig13_dress.camera,
+           "robot_shirt": fig14_robot_shirt.CAMERA, "cloth_on_sphere": fig18_cloth_on_sphere.CAMERA}  # or a function of the run
+MOMENTS = {"robot_shirt": 0.62}  # as a part of the run: while the shirt hangs; at the end it lies folded
 SIZE = (960, 640)
 
 
 def words(run, frame):
     """The scene and its size, and when this is; cloth alone is counted."""
-    moving = [body for body in run.manifest["scene"]["bodies"] if not body["fixed"]]
-    cloths = f"{len(moving)} cloths, " if len(moving) > 1 else ""
-    return f"{run.manifest['scene']['name'].replace('_', ' ')}: {cloths}{sum(body['vertex_count'] for body in moving):,} vertices, t = {frame.time:.3g} s"
+    cloths = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
+    count = f"{len(cloths)} cloths, " if len(cloths) > 1 else ""
+    return f"{run.manifest['scene']['name'].replace('_', ' ')}: {count}{sum(body['vertex_count'] for body in cloths):,} vertices, t = {frame.time:.3g} s"
 
 
 def draw(runs, out):
@@ -33,8 +35,9 @@ def draw(runs, out):
         scene = run.manifest["scene"]["name"]
         if scene not in CAMERAS:
             raise RunError(f"{run.folder} is a run of '{scene}', of which the teaser knows no camera; it has: {', '.join(CAMERAS)}")
-        frame = run.frame(run.frames[-1])
-        axes.imshow(render.picture(bodies_of(run, frame), CAMERAS[scene], SIZE))
+        camera = CAMERAS[scene](run) if callable(CAMERAS[scene]) else CAMERAS[scene]
+        frame = run.frame(run.frames[round(MOMENTS.get(scene, 1) * (len(run.frames) - 1))])
+        axes.imshow(render.picture(bodies_of(run, frame), camera, SIZE))
         axes.set_title(words(run, frame))
     figure.suptitle(f"Vertex Block Descent with offset geometric contact, {runs[0].manifest['scale']}, {runs[0].manifest['backend']}: {commits_in_words(runs)}", fontsize=8)
     style.save(figure, out)

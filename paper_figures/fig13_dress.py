@@ -3,7 +3,7 @@
 
 from paper_figures.common import main
 
-CAMERAS = {"bodice1": ((1.2, 0.9, 2.6), (0, 0.85, 0), (0, 1, 0)), "panel0": ((0.85, 0.3, 2.4), (0, 0.165, 0), (0, 1, 0))}  # by the first body's name
+CAMERAS = {"bodice1": ((1.3, 0.95, 2.85), (0, 0.92, 0), (0, 1, 0)), "panel0": ((0.85, 0.3, 2.4), (0, 0.165, 0), (0, 1, 0))}  # by the first body's name
 
 
 def camera(run):

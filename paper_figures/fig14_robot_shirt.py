@@ -2,7 +2,7 @@
 
 from paper_figures.common import main
 
-CAMERA = ((1.3, 1.1, 1.7), (0, 0.3, -0.35), (0, 1, 0))
+CAMERA = ((0.92, 0.72, 1.15), (0, 0.14, -0.28), (0, 1, 0))
 
 if __name__ == "__main__":
     main("robot_shirt", frames=(0, 1200, 2220, 3600), camera=CAMERA, driven=True)

@@ -18,6 +18,11 @@ def load_claims(path, backend):
     return {c["quantity"]: (c["value"], c["machine"]) for c in json.loads(path.read_text())["claims"] if c.get("backend") == backend}
 
 
+def is_cloth(body):
+    """Whether a body of the manifest is simulated: neither fixed nor wholly prescribed."""
+    return not body["fixed"] and body.get("prescribed_vertices") != body["vertex_count"]
+
+
 def bodies_of(run, frame):
     """Bodies as `render.picture` wants them, with the frame's positions; bodies that are fixed or wholly prescribed grey."""
     fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
@@ -25,11 +30,11 @@ def bodies_of(run, frame):
     for body in run.bodies():
         first, count = body["first_vertex"], body["vertex_count"]
         points, triangles = frame.positions[first:first + count], body["triangles"]
-        if body["fixed"] or body.get("prescribed_vertices") == count:
-            result.append((points, triangles, "#B0B0B0", "#B0B0B0"))
-        else:
+        if is_cloth(body):
             result.append((points, triangles, fronts[cloth % 3], backs[cloth % 3]))
             cloth += 1
+        else:
+            result.append((points, triangles, "#B0B0B0", "#B0B0B0"))
     return result
 
 

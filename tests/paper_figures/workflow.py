@@ -68,7 +68,7 @@ class Recipes(unittest.TestCase):
         self.assertEqual(names(), ["fig18"])
         self.assertEqual(names("twist", "fig07", "fig12"), ["fig12", "fig07"])
         self.assertNotIn("fig18_solvers", names("all", backend="cuda"))
-        self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig18", "fig01"])
+        self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig13", "fig14", "fig18", "fig01"])
         self.assertEqual(names("all")[-1], "fig01")
         for wrong, words in ((("fig99",), "no figure or scene 'fig99'; there are: fig01"), (("fig18_solvers", "cuda"), "no backend 'cuda'")):
             with self.assertRaisesRegex(recipes.RecipeError, words):
