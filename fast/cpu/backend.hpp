@@ -16,6 +16,7 @@
 #include <tbb/parallel_sort.h>
 
 #include "fast/cpu/packed_gather.hpp"
+#include "fast/cpu/packed_search.hpp"
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/stages/backend.hpp"
@@ -104,7 +105,10 @@ class CpuBackend {
 
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
-    for_each(first.count + second.count, SearchAlone<First, Second>{first, second});
+    for_each(first.count + second.count, [first, second](int i) {
+      if (i < first.count) packed::run_search(first, i);
+      else packed::run_search(second, i - first.count);
+    });
   }
 
   void exclusive_scan(const int* in, int* out, int n) {

@@ -46,6 +46,10 @@ inline Pack select(PackMask condition, Pack a, Pack b) {
 inline Pack absolute(Pack a) { return _mm_andnot_ps(_mm_set1_ps(-0.0F), a.value); }
 inline Pack root(Pack a) { return _mm_sqrt_ps(a.value); }
 inline Pack add(Pack a, Pack b) { return a + b; }
+inline Pack smaller(Pack a, Pack b) { return _mm_min_ps(b.value, a.value); }
+inline Pack larger(Pack a, Pack b) { return _mm_max_ps(b.value, a.value); }
+inline Pack rough_quotient(Pack a, Pack b) { return a / b; }
+inline Pack rough_inverse_root(Pack a) { return 1.0F / root(a); }
 inline bool is_false(PackMask condition) { return _mm_movemask_ps(condition.bits) == 0; }
 
 /// True in the first `count` places.

@@ -10,11 +10,13 @@ namespace ogc::fast {
 
 using compare::TriangleFeature;
 
-struct Corners {
-  Vec a, b, c;
+template <class T>
+struct CornersOf {
+  Vector<T> a, b, c;
 
-  OGC_HD const Vec& operator[](int k) const { return k == 0 ? a : (k == 1 ? b : c); }
+  OGC_HD const Vector<T>& operator[](int k) const { return k == 0 ? a : (k == 1 ? b : c); }
 };
+using Corners = CornersOf<float>;
 
 /// Whether x is surely on the inner side of the edge e from its first end, u = x − first end, w = third corner − first end: Side beyond its 16 roundings.
 OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {

@@ -11,11 +11,13 @@ namespace ogc::fast {
 using compare::EdgeFeature;
 
 /// The two ends of an edge, lower-numbered vertex first.
-struct Ends {
-  Vec a, b;
+template <class T>
+struct EndsOf {
+  Vector<T> a, b;
 
-  OGC_HD const Vec& operator[](int k) const { return k == 0 ? a : b; }
+  OGC_HD const Vector<T>& operator[](int k) const { return k == 0 ? a : b; }
 };
+using Ends = EndsOf<float>;
 
 struct EdgePairFeatures {
   EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;

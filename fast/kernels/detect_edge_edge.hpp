@@ -29,22 +29,24 @@ struct DetectEdgeEdge {
     return {leaf.box(i % 4), tree.order[i], i + 1, larger(gap_limit(add(contact_radius, margin)), leaf.reach[i % 4]), margin};
   }
 
+  /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
+  OGC_HD float candidate_limit(const Search& search, int place, float gap) const {
+    const EdgeEnds p = surface.edges[search.owner], q = surface.edges[tree.order[place]];
+    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
+    const float within = limit(search, place, search.margin);
+    return gap > within ? -1.0F : within;
+  }
+
   OGC_HD bool is_pair(const Search& search, int place, float gap) const {
+    const float within = candidate_limit(search, place, gap);
+    if (within < 0) return false;
     const int other = tree.order[place];
-    const EdgeEnds p = surface.edges[search.owner], q = surface.edges[other];
-    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return false;
-    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[other]);
-    const float reach = tree.node(0, place / 4).reach[place % 4];
-    const auto limit = [&](float margin) {
-      return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
-    };
-    const float within = limit(search.margin);
-    if (gap > within) return false;
-    const float apart = separation(ends(p), ends(q));
+    const float apart = separation(ends(surface.edges[search.owner]), ends(surface.edges[other]));
     if (is_beyond(apart, within)) return false;
     if (!(search.margin > 0)) return true;
     skin.keep(search.owner < other ? NotedPair{search.owner, other} : NotedPair{other, search.owner});
-    return !(gap > limit(0.0F)) && !is_beyond(apart, limit(0.0F));
+    const float without_margin = limit(search, place, 0.0F);
+    return !(gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
   OGC_HD float meet(const Search& search, int place, float gap) const {
@@ -60,6 +62,12 @@ struct DetectEdgeEdge {
   }
 
  private:
+  OGC_HD float limit(const Search& search, int place, float margin) const {
+    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[tree.order[place]]);
+    const float reach = tree.node(0, place / 4).reach[place % 4];
+    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
+  }
+
   /// Of which no smallest distance of this detection will be above.
   OGC_HD float bound(int e) const { return smaller(atomic_load(&d_min_edge[e]), skin.bound(skin.edge[e])); }
 

@@ -36,22 +36,25 @@ struct DetectVertexFacet {
     return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
   }
 
+  /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
+  OGC_HD float candidate_limit(const Search& search, int place, float gap) const {
+    const int v = search.owner;
+    const Facet& facet = surface.facets[tree.order[place]];
+    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet)) return -1.0F;
+    const float within = limit(search, place, search.margin);
+    return gap > within ? -1.0F : within;
+  }
+
   OGC_HD bool is_pair(const Search& search, int place, float gap) const {
-    const int v = search.owner, t = tree.order[place];
-    const Facet& facet = surface.facets[t];
-    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet)) return false;
-    const float own = larger(contact_radius, atomic_load(&d_min_vertex[v])), theirs = atomic_load(&d_min_triangle[t]);
-    const float reach = tree.node(0, place / 4).reach[place % 4];
-    const auto limit = [&](float margin) {
-      return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
-    };
-    const float within = limit(search.margin);
-    if (gap > within) return false;
-    const float apart = separation(search.box.lower, corners(facet));
+    const float within = candidate_limit(search, place, gap);
+    if (within < 0) return false;
+    const int t = tree.order[place];
+    const float apart = separation(search.box.lower, corners(surface.facets[t]));
     if (is_beyond(apart, within)) return false;
     if (!(search.margin > 0)) return true;
-    skin.keep({~v, t});
-    return !(gap > limit(0.0F)) && !is_beyond(apart, limit(0.0F));
+    skin.keep({~search.owner, t});
+    const float without_margin = limit(search, place, 0.0F);
+    return !(gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
   OGC_HD float meet(const Search& search, int place, float gap) const {
@@ -72,6 +75,12 @@ struct DetectVertexFacet {
   }
 
  private:
+  OGC_HD float limit(const Search& search, int place, float margin) const {
+    const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])), theirs = atomic_load(&d_min_triangle[tree.order[place]]);
+    const float reach = tree.node(0, place / 4).reach[place % 4];
+    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
+  }
+
   /// The pair's distance for both partners, and the note where it may be a contact.
   OGC_HD float measure(int v, int t, float gap) const {
     const Distance d = point_triangle_distance(positions[v], corners(surface.facets[t]));

@@ -7,6 +7,7 @@
 
 #include "fast/kernels/closest_face.hpp"
 #include "fast/kernels/closest_points.hpp"
+#include "fast/kernels/scalar.hpp"
 
 namespace ogc::fast {
 
@@ -28,41 +29,50 @@ OGC_HD inline float rough_inverse_root(float a) {
 #endif
 }
 
-OGC_HD inline float norm_1(const Vec& a) { return fabsf(a.x) + fabsf(a.y) + fabsf(a.z); }
+template <class T>
+OGC_HD T norm_1(const Vector<T>& a) {
+  return absolute(a.x) + absolute(a.y) + absolute(a.z);
+}
 
-OGC_HD inline float clamped(float s) { return smaller(larger(s, 0.0F), 1.0F); }
+template <class T>
+OGC_HD T clamped(const T& s) {
+  return smaller(larger(s, T{}), T{1.0F});
+}
 
 /// From the gap of the shadows on d (times ‖d‖), d·d and an error of the distance. The root and products err by 8 u. Where d·d is so small that it may have
 /// lost bits there is no bound.
-OGC_HD inline float separation(float gap, float dd, float error) {
-  return dd > 0x1p-100F ? gap * rough_inverse_root(dd) * (1 - 0x1p-20F) - error : 0.0F;
+template <class T>
+OGC_HD T separation(const T& gap, const T& dd, const T& error) {
+  return select(dd > 0x1p-100F, gap * rough_inverse_root(dd) * (1 - 0x1p-20F) - error, T{});
 }
 
 /// A length, possibly negative or not a number, that does not exceed what `edge_edge_distance(p, q).below()` gives. Beside the 6 u S said above that lies
 /// under the exact distance by two slacks of at most 2 u S and by one rounding of at most 2 u S: 12 u S. Taken: 16 u S.
-OGC_HD inline float separation(const Ends& p, const Ends& q) {
-  const Vec e = p.b - p.a, f = q.b - q.a, w = q.a - p.a;
-  const float ee = dot(e, e), ff = dot(f, f), ef = dot(e, f), we = dot(w, e), wf = dot(w, f);
-  const float s = clamped(rough_quotient(we * ff - ef * wf, ee * ff - ef * ef));
-  const float t = clamped(rough_quotient(s * ef - wf, ff));
-  const Vec d = w + t * f - clamped(rough_quotient(we + t * ef, ee)) * e;
-  const float gap = dot(d, w) + smaller(dot(d, f), 0.0F) - larger(dot(d, e), 0.0F);
-  return separation(gap, dot(d, d), 0x1p-20F * (norm_1(w) + norm_1(e) + norm_1(f)));
+template <class T>
+OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
+  const Vector<T> e = p.b - p.a, f = q.b - q.a, w = q.a - p.a;
+  const T ee = dot(e, e), ff = dot(f, f), ef = dot(e, f), we = dot(w, e), wf = dot(w, f);
+  const T s = clamped(rough_quotient(we * ff - ef * wf, ee * ff - ef * ef));
+  const T t = clamped(rough_quotient(s * ef - wf, ff));
+  const Vector<T> d = w + t * f - clamped(rough_quotient(we + t * ef, ee)) * e;
+  const T gap = dot(d, w) + smaller(dot(d, f), T{}) - larger(dot(d, e), T{});
+  return separation<T>(gap, dot(d, d), 0x1p-20F * (norm_1(w) + norm_1(e) + norm_1(f)));
 }
 
 /// The same for `point_triangle_distance(x, corners).below()`, from two directions: the normal, and that to the nearest point of the outline. Here the
 /// projections take x − corner, with S' the sum of their 1-norms: S ≤ 3 S', so two slacks of 2 u S and the rest are under 20 u S'. Taken: 32 u S'.
-OGC_HD inline float separation(const Vec& x, const Corners& t) {
-  const Vec u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);
-  const auto from_edge = [](const Vec& from, const Vec& edge) { return from - clamped(rough_quotient(dot(from, edge), dot(edge, edge))) * edge; };
-  const Vec d_e = from_edge(u, e), d_f = from_edge(v, f), d_g = from_edge(w, g);
-  Vec d = d_e;
-  if (dot(d_f, d_f) < dot(d, d)) d = d_f;
-  if (dot(d_g, d_g) < dot(d, d)) d = d_g;
-  const float error = 0x1p-19F * (norm_1(u) + norm_1(v) + norm_1(w));
-  const float outline = separation(smaller(smaller(dot(d, u), dot(d, v)), dot(d, w)), dot(d, d), error);
-  const float low = smaller(smaller(dot(n, u), dot(n, v)), dot(n, w)), high = larger(larger(dot(n, u), dot(n, v)), dot(n, w));
-  return larger(outline, separation(larger(low, -high), dot(n, n), error));
+template <class T>
+OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
+  const Vector<T> u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);
+  const auto from_edge = [](const Vector<T>& from, const Vector<T>& edge) { return from - clamped(rough_quotient(dot(from, edge), dot(edge, edge))) * edge; };
+  const Vector<T> d_e = from_edge(u, e), d_f = from_edge(v, f), d_g = from_edge(w, g);
+  Vector<T> d = d_e;
+  d = select(dot(d_f, d_f) < dot(d, d), d_f, d);
+  d = select(dot(d_g, d_g) < dot(d, d), d_g, d);
+  const T error = 0x1p-19F * (norm_1(u) + norm_1(v) + norm_1(w));
+  const T outline = separation<T>(smaller(smaller(dot(d, u), dot(d, v)), dot(d, w)), dot(d, d), error);
+  const T low = smaller(smaller(dot(n, u), dot(n, v)), dot(n, w)), high = larger(larger(dot(n, u), dot(n, v)), dot(n, w));
+  return larger(outline, separation<T>(larger(low, -high), dot(n, n), error));
 }
 
 /// Whether a length that a distance is not below lies beyond a limit of gap_limit.

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "fast/kernels/arctangent.hpp"
-#include "fast/kernels/bending.hpp"
+#include "fast/kernels/separation.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::fast;
@@ -54,6 +54,8 @@ TEST_CASE("every operation on a pack gives the bits of the same operation on eac
   CHECK(differences([](auto a, auto b) { return a / b; }) == 0);
   CHECK(differences([](auto a, auto) { return -a; }) == 0);
   CHECK(differences([](auto a, auto b) { return add(a, b); }) == 0);
+  CHECK(differences([](auto a, auto b) { return smaller(a, b); }) == 0);
+  CHECK(differences([](auto a, auto b) { return larger(a, b); }) == 0);
   CHECK(differences([](auto a, auto) { return root(a); }) == 0);
   CHECK(differences([](auto a, auto) { return absolute(a); }) == 0);
   CHECK(differences([](auto a, auto b) { return select(a > b, a, b); }) == 0);
@@ -72,4 +74,25 @@ TEST_CASE("a mask is false only where none of its places is true, and counts fro
     for (int i = 0; i < 4; ++i) CHECK(got[static_cast<std::size_t>(i)] == (i < count ? 1.0F : 0.0F));
     CHECK(is_false(first_of(count)) == (count == 0));
   }
+}
+
+TEST_CASE("the lower bounds of distances of four pairs at a time have the bits of each", "[property]") {
+  std::mt19937 random(11);
+  std::normal_distribution<float> normal;
+  const auto point = [&](float size) { return Vec{size * normal(random), size * normal(random), size * normal(random)}; };
+  const auto packed = [](const Vec* p) { return Vector<Pack>{{p[0].x, p[1].x, p[2].x, p[3].x}, {p[0].y, p[1].y, p[2].y, p[3].y}, {p[0].z, p[1].z, p[2].z, p[3].z}}; };
+  int wrong = 0;
+  for (int k = 0; k < 20000; ++k) {
+    Vec p[4][4];  // [which point][pair]
+    const float size = std::ldexp(1.0F, -static_cast<int>(random() % 20));
+    for (auto& of_pairs : p)
+      for (Vec& x : of_pairs) x = random() % 16 == 0 ? p[0][0] : point(random() % 4 == 0 ? 1.0F : size);  // some coincide
+    const Floats edges = floats(separation(EndsOf<Pack>{packed(p[0]), packed(p[1])}, EndsOf<Pack>{packed(p[2]), packed(p[3])}));
+    const Floats corners = floats(separation(packed(p[0]), CornersOf<Pack>{packed(p[1]), packed(p[2]), packed(p[3])}));
+    for (std::size_t i = 0; i < 4; ++i) {
+      wrong += alike(edges[i], separation(Ends{p[0][i], p[1][i]}, Ends{p[2][i], p[3][i]})) ? 0 : 1;
+      wrong += alike(corners[i], separation(p[0][i], Corners{p[1][i], p[2][i], p[3][i]})) ? 0 : 1;
+    }
+  }
+  CHECK(wrong == 0);
 }

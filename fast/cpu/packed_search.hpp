@@ -1,0 +1,71 @@
+// Searches of one thread that collect candidates and compute the lower bounds of their distances four at a time. Which pairs a search rejects changes no answer, and
+// these are the same bounds (tests/fast/cpu/pack.cpp).
+#pragma once
+
+#include "fast/cpu/packed_items.hpp"
+#include "fast/kernels/detect_edge_edge.hpp"
+#include "fast/kernels/detect_vertex_facet.hpp"
+
+namespace ogc::fast::packed {
+
+/// Vertices of four primitives, one of each.
+inline Vector<Pack> gathered(const Vec* positions, int a, int b, int c, int d) {
+  const Vec &p = positions[a], &q = positions[b], &r = positions[c], &s = positions[d];
+  return {{p.x, q.x, r.x, s.x}, {p.y, q.y, r.y, s.y}, {p.z, q.z, r.z, s.z}};
+}
+
+inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* place) {
+  const EdgeEnds own = query.surface.edges[search.owner];
+  EdgeEnds other[Pack::width];
+  for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[query.tree.order[place[k]]];
+  const Vec* x = query.positions;
+  return separation(EndsOf<Pack>{everywhere(x[own.a]), everywhere(x[own.b])},
+                    EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a), gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
+}
+
+inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* place) {
+  const int* corner[Pack::width];
+  for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[query.tree.order[place[k]]].corner;
+  const auto at = [&](int i) { return gathered(query.positions, corner[0][i], corner[1][i], corner[2][i], corner[3][i]); };
+  return separation(everywhere(search.box.lower), CornersOf<Pack>{at(0), at(1), at(2)});
+}
+
+/// Candidates that wait for three others.
+template <class Query>
+struct Waiting {
+  const Query& query;
+  Search& search;
+  int place[Pack::width], count = 0;
+  float gap[Pack::width], within[Pack::width];
+
+  void take(int at, float its_gap) {
+    const float limit = query.candidate_limit(search, at, its_gap);
+    if (limit < 0) return;
+    place[count] = at, gap[count] = its_gap, within[count] = limit;
+    if (++count == Pack::width) look();
+  }
+
+  void look() {
+    if (count == 0) return;
+    for (int k = count; k < Pack::width; ++k) place[k] = place[0];
+    float apart[Pack::width];
+    _mm_storeu_ps(apart, separations(query, search, place).value);
+    for (int k = 0; k < count; ++k) {
+      if (!is_beyond(apart[k], within[k])) search.limit = smaller(search.limit, query.meet(search, place[k], gap[k]));
+    }
+    count = 0;
+  }
+};
+
+/// The i-th search. One that keeps pairs within a margin looks at them one by one.
+template <class Query>
+void run_search(const Searches<Query>& searches, int i) {
+  if (searches.query.is_off()) return;
+  Search search = searches.query.begin(i);
+  if (search.margin > 0) return searches.run_alone(i);
+  Waiting<Query> waiting{searches.query, search, {}, 0, {}, {}};
+  for_each_near(searches.tree, search.box, search.from, search.limit, [&](int place, float gap) { waiting.take(place, gap); });
+  waiting.look();
+}
+
+}  // namespace ogc::fast::packed
