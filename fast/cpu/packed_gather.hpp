@@ -149,7 +149,7 @@ struct GatherPackedEveryModel {
     const bool is_default = models.membrane != compare::MembraneModel::stable_neo_hookean && models.bending != compare::BendingModel::isometric_quadratic &&
                             models.damping == compare::DampingForm::strain && view.activation == ContactActivation::ogc;
     if constexpr (W >= Pack::width) {
-      if (is_default) return GatherPacked{}.with<W>(view, slot, vertex, own, SpringPart(view, slot, models, {own, own - view.start[vertex.vertex]}));
+      if (is_default) return GatherPacked{}.with<W>(view, slot, vertex, own, spring_part(view, slot, models, {own, own - view.start[vertex.vertex]}));
     }
     return GatherEveryModel{}(view, slot, vertex, own, team);
   }

@@ -111,19 +111,24 @@ struct AnyHinge {
   IsometricStencil isometric;
 };
 
-/// The springs of a vertex as a part of its sum.
-struct SpringPart {
+/// The springs of a vertex as a part of its sum. No lambdas: g++ and nvcc need not lay their captures out alike (fast/stages/colouring.cpp), and this part is handed on.
+struct LoadSpring {
+  const SpringIncidence* first;
+
+  OGC_HD SpringIncidence operator()(int k) const { return first[k]; }
+};
+struct AddSpring {
   const SweepView& view;
-  int begin = 0, count = 0;
   SurfaceModels models;
   OwnVertex own;
 
-  OGC_HD SpringPart(const SweepView& whole, int slot, const SurfaceModels& of_body, const OwnVertex& at) : view(whole), models(of_body), own(at) {
-    if (view.spring_rows != nullptr) begin = view.spring_rows[slot].begin, count = view.spring_rows[slot].count;
-  }
+  OGC_HD void operator()(const SpringIncidence& spring, ForceAndBlock& sum) const { add_any_spring(view, spring, models, own, sum); }
 };
-OGC_HD inline SpringIncidence load_item(const SpringPart& part, int k) { return part.view.springs[part.begin + k]; }
-OGC_HD inline void add_item(const SpringPart& part, const SpringIncidence& spring, ForceAndBlock& sum) { add_any_spring(part.view, spring, part.models, part.own, sum); }
+OGC_HD inline Part<LoadSpring, AddSpring> spring_part(const SweepView& view, int slot, const SurfaceModels& models, const OwnVertex& own) {
+  SpringRow row;
+  if (view.spring_rows != nullptr) row = view.spring_rows[slot];
+  return part(row.count, LoadSpring{view.springs + row.begin}, AddSpring{view, models, own});
+}
 
 /// As GatherDefault, with springs as a fifth part.
 struct GatherEveryModel {
@@ -145,8 +150,7 @@ struct GatherEveryModel {
         part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
              [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
         part(vertex.hinge_count, load_hinge, [&](const AnyHinge& any, ForceAndBlock& sum) { add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum); }),
-        SpringPart(view, slot, models, at),
-        contacts.vertex_facet(), contacts.edge_edge());
+        spring_part(view, slot, models, at), contacts.vertex_facet(), contacts.edge_edge());
   }
 };
 
