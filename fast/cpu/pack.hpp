@@ -1,8 +1,14 @@
-// Four floats at a time in one register of any x86-64 processor, as a number type of the kernels' formulas: the same operations in the same order as on one float, each
-// rounded alike, so that the same bits come out.
+// Four floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same order as on one float, each rounded alike, so that the
+// same bits come out. g++'s vector types, which every processor has; a few operations have better instructions where there is SSE2.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
 #include <emmintrin.h>
+#endif
 
 #include "fast/kernels/scalar.hpp"
 
@@ -10,29 +16,35 @@ namespace ogc::fast {
 
 /// True or false four times.
 struct PackMask {
-  __m128 bits = _mm_setzero_ps();
+  using Bits __attribute__((vector_size(16))) = std::int32_t;  ///< all ones or none
+  Bits bits{};
 
-  friend PackMask operator!(PackMask a) { return {_mm_xor_ps(a.bits, _mm_castsi128_ps(_mm_set1_epi32(-1)))}; }
-  friend PackMask operator&&(PackMask a, PackMask b) { return {_mm_and_ps(a.bits, b.bits)}; }
-  friend PackMask operator||(PackMask a, PackMask b) { return {_mm_or_ps(a.bits, b.bits)}; }
+  friend PackMask operator!(PackMask a) { return {~a.bits}; }
+  friend PackMask operator&&(PackMask a, PackMask b) { return {a.bits & b.bits}; }
+  friend PackMask operator||(PackMask a, PackMask b) { return {a.bits | b.bits}; }
 };
 
 struct Pack {
   static constexpr int width = 4;
-  __m128 value = _mm_setzero_ps();
+  using Numbers __attribute__((vector_size(16))) = float;
+  Numbers value{};
 
   Pack() = default;
-  Pack(__m128 packed) : value(packed) {}  // NOLINT: formulas mix packs with constants
-  Pack(float everywhere) : value(_mm_set1_ps(everywhere)) {}
-  Pack(float a, float b, float c, float d) : value(_mm_setr_ps(a, b, c, d)) {}
+  Pack(Numbers packed) : value(packed) {}  // NOLINT: formulas mix packs with constants
+  Pack(float everywhere) : value{everywhere, everywhere, everywhere, everywhere} {}
+  Pack(float a, float b, float c, float d) : value{a, b, c, d} {}
+  explicit Pack(const float* from) { std::memcpy(&value, from, sizeof value); }
 
-  friend Pack operator+(Pack a, Pack b) { return _mm_add_ps(a.value, b.value); }
-  friend Pack operator-(Pack a, Pack b) { return _mm_sub_ps(a.value, b.value); }
-  friend Pack operator*(Pack a, Pack b) { return _mm_mul_ps(a.value, b.value); }
-  friend Pack operator/(Pack a, Pack b) { return _mm_div_ps(a.value, b.value); }
-  friend Pack operator-(Pack a) { return _mm_xor_ps(a.value, _mm_set1_ps(-0.0F)); }
-  friend PackMask operator>(Pack a, Pack b) { return {_mm_cmpgt_ps(a.value, b.value)}; }
-  friend PackMask operator<(Pack a, Pack b) { return {_mm_cmplt_ps(a.value, b.value)}; }
+  void store(float* to) const { std::memcpy(to, &value, sizeof value); }
+  float operator[](int k) const { return value[k]; }
+
+  friend Pack operator+(Pack a, Pack b) { return a.value + b.value; }
+  friend Pack operator-(Pack a, Pack b) { return a.value - b.value; }
+  friend Pack operator*(Pack a, Pack b) { return a.value * b.value; }
+  friend Pack operator/(Pack a, Pack b) { return a.value / b.value; }
+  friend Pack operator-(Pack a) { return -a.value; }
+  friend PackMask operator>(Pack a, Pack b) { return {a.value > b.value}; }
+  friend PackMask operator<(Pack a, Pack b) { return {a.value < b.value}; }
 };
 
 template <>
@@ -40,19 +52,26 @@ struct MaskOf<Pack> {
   using type = PackMask;
 };
 
-inline Pack select(PackMask condition, Pack a, Pack b) {
-  return _mm_or_ps(_mm_and_ps(condition.bits, a.value), _mm_andnot_ps(condition.bits, b.value));
-}
-inline Pack absolute(Pack a) { return _mm_andnot_ps(_mm_set1_ps(-0.0F), a.value); }
-inline Pack root(Pack a) { return _mm_sqrt_ps(a.value); }
+inline Pack select(PackMask condition, Pack a, Pack b) { return condition.bits ? a.value : b.value; }
+inline Pack absolute(Pack a) { return std::bit_cast<Pack::Numbers>(std::bit_cast<PackMask::Bits>(a.value) & 0x7fffffff); }
 inline Pack add(Pack a, Pack b) { return a + b; }
+
+#if defined(__SSE2__)
+inline Pack root(Pack a) { return _mm_sqrt_ps(a.value); }
 inline Pack smaller(Pack a, Pack b) { return _mm_min_ps(b.value, a.value); }
 inline Pack larger(Pack a, Pack b) { return _mm_max_ps(b.value, a.value); }
+inline bool is_false(PackMask condition) { return _mm_movemask_epi8(std::bit_cast<__m128i>(condition.bits)) == 0; }
+#else
+inline Pack root(Pack a) { return {sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3])}; }
+inline Pack smaller(Pack a, Pack b) { return select(b < a, b, a); }
+inline Pack larger(Pack a, Pack b) { return select(a < b, b, a); }
+inline bool is_false(PackMask condition) { return (condition.bits[0] | condition.bits[1] | condition.bits[2] | condition.bits[3]) == 0; }
+#endif
+
 inline Pack rough_quotient(Pack a, Pack b) { return a / b; }
 inline Pack rough_inverse_root(Pack a) { return 1.0F / root(a); }
-inline bool is_false(PackMask condition) { return _mm_movemask_ps(condition.bits) == 0; }
 
 /// True in the first `count` places.
-inline PackMask first_of(int count) { return {_mm_castsi128_ps(_mm_cmplt_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(count)))}; }
+inline PackMask first_of(int count) { return {PackMask::Bits{0, 1, 2, 3} < count}; }
 
 }  // namespace ogc::fast

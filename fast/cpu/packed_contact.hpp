@@ -51,21 +51,21 @@ inline Weights weights(const Items<ContactIncidence>& items, const Vector<Pack>*
   else if (are_of(items, ContactKind::point_triangle)) weights = triangle_weights(x, usual);
   if (is_false(!usual)) return weights;
   float at[3][4][Pack::width], slot[4][Pack::width];  // [axis][slot][place]
-  for (int s = 0; s < 4; ++s) _mm_storeu_ps(at[0][s], x[s].x.value), _mm_storeu_ps(at[1][s], x[s].y.value), _mm_storeu_ps(at[2][s], x[s].z.value);
+  for (int s = 0; s < 4; ++s) x[s].x.store(at[0][s]), x[s].y.store(at[1][s]), x[s].z.store(at[2][s]);
   for (int k = 0; k < Pack::width; ++k) {
     Vec of_one[4];
     for (int s = 0; s < 4; ++s) of_one[s] = {at[0][s][k], at[1][s][k], at[2][s][k]};
     const ContactWeights one = contact_weights(items.at[k]->kind, of_one);
     for (int s = 0; s < 4; ++s) slot[s][k] = one.slot[s];
   }
-  for (int s = 0; s < 4; ++s) weights.slot[s] = _mm_loadu_ps(slot[s]);
+  for (int s = 0; s < 4; ++s) weights.slot[s] = Pack(slot[s]);
   return weights;
 }
 
 /// Of the slot that each item's own vertex has.
 inline Pack own_weight(const Items<ContactIncidence>& items, const Weights& weights) {
   float slot[4][Pack::width];
-  for (int s = 0; s < 4; ++s) _mm_storeu_ps(slot[s], weights.slot[s].value);
+  for (int s = 0; s < 4; ++s) weights.slot[s].store(slot[s]);
   return {slot[items.at[0]->own][0], slot[items.at[1]->own][1], slot[items.at[2]->own][2], slot[items.at[3]->own][3]};
 }
 

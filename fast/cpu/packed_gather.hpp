@@ -95,10 +95,7 @@ struct Lanes {
     for (int s = W / Pack::width / 2; s > 0; s /= 2) {
       for (int l = 0; l < s; ++l) packs[l] += packs[l + s];
     }
-    const auto whole = [](Pack a) {
-      const __m128 halves = _mm_add_ps(a.value, _mm_movehl_ps(a.value, a.value));
-      return _mm_cvtss_f32(_mm_add_ss(halves, _mm_shuffle_ps(halves, halves, 1)));
-    };
+    const auto whole = [](Pack a) { return (a[0] + a[2]) + (a[1] + a[3]); };
     const Vector<Pack>& f = packs[0].force;
     const Symmetric3Of<Pack>& b = packs[0].block;
     return {{whole(f.x), whole(f.y), whole(f.z)}, {whole(b.xx), whole(b.xy), whole(b.xz), whole(b.yy), whole(b.yz), whole(b.zz)}};

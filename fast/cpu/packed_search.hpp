@@ -49,7 +49,7 @@ struct Waiting {
     if (count == 0) return;
     for (int k = count; k < Pack::width; ++k) place[k] = place[0];
     float apart[Pack::width];
-    _mm_storeu_ps(apart, separations(query, search, place).value);
+    separations(query, search, place).store(apart);
     for (int k = 0; k < count; ++k) {
       if (!is_beyond(apart[k], within[k])) search.limit = smaller(search.limit, query.meet(search, place[k], gap[k]));
     }

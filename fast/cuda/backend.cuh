@@ -160,7 +160,7 @@ class CudaBackend {
     const SearchGroups first_groups(first.count, search_group(first.count)), second_groups(second.count, search_group(second.count));
     const int first_blocks = first_groups.blocks(warps), blocks = first_blocks + second_groups.blocks(warps);
     if (blocks == 0) return;
-    follow(typeid(SearchAlone<First, Second>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks, second, second_groups);
+    follow(typeid(Searches<First>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks, second, second_groups);
   }
 
   void exclusive_scan(const int* in, int* out, int n) {

@@ -9,10 +9,6 @@
 
 #include <cstdint>
 
-#if !defined(__CUDACC__)
-#include <emmintrin.h>
-#endif
-
 #include "fast/kernels/atomic.hpp"
 #include "fast/kernels/segment.hpp"
 #include "fast/kernels/skin.hpp"
@@ -116,23 +112,26 @@ OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limi
 #else
 
 /// Four lanes of one register: g++ leaves the loop above scalar, which doubles the time of a whole detection. Same operations, same bits.
-using Four = __m128;
+using Four __attribute__((vector_size(16))) = float;
 
-/// As larger(float, float): of a NaN and a number, and of two zeros, a.
-inline Four larger(Four a, Four b) { return _mm_max_ps(b, a); }
-
-inline Four gap(Four lower, Four upper, float other_lower, float other_upper) {
-  return larger(larger(_mm_sub_ps(lower, _mm_set1_ps(other_upper)), _mm_sub_ps(_mm_set1_ps(other_lower), upper)), _mm_setzero_ps());
+inline Four four(const float (&from)[4]) {
+  Four to;
+  __builtin_memcpy(&to, from, sizeof to);
+  return to;
 }
 
+inline Four larger(Four a, Four b) { return a < b ? b : a; }
+
+inline Four gap(Four lower, Four upper, float other_lower, float other_upper) { return larger(larger(lower - other_upper, other_lower - upper), Four{}); }
+
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
-  const Four x = gap(_mm_load_ps(quad.lower[0]), _mm_load_ps(quad.upper[0]), box.lower.x, box.upper.x);
-  const Four y = gap(_mm_load_ps(quad.lower[1]), _mm_load_ps(quad.upper[1]), box.lower.y, box.upper.y);
-  const Four z = gap(_mm_load_ps(quad.lower[2]), _mm_load_ps(quad.upper[2]), box.lower.z, box.upper.z);
-  const Four all = _mm_add_ps(_mm_add_ps(_mm_mul_ps(x, x), _mm_mul_ps(y, y)), _mm_mul_ps(z, z));
-  const Four near = _mm_cmple_ps(all, larger(_mm_set1_ps(limit), _mm_load_ps(quad.reach)));
-  QuadGaps gaps{{}, static_cast<unsigned>(_mm_movemask_ps(near))};
-  _mm_storeu_ps(gaps.lane, all);
+  const Four x = gap(four(quad.lower[0]), four(quad.upper[0]), box.lower.x, box.upper.x);
+  const Four y = gap(four(quad.lower[1]), four(quad.upper[1]), box.lower.y, box.upper.y);
+  const Four z = gap(four(quad.lower[2]), four(quad.upper[2]), box.lower.z, box.upper.z);
+  const Four all = x * x + y * y + z * z;
+  const auto bits = (all <= larger(Four{} + limit, four(quad.reach))) & decltype(all <= all){1, 2, 4, 8};
+  QuadGaps gaps{{}, static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3])};
+  __builtin_memcpy(gaps.lane, &all, sizeof all);
   return gaps;
 }
 

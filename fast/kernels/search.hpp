@@ -38,19 +38,4 @@ struct Searches {
   }
 };
 
-/// Searches of two kinds, one after the other.
-template <class First, class Second>
-struct SearchAlone {
-  Searches<First> first;
-  Searches<Second> second;
-
-  OGC_HD void operator()(int i) const {
-    if (i < first.count) {
-      first.run_alone(i);
-    } else {
-      second.run_alone(i - first.count);
-    }
-  }
-};
-
 }  // namespace ogc::fast

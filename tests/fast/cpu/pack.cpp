@@ -18,7 +18,7 @@ using Floats = std::array<float, 4>;
 
 Floats floats(Pack a) {
   Floats out;
-  _mm_storeu_ps(out.data(), a.value);
+  a.store(out.data());
   return out;
 }
 
