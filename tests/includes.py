@@ -45,6 +45,7 @@ FOREIGN = {
     "Eigen/": ("reference",),
     "cholmod": ("reference",),
     "immintrin.h": ("reference",),
+    "emmintrin.h": ("fast/cpu",),
     "suitesparse/": ("reference",),
     "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),
     "hdf5": ("compare/files", "compare/record"),
