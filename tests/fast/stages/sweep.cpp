@@ -223,22 +223,22 @@ TEST_CASE("where all models are default ones, the sum over every model is the de
 namespace {
 
 /// Vertices whose sum in packs has other bits than that of SerialTeam.
-template <int W>
-int other_bits(Fixture& f) {
-  const SweepView view = f.view();
+template <int W, class Packed = GatherPacked, class OneByOne = GatherDefault>
+int other_bits(const Fixture& f, const SweepView& view) {
   int count = 0;
   for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
     const SweepVertex vertex = view.vertices[slot];
     const Vec own = f.x[static_cast<std::size_t>(vertex.vertex)];
-    const ForceAndBlock packed = GatherPacked{}(view, static_cast<int>(slot), vertex, own, SerialTeam<W>{});
-    const ForceAndBlock one_by_one = GatherDefault{}(view, static_cast<int>(slot), vertex, own, SerialTeam<W>{});
+    const ForceAndBlock packed = Packed{}(view, static_cast<int>(slot), vertex, own, SerialTeam<W>{});
+    const ForceAndBlock one_by_one = OneByOne{}(view, static_cast<int>(slot), vertex, own, SerialTeam<W>{});
     count += std::memcmp(&packed, &one_by_one, sizeof packed) == 0 ? 0 : 1;
   }
   return count;
 }
 
 int other_bits(Fixture& f) {
-  return other_bits<1>(f) + other_bits<2>(f) + other_bits<4>(f) + other_bits<8>(f) + other_bits<16>(f) + other_bits<32>(f);
+  const SweepView view = f.view();
+  return other_bits<1>(f, view) + other_bits<2>(f, view) + other_bits<4>(f, view) + other_bits<8>(f, view) + other_bits<16>(f, view) + other_bits<32>(f, view);
 }
 
 }  // namespace
@@ -264,40 +264,19 @@ TEST_CASE("that holds without damping, and where triangles and edges have collap
   CHECK(other_bits(f) == 0);
 }
 
-namespace {
-
-/// Of a scene with springs: vertices whose sum has other bits than that of GatherEveryModel.
-template <int W>
-int other_bits_of_every_model(Fixture& f) {
-  SweepView view = f.view();
-  const compare::Scene with_springs = [&] {
-    compare::Scene scene = f.scene;
-    scene.springs = {{3, 140, 0.5, 0, 1e-3}, {3, 80, 0.5, 1e-3, 0}, {4, 90, 0.25, 0, 0}};
-    for (compare::Index v = 91; v < 100; ++v) scene.springs.push_back({3, v, 0.1 * static_cast<double>(v), 0, 1e-4});
-    return scene;
-  }();
-  const RestState rest = build_rest_state(with_springs, f.topology);
-  Sweep<CpuBackend> sweep(f.backend, rest, f.colouring, f.topology, with_springs);
-  sweep.reserve_contacts(4 * f.detection->capacity());
-  sweep.resolve_contacts(f.detection->view(), f.x.data(), &f.control);
-  sweep.complete(view);
-  int count = 0;
-  for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
-    const SweepVertex vertex = view.vertices[slot];
-    const Vec own = f.x[static_cast<std::size_t>(vertex.vertex)];
-    const ForceAndBlock packed = GatherPackedEveryModel{}(view, static_cast<int>(slot), vertex, own, SerialTeam<W>{});
-    const ForceAndBlock one_by_one = GatherEveryModel{}(view, static_cast<int>(slot), vertex, own, SerialTeam<W>{});
-    count += std::memcmp(&packed, &one_by_one, sizeof packed) == 0 ? 0 : 1;
-  }
-  return count;
-}
-
-}  // namespace
-
 TEST_CASE("the sum of a vertex with springs in packs has the bits of the lanes in turn, for every width", "[property]") {
   Fixture f(false, 4);
-  CHECK(other_bits_of_every_model<1>(f) == 0);
-  CHECK(other_bits_of_every_model<4>(f) == 0);
-  CHECK(other_bits_of_every_model<8>(f) == 0);
-  CHECK(other_bits_of_every_model<32>(f) == 0);
+  compare::Scene scene = f.scene;
+  scene.springs = {{3, 140, 0.5, 0, 1e-3}, {3, 80, 0.5, 1e-3, 0}, {4, 90, 0.25, 0, 0}};
+  for (compare::Index v = 91; v < 100; ++v) scene.springs.push_back({3, v, 0.1 * static_cast<double>(v), 0, 1e-4});
+  const RestState rest = build_rest_state(scene, f.topology);
+  Sweep<CpuBackend> sweep(f.backend, rest, f.colouring, f.topology, scene);
+  sweep.reserve_contacts(4 * f.detection->capacity());
+  sweep.resolve_contacts(f.detection->view(), f.x.data(), &f.control);
+  SweepView view = f.view();
+  sweep.complete(view);
+  CHECK((other_bits<1, GatherPackedEveryModel, GatherEveryModel>(f, view)) == 0);
+  CHECK((other_bits<4, GatherPackedEveryModel, GatherEveryModel>(f, view)) == 0);
+  CHECK((other_bits<8, GatherPackedEveryModel, GatherEveryModel>(f, view)) == 0);
+  CHECK((other_bits<32, GatherPackedEveryModel, GatherEveryModel>(f, view)) == 0);
 }
