@@ -1,5 +1,5 @@
-// Four contacts at a time: the formulas of contact_force.hpp, activation.hpp and friction_force.hpp with the default activation and without branches, so that the same
-// bits come out (tests/fast/stages/sweep.cpp). Closest points of two proper segments and of a point over a triangle are computed together; where one of the four is
+// Four contacts at a time, with the default activation: where contact_force.hpp, activation.hpp and friction_force.hpp branch, the same formulas with both sides computed
+// and one selected, so that the same bits come out (tests/fast/stages/sweep.cpp). Closest points of two proper segments and of a point over a triangle are computed together; where one of the four is
 // anything else they are computed one by one.
 #pragma once
 
@@ -7,12 +7,22 @@
 #include "fast/cpu/packed_items.hpp"
 #include "fast/kernels/sweep.hpp"
 
+namespace ogc::fast {
+
+/// Of ContactActivation::ogc.
+inline ActivationSlopeOf<Pack> activation_slope(ContactActivation kind, Pack d, float r, Pack k) {
+  const PackMask logarithmic = d < 0.5F * r;
+  const Pack slope = logarithmic_stiffness(kind, r, k) / d;
+  return {select(logarithmic, -slope, -k * (r - d)), select(logarithmic, slope / d, k)};
+}
+
+inline Pack friction_slope_over_slip(Pack slip, float limit) { return select(slip < limit, (2.0F - slip / limit) / limit, 1.0F / slip); }
+
+}  // namespace ogc::fast
+
 namespace ogc::fast::packed {
 
-/// By slot.
-struct Weights {
-  Pack slot[4];
-};
+using Weights = ContactWeightsOf<Pack>;
 
 inline Pack clamp_unit(Pack t) { return select(t > 0.0F, select(t < 1.0F, t, 1.0F), 0.0F); }
 
@@ -79,13 +89,8 @@ inline void add_slip(const SweepView& view, const Items<ContactIncidence>& items
   for (int s = 0; s < 4; ++s) moved[s] = x[s] - items.each_vector([&](const ContactIncidence& i) { return view.start[decoded(i.index[s])]; });
   const Pack* w = weights.slot;
   const Vector<Pack> relative = w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2] + w[3] * moved[3];
-  const Vector<Pack> slip = relative - dot(normal, relative) * normal;
-  const Pack length = root(dot(slip, slip)), limit = view.friction_limit;
-  const Pack strength = friction * normal_force * select(length < limit, (2.0F - length / limit) / limit, 1.0F / length);
   ForceAndBlockOf<Pack> with = sum;
-  with.add_force(-strength * weight, slip);
-  with.add_identity(strength * (weight * weight));
-  with.add_outer(-strength * (weight * weight), normal);
+  add_friction(normal, relative, weight, friction, normal_force, view.friction_limit, with);
   sum = select(slips, with, sum);
 }
 
@@ -95,21 +100,14 @@ inline void add_contacts(const SweepView& view, const Items<ContactIncidence>& i
   Vector<Pack> x[4];
   for (int s = 0; s < 4; ++s) x[s] = items.each_vector([&](const Incidence& i) { return view.read(i.index[s]); });
   const Weights weights = packed::weights(items, x);
-  const Pack* w = weights.slot;
-  const Vector<Pack> separation = w[1] * (x[1] - x[0]) + w[2] * (x[2] - x[0]) + w[3] * (x[3] - x[0]);
-  const Pack squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights), radius = view.radius;
-  const PackMask acts = items.counted && !(squared < 0x1p-126F) && distance < radius && (weight > 0.0F || weight < 0.0F);
+  const Vector<Pack> separation = weighted_sum(weights, x);
+  const Pack squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);
+  const PackMask acts = items.counted && !(squared < 0x1p-126F) && distance < view.radius && (weight > 0.0F || weight < 0.0F);
   if (is_false(acts)) return;
-  const Vector<Pack> normal = (1.0F / distance) * separation;
-  const Pack least = 0x1p-23F * radius, d = select(distance > least, distance, least);
-  const Pack k = items.each([](const Incidence& i) { return i.stiffness; });
-  const PackMask near = d < 0.5F * radius;
-  const Pack logarithmic = 0.25F * k * radius * radius / d;
-  const Pack slope = select(near, -logarithmic, -k * (radius - d)), curvature = select(near, logarithmic / d, k);
+  const ContactShapeOf<Pack> shape{(1.0F / distance) * separation, distance, acts};
   ForceAndBlockOf<Pack> term;
-  term.add_force(-slope * weight, normal);
-  term.add_outer(curvature * (weight * weight), normal);
-  add_slip(view, items, weights, x, normal, weight, -slope, term);
+  const Pack normal_force = add_contact(ContactActivation::ogc, shape, weight, view.radius, items.each([](const Incidence& i) { return i.stiffness; }), term);
+  add_slip(view, items, weights, x, shape.normal, weight, normal_force, term);
   sum += select(acts, term, ForceAndBlockOf<Pack>{});
 }
 

@@ -143,10 +143,8 @@ struct GatherPackedEveryModel {
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const SerialTeam<W>& team) const {
     const SurfaceModels models = view.models[vertex.body];
-    const bool is_default = models.membrane != compare::MembraneModel::stable_neo_hookean && models.bending != compare::BendingModel::isometric_quadratic &&
-                            models.damping == compare::DampingForm::strain && view.activation == ContactActivation::ogc;
     if constexpr (W >= Pack::width) {
-      if (is_default) return GatherPacked{}.with<W>(view, slot, vertex, own, spring_part(view, slot, models, {own, own - view.start[vertex.vertex]}));
+      if (are_default(models) && view.activation == ContactActivation::ogc) return GatherPacked{}.with<W>(view, slot, vertex, own, spring_part(view, slot, models, {own, own - view.start[vertex.vertex]}));
     }
     return GatherEveryModel{}(view, slot, vertex, own, team);
   }

@@ -6,7 +6,6 @@
 
 namespace ogc::fast::packed {
 
-
 /// The four items of a part that four lanes begin with; places beyond the part repeat its last item, and are not counted.
 template <class Item>
 struct Items {

@@ -13,13 +13,16 @@ namespace ogc::fast {
 using compare::ContactActivation;
 
 /// g' [N] and g'' [N/m] at distance d > 0 [m]: what a position needs, and no library function in it. 0 for d ≥ r; at d = τ the quadratic stage.
-struct ActivationSlope {
-  float slope = 0, curvature = 0;
+template <class T>
+struct ActivationSlopeOf {
+  T slope{}, curvature{};
 };
+using ActivationSlope = ActivationSlopeOf<float>;
 
 /// k'_c [J] of the logarithmic stage; as printed it is k_c r³/8.
-OGC_HD inline float logarithmic_stiffness(ContactActivation kind, float r, float k) {
-  const float stiffness = 0.25F * k * r * r;
+template <class T>
+OGC_HD T logarithmic_stiffness(ContactActivation kind, float r, const T& k) {
+  const T stiffness = 0.25F * k * r * r;
   return kind == ContactActivation::ogc_as_printed ? 0.5F * r * stiffness : stiffness;
 }
 

@@ -14,6 +14,7 @@
 #include "fast/kernels/accumulator.hpp"
 #include "fast/kernels/activation.hpp"
 #include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/scalar.hpp"
 #include "fast/kernels/vector.hpp"
 
 namespace ogc::fast {
@@ -106,9 +107,11 @@ OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec&
 }
 
 /// By slot; 0 for a slot that the kind lacks.
-struct ContactWeights {
-  float slot[4] = {};
+template <class T>
+struct ContactWeightsOf {
+  T slot[4] = {};
 };
+using ContactWeights = ContactWeightsOf<float>;
 
 OGC_HD inline ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   switch (kind) {
@@ -129,17 +132,20 @@ OGC_HD inline ContactWeights contact_weights(ContactKind kind, const Vec* x) {
 }
 
 /// Σ w_i x_i, from differences to slot 0.
-OGC_HD inline Vec weighted_sum(const ContactWeights& weights, const Vec* x) {
+template <class T>
+OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T>* x) {
   return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);
 }
 
 /// Normal and distance of the closest points. `acts`: 0 < d < r. Where the squared distance is not a normal number the points have met as far as single
 /// precision can tell: there is no normal, and no force; the bound, which is zero then, keeps them apart.
-struct ContactShape {
-  Vec normal;
-  float distance = 0;
-  bool acts = false;
+template <class T>
+struct ContactShapeOf {
+  Vector<T> normal;
+  T distance{};
+  Mask<T> acts{};
 };
+using ContactShape = ContactShapeOf<float>;
 
 OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
   const float squared = dot(separation, separation);
@@ -150,15 +156,17 @@ OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
 
 /// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far
 /// above every other block and far below overflow. Nearer points feel the force of this distance.
-OGC_HD inline float activation_distance(float distance, float radius) {
+template <class T>
+OGC_HD T activation_distance(const T& distance, float radius) {
   const float least = 0x1p-23f * radius;
-  return distance > least ? distance : least;
+  return select(distance > least, distance, T{least});
 }
 
 /// Adds the force and block of a vertex with weight w to `sum`. Returns the normal force λ = −g' ≥ 0 [N].
-OGC_HD inline float add_contact(ContactActivation kind, const ContactShape& shape, float weight, float radius, float stiffness, ForceAndBlock& sum) {
-  const float distance = activation_distance(shape.distance, radius);
-  const ActivationSlope activation = activation_slope(kind, distance, radius, stiffness);
+template <class T>
+OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, const T& weight, float radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
+  const T distance = activation_distance(shape.distance, radius);
+  const ActivationSlopeOf<T> activation = activation_slope(kind, distance, radius, stiffness);
   sum.add_force(-activation.slope * weight, shape.normal);
   sum.add_outer(activation.curvature * (weight * weight), shape.normal);
   return -activation.slope;

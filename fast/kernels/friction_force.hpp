@@ -2,10 +2,9 @@
 // weights are those of the positions that the update reads and constant in the derivatives.
 #pragma once
 
-#include <cmath>
-
 #include "fast/kernels/accumulator.hpp"
 #include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/scalar.hpp"
 #include "fast/kernels/vector.hpp"
 
 namespace ogc::fast {
@@ -17,9 +16,11 @@ OGC_HD inline float friction_slope_over_slip(float slip, float limit) {
 
 /// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ). `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N];
 /// `limit` ε_v h [m].
-OGC_HD inline void add_friction(const Vec& normal, const Vec& moved, float weight, float friction, float normal_force, float limit, ForceAndBlock& sum) {
-  const Vec slip = moved - dot(normal, moved) * normal;
-  const float strength = friction * normal_force * friction_slope_over_slip(sqrtf(dot(slip, slip)), limit);
+template <class T>
+OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& friction, const T& normal_force, float limit,
+                         ForceAndBlockOf<T>& sum) {
+  const Vector<T> slip = moved - dot(normal, moved) * normal;
+  const T strength = friction * normal_force * friction_slope_over_slip(root(dot(slip, slip)), limit);
   sum.add_force(-strength * weight, slip);
   sum.add_identity(strength * (weight * weight));
   sum.add_outer(-strength * (weight * weight), normal);

@@ -1,4 +1,5 @@
-// A search of a tree, apart from how many threads carry it out: alone in one (here), or many by a team that shares its work (fast/cuda/search.cuh).
+// A search of a tree, apart from how many threads carry it out: alone in one (here, and four candidates at a time in fast/cpu/packed_search.hpp), or many by a team
+// that shares its work (fast/cuda/search.cuh).
 //
 // A Query is what the searches of one kind have in common:
 //   bool is_off() const                                 nothing is to be searched

@@ -9,6 +9,12 @@
 
 namespace ogc::fast {
 
+/// Whether GatherDefault has the models of a body.
+OGC_HD inline bool are_default(const SurfaceModels& models) {
+  return models.membrane != compare::MembraneModel::stable_neo_hookean && models.bending != compare::BendingModel::isometric_quadratic &&
+         models.damping == compare::DampingForm::strain;
+}
+
 /// A spring seen from the end `place`; `index`: all ends, encoded as in sweep.hpp.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};

@@ -2,6 +2,7 @@
 // detection on the device; and the launches of one iteration. Every sum has the width W, the one thing beside the input that may change a bit.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -121,11 +122,8 @@ inline SweepStreams build_streams(const RestState& rest, const Colouring& colour
 
 /// Whether a scene needs GatherEveryModel: something that GatherDefault leaves out.
 inline bool needs_every_model(const RestState& rest) {
-  if (rest.activation != ContactActivation::ogc || !rest.springs.empty() || !rest.weights.empty()) return true;
-  for (const SurfaceModels& models : rest.models) {
-    if (models.membrane == compare::MembraneModel::stable_neo_hookean || models.damping != compare::DampingForm::strain) return true;
-  }
-  return false;
+  if (rest.activation != ContactActivation::ogc || !rest.springs.empty()) return true;
+  return !std::all_of(rest.models.begin(), rest.models.end(), are_default);
 }
 
 /// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each iteration (positions, bounds, control).
