@@ -6,14 +6,14 @@
 namespace ogc::fast {
 
 /// (v, a): corner[1] = corner[2] = -1 where a is a vertex, corner[2] = -1 where it is an edge.
-struct VertexFacetRecord {
+struct alignas(16) VertexFacetRecord {
   int vertex;
   int corner[3];
 };
 
 /// {p, q}: first[1] = -1 where p is a vertex, likewise second. `first_edge`, `second_edge`: see compare/stages/detect_edge_edge.hpp; where both
 /// are interiors they are p and q themselves (rest lengths for the mollifier).
-struct EdgeEdgeRecord {
+struct alignas(8) EdgeEdgeRecord {
   int first[2];
   int second[2];
   int first_edge, second_edge;

@@ -71,6 +71,14 @@ inline bool is_false(PackMask condition) { return (condition.bits[0] | condition
 inline Pack rough_quotient(Pack a, Pack b) { return a / b; }
 inline Pack rough_inverse_root(Pack a) { return 1.0F / root(a); }
 
+/// Of four places read whole: their x, y and z.
+inline Vector<Pack> transposed(Pack a, Pack b, Pack c, Pack d) {
+  using Bits = PackMask::Bits;
+  const auto ab = __builtin_shuffle(a.value, b.value, Bits{0, 4, 1, 5}), cd = __builtin_shuffle(c.value, d.value, Bits{0, 4, 1, 5});
+  const auto z_ab = __builtin_shuffle(a.value, b.value, Bits{2, 6, 3, 7}), z_cd = __builtin_shuffle(c.value, d.value, Bits{2, 6, 3, 7});
+  return {__builtin_shuffle(ab, cd, Bits{0, 1, 4, 5}), __builtin_shuffle(ab, cd, Bits{2, 3, 6, 7}), __builtin_shuffle(z_ab, z_cd, Bits{0, 1, 4, 5})};
+}
+
 /// True in the first `count` places.
 inline PackMask first_of(int count) { return {PackMask::Bits{0, 1, 2, 3} < count}; }
 

@@ -86,7 +86,7 @@ inline void add_slip(const SweepView& view, const Items<ContactIncidence>& items
   const PackMask slips = friction > 0.0F;
   if (is_false(slips)) return;
   Vector<Pack> moved[4];
-  for (int s = 0; s < 4; ++s) moved[s] = x[s] - items.each_vector([&](const ContactIncidence& i) { return view.start[decoded(i.index[s])]; });
+  for (int s = 0; s < 4; ++s) moved[s] = x[s] - items.each_place([&](const ContactIncidence& i) -> const Place& { return view.start.at[decoded(i.index[s])]; });
   const Pack* w = weights.slot;
   const Vector<Pack> relative = w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2] + w[3] * moved[3];
   ForceAndBlockOf<Pack> with = sum;
@@ -98,7 +98,7 @@ inline void add_slip(const SweepView& view, const Items<ContactIncidence>& items
 inline void add_contacts(const SweepView& view, const Items<ContactIncidence>& items, ForceAndBlockOf<Pack>& sum) {
   using Incidence = ContactIncidence;
   Vector<Pack> x[4];
-  for (int s = 0; s < 4; ++s) x[s] = items.each_vector([&](const Incidence& i) { return view.read(i.index[s]); });
+  for (int s = 0; s < 4; ++s) x[s] = items.each_place([&](const Incidence& i) -> const Place& { return view.place(i.index[s]); });
   const Weights weights = packed::weights(items, x);
   const Vector<Pack> separation = weighted_sum(weights, x);
   const Pack squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);

@@ -19,10 +19,11 @@ struct Items {
   Pack each(F number) const {
     return {number(*at[0]), number(*at[1]), number(*at[2]), number(*at[3])};
   }
+  /// place(item): where it is.
   template <class F>
-  Vector<Pack> each_vector(F vector) const {
-    const Vec a = vector(*at[0]), b = vector(*at[1]), c = vector(*at[2]), d = vector(*at[3]);
-    return {{a.x, b.x, c.x, d.x}, {a.y, b.y, c.y, d.y}, {a.z, b.z, c.z, d.z}};
+  Vector<Pack> each_place(F place) const {
+    const Place &a = place(*at[0]), &b = place(*at[1]), &c = place(*at[2]), &d = place(*at[3]);
+    return transposed(Pack(&a.x), Pack(&b.x), Pack(&c.x), Pack(&d.x));
   }
 };
 

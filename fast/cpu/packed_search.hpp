@@ -9,16 +9,16 @@
 namespace ogc::fast::packed {
 
 /// Vertices of four primitives, one of each.
-inline Vector<Pack> gathered(const Vec* positions, int a, int b, int c, int d) {
-  const Vec &p = positions[a], &q = positions[b], &r = positions[c], &s = positions[d];
-  return {{p.x, q.x, r.x, s.x}, {p.y, q.y, r.y, s.y}, {p.z, q.z, r.z, s.z}};
+inline Vector<Pack> gathered(Places positions, int a, int b, int c, int d) {
+  const auto row = [&](int v) { return Pack(&positions.at[v].x); };
+  return transposed(row(a), row(b), row(c), row(d));
 }
 
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* place) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
   for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[query.tree.order[place[k]]];
-  const Vec* x = query.positions;
+  const Places x = query.positions;
   return separation(EndsOf<Pack>{everywhere(x[own.a]), everywhere(x[own.b])},
                     EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a), gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }

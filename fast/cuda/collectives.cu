@@ -1,6 +1,7 @@
 #include "fast/cuda/collectives.cuh"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <cub/block/block_scan.cuh>
 #include <cub/device/device_radix_sort.cuh>
@@ -25,7 +26,7 @@ struct PaddedItems {
   __device__ int operator()(int i) const { return i < count ? items[i] : 0; }
 };
 
-constexpr int scan_threads = 1024, scan_items = 4, scan_tile = scan_threads * scan_items;
+constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * scan_items;
 /// The last block of a short scan reads them all: 2 µs of what a multiprocessor gets from the second-level cache (64 B a cycle).
 constexpr int longest_short_scan = 1 << 16;
 
@@ -34,13 +35,17 @@ constexpr int longest_short_scan = 1 << 16;
 __global__ void __launch_bounds__(scan_threads) scan_short(const int* in, int* out, int n) {
   follow_launch();
   using Sums = unsigned long long;  // of what stands before the tile, above; of the tile, in the low half
-  using Scan = cub::BlockScan<Sums, scan_threads>;
+  using Scan = cub::BlockScan<Sums, scan_threads, cub::BLOCK_SCAN_WARP_SCANS>;
   __shared__ typename Scan::TempStorage memory;
   const int thread = static_cast<int>(threadIdx.x), tile = static_cast<int>(blockIdx.x) * scan_tile, first = tile + thread * scan_items;
   int item[scan_items], own = 0, before = 0;
   for (int k = 0; k < scan_items; ++k) own += item[k] = first + k < n ? in[first + k] : 0;
-#pragma unroll 16
-  for (int i = thread; i < tile; i += scan_threads) before += in[i];
+  const int4* fours = reinterpret_cast<const int4*>(in);
+#pragma unroll 8
+  for (int i = thread; i < tile / 4; i += scan_threads) {
+    const int4 four = fours[i];
+    before += (four.x + four.y) + (four.z + four.w);
+  }
   Sums upto = 0, total = 0;
   Scan(memory).ExclusiveSum(static_cast<Sums>(static_cast<unsigned>(before)) << 32 | static_cast<unsigned>(own), upto, total);
   int sum = static_cast<int>(total >> 32) + static_cast<int>(upto & 0xffffffffU);
@@ -65,7 +70,7 @@ void* Scratch::request(std::size_t bytes) {
 }
 
 void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const int* in, int* out, int n) {
-  if (n <= longest_short_scan && in != out) {
+  if (n <= longest_short_scan && in != out && reinterpret_cast<std::uintptr_t>(in) % alignof(int4) == 0) {
     launch_kernel(stream, early, scan_short, n / scan_tile + 1, scan_threads, in, out, n);
     OGC_CUDA_CHECK(cudaGetLastError());
     return;

@@ -59,15 +59,16 @@ template <class Query>
 class WarpSearch {
  public:
   __device__ WarpSearch(const Searches<Query>& searches, SearchMemory& memory)
-      : tree_(searches.tree), query_(searches.query), memory_(memory), lane_(static_cast<int>(threadIdx.x) % 32) {}
+      : tree_(searches.tree), query_(searches.query), memory_(at_hand(memory)), lane_(at_hand(threadIdx.x % 32)) {}
 
   /// Searches first, first + stride, …, `count` of them.
   __device__ void run(int first, int stride, int count) {
-    if (lane_ < count) {
-      memory_.searches[lane_] = query_.begin(first + lane_ * stride);
-      memory_.nodes[lane_] = SearchNode::of(tree_.levels - 1, lane_, 0);
+    const int lane = static_cast<int>(lane_);
+    if (lane < count) {
+      memory_.searches[lane] = query_.begin(first + lane * stride);
+      memory_.nodes[lane] = SearchNode::of(tree_.levels - 1, lane, 0);
     }
-    node_count_ = count;
+    node_count_ = static_cast<unsigned>(count);
     __syncwarp();
     while (node_count_ + candidate_count_ + pair_count_ > 0) {
       if (pair_count_ >= 32 || node_count_ + candidate_count_ == 0) {
@@ -84,10 +85,19 @@ class WarpSearch {
  private:
   static constexpr unsigned everyone_ = 0xffffffffU;
 
+  /// The same, kept in a register: the compiler would read numbers of threads and compute addresses in shared memory anew wherever they are needed.
+  __device__ static unsigned at_hand(unsigned number) {
+    asm volatile("" : "+r"(number));
+    return number;
+  }
+  __device__ static SearchMemory& at_hand(SearchMemory& memory) {
+    return *static_cast<SearchMemory*>(__cvta_shared_to_generic(at_hand(static_cast<unsigned>(__cvta_generic_to_shared(&memory)))));
+  }
+
   __device__ unsigned before() const { return (1U << lane_) - 1; }
 
   __device__ void meet() {
-    const int take = min(32, pair_count_);
+    const unsigned take = min(32U, pair_count_);
     pair_count_ -= take;
     if (lane_ >= take) return;
     const SearchItem pair = memory_.pairs[pair_count_ + lane_];
@@ -97,7 +107,7 @@ class WarpSearch {
   }
 
   __device__ void sift() {
-    const int take = min(32, candidate_count_);
+    const unsigned take = min(32U, candidate_count_);
     candidate_count_ -= take;
     SearchItem item{};
     bool keep = false;
@@ -110,28 +120,21 @@ class WarpSearch {
     pair_count_ += __popc(kept);
   }
 
+  /// The innermost loop of a detection: no branch in it but for the stores, and nothing signed, which would cost divisions by 4 and long addresses more.
   __device__ void open() {
-    const int take = min(8, node_count_), own = lane_ / 4, child = lane_ % 4;
+    const unsigned take = min(8U, node_count_), own = lane_ / 4, child = lane_ % 4;
     node_count_ -= take;
-    int level = 1, slot = 0, j = 0;
-    float gap = 0;
-    bool is_near = false;
-    if (own < take) {
-      const SearchNode node = memory_.nodes[node_count_ + own];
-      level = node.level(), slot = node.slot(), j = 4 * node.place() + child;
-      const Search search = memory_.searches[slot];
-      const Quad& quad = tree_.node(level, node.place());
-      gap = squared_gap(quad.box(child), search.box);
-      is_near = gap <= larger(search.limit, quad.reach[child]) && j >= search.from >> (2 * level);
-    }
-    __syncwarp();
-    const bool is_leaf = level == 0;
+    const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];  // who has none looks at the last, for nothing
+    const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(child);
+    const Search& search = memory_.searches[slot];
+    const Quad& quad = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())];
+    const float gap = squared_gap(quad.box(child), search.box);
+    const bool is_leaf = level == 0, is_near = (own < take) & (gap <= larger(search.limit, quad.reach[child])) & (j >= search.from >> (2 * level));
     const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
-    if (is_near && is_leaf) {
-      memory_.candidates[candidate_count_ + __popc(near & leaves & before())] = SearchItem::of(slot, j, gap);
-    } else if (is_near) {
-      memory_.nodes[node_count_ + __popc(near & ~leaves & before())] = SearchNode::of(level - 1, slot, j);
-    }
+    const unsigned rank = __popc(near & (is_leaf ? leaves : ~leaves) & before());
+    __syncwarp();
+    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = SearchItem::of(slot, j, gap);
+    if (is_near & !is_leaf) memory_.nodes[node_count_ + rank] = SearchNode::of(level - 1, slot, j);
     candidate_count_ += __popc(near & leaves);
     node_count_ += __popc(near & ~leaves);
   }
@@ -139,8 +142,8 @@ class WarpSearch {
   const TreeView& tree_;
   const Query& query_;
   SearchMemory& memory_;
-  const int lane_;
-  int node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
+  const unsigned lane_;
+  unsigned node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
 };
 
 /// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches lie side by side, and a warp that got them all

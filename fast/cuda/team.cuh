@@ -61,29 +61,45 @@ __device__ Accumulator total_of_lanes(Accumulator total) {
 template <int W, bool begins, class Part, class Accumulator>
 __device__ void add_part(const Part& part, int lane, Accumulator& own) {
   int k = lane;
-  const bool any = k < part.count;
   decltype(load_item(part, 0)) loaded{};
-  if (any) loaded = load_item(part, k);
+  if (k < part.count) loaded = load_item(part, k);
   if constexpr (begins) {
     cudaGridDependencySynchronize();
     cudaTriggerProgrammaticLaunchCompletion();
   }
-  if (any) add_item(part, loaded, own);
-  for (k += W; k < part.count; k += W) add_item(part, load_item(part, k), own);
+  while (k < part.count) {  // add_item stands here once: instructions have to be read, too
+    add_item(part, loaded, own);
+    k += W;
+    if (k < part.count) loaded = load_item(part, k);
+  }
+}
+
+/// What the threads of a block share over a pooled part.
+template <int W, class Accumulator>
+struct Pool {
+  static constexpr int teams = serial_block_size / W;
+  using Scan = cub::BlockScan<int, serial_block_size>;
+  typename Scan::TempStorage scan;
+  int begins[teams], offsets[teams + 1];  ///< of the teams' items: in their arrays; in the order of the block
+  unsigned memory[2][serial_block_size][words<Accumulator>()];  ///< in turn: who writes the next terms waits for nobody who reads these
+};
+
+/// The same for all parts of a sum.
+template <int W, class Accumulator>
+__device__ Pool<W, Accumulator>& pool_of_block() {
+  __shared__ Pool<W, Accumulator> pool;
+  return pool;
 }
 
 /// This lane's items of a pooled part, by all threads of the block at once. A team that is not `present` has none.
 template <int W, class Load, class Term, class Accumulator>
 __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
-  constexpr int teams = serial_block_size / W;
-  using Scan = cub::BlockScan<int, serial_block_size>;
-  __shared__ typename Scan::TempStorage scan;
-  __shared__ int begins[teams], offsets[teams + 1];  // of the teams' items: in their arrays; in the order of the block
-  __shared__ unsigned memory[2][serial_block_size][words<Accumulator>()];  // in turn: who writes the next terms waits for nobody who reads these
+  auto& [scan, begins, offsets, memory] = pool_of_block<W, Accumulator>();
+  constexpr int teams = Pool<W, Accumulator>::teams;
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
   __syncthreads();  // whoever still reads what stood here
-  Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
+  typename Pool<W, Accumulator>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
   if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
   if (thread == 0) offsets[teams] = total;
   __syncthreads();
@@ -111,6 +127,8 @@ class SpreadTeam {
   static constexpr int width = W;
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
+
+  __device__ static void prefetch(const void*, int) {}
 
   /// With as many parts as the block has warps.
   template <class Accumulator, class... Parts>
@@ -146,6 +164,12 @@ class SerialLaneTeam {
   static constexpr int width = W;
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
+
+  /// Has rows of a stream brought near while others are worked on. A launch of SerialLaneTeams reads more than the second-level cache holds.
+  __device__ static void prefetch(const void* rows, int bytes) {
+    constexpr int line = 128;
+    for (int at = line * lane(); at < bytes; at += line * W) asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
+  }
 
   template <class Accumulator, class First, class... Others>
   __device__ Accumulator sum(const First& first, const Others&... others) const {

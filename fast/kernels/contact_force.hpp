@@ -110,25 +110,31 @@ OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec&
 template <class T>
 struct ContactWeightsOf {
   T slot[4] = {};
+
+  /// By selection: a register has no address.
+  OGC_HD T of(int k) const {
+    const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
+    return k < 2 ? low : high;
+  }
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-OGC_HD inline ContactWeights contact_weights(ContactKind kind, const Vec* x) {
-  switch (kind) {
-    case ContactKind::point_point: return {{1, 0, -1, 0}};
-    case ContactKind::point_segment: {
-      const float t = closest_on_segment(x[3] - x[2], x[0] - x[2]);
-      return {{1, 0, t - 1, -t}};
-    }
-    case ContactKind::segment_segment: {
-      const SegmentParameters w = closest_on_segments(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
-      return {{1 - w.first, w.first, w.second - 1, -w.second}};
-    }
-    default: {
-      const TriangleWeights w = closest_on_triangle(x);
-      return {{1, -w.a, -w.b, -w.c}};
-    }
+/// Whose contacts: where it is known, formulas of kinds that do not occur take no room among a device's instructions.
+enum class ContactSort { any, vertex_facet, edge_edge };
+
+template <ContactSort sort = ContactSort::any>
+OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
+  if (kind == ContactKind::point_point) return {{1, 0, -1, 0}};
+  if (kind == ContactKind::point_segment) {
+    const float t = closest_on_segment(x[3] - x[2], x[0] - x[2]);
+    return {{1, 0, t - 1, -t}};
   }
+  if (sort == ContactSort::edge_edge || (sort == ContactSort::any && kind == ContactKind::segment_segment)) {
+    const SegmentParameters w = closest_on_segments(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
+    return {{1 - w.first, w.first, w.second - 1, -w.second}};
+  }
+  const TriangleWeights w = closest_on_triangle(x);
+  return {{1, -w.a, -w.b, -w.c}};
 }
 
 /// Σ w_i x_i, from differences to slot 0.

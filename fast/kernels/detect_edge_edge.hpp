@@ -14,7 +14,7 @@ namespace ogc::fast {
 /// The searches of all edges in their tree; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
-  const Vec* positions;
+  Places positions;
   TreeView tree;
   ListsView lists;
   SkinView skin;
@@ -93,7 +93,7 @@ struct DetectEdgeEdge {
 /// The contact of two edges, low < high, if there is one. `certain`: nearer than r without a doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
-  const Vec* positions;
+  Places positions;
   ListsView lists;
   float contact_radius;
 

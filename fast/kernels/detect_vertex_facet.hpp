@@ -17,7 +17,7 @@ namespace ogc::fast {
 /// The searches of all vertices in the tree of the facets; a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
-  const Vec* positions;
+  Places positions;
   TreeView tree;
   const int* vertex_order;
   const float* vertex_limit;  ///< by vertex: gap limit of its reach
@@ -97,7 +97,7 @@ struct DetectVertexFacet {
 /// The contact of a vertex and a facet, if there is one. `certain`: nearer than r without a doubt. Each triangle around a shared face reports it; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
-  const Vec* positions;
+  Places positions;
   ListsView lists;
   float contact_radius;
 

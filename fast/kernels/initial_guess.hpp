@@ -34,7 +34,7 @@ struct BeginVertex {
     position[v] = x;
     target[v] = y;
     const Vec move = y - x;
-    const float length = sqrtf(dot(move, move));
+    const float length = square_root(dot(move, move));
     if (!is_finite(length)) {
       control->count_not_finite();
       return;
@@ -100,6 +100,22 @@ struct GuessVertex {
     const Truncated kept = truncate(previous[v], target[v], bound[v]);
     position[v] = kept.position;
     if (kept.exceeded) control->count_cut();
+  }
+};
+
+/// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers, because it writes no fixed vertex.
+struct BeginSweep {
+  const Vec* start;
+  const Vec* position;
+  Place* start_places;
+  Place* places;  ///< the second buffer follows the first
+  int vertex_count;
+
+  OGC_HD void operator()(int v) const {
+    const Place x(position[v]);
+    start_places[v] = Place(start[v]);
+    places[v] = x;
+    places[v + vertex_count] = x;
   }
 };
 

@@ -14,12 +14,12 @@
 namespace ogc::fast {
 
 /// A pair of edges first < second, or of vertex ~first and facet `second`.
-struct NotedPair {
+struct alignas(8) NotedPair {
   int first, second;
 };
 
 /// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, 0 for vertex–facet.
-struct RawContact {
+struct alignas(16) RawContact {
   int bucket, second, low, high;
 
   friend OGC_HD bool operator<(const RawContact& a, const RawContact& b) {

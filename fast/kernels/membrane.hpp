@@ -11,7 +11,7 @@
 namespace ogc::fast {
 
 /// Of one body. Damping already divided by the step: k_d/h [1].
-struct SurfaceMaterial {
+struct alignas(16) SurfaceMaterial {
   float lame_lambda = 0, lame_mu = 0;              ///< [N/m]
   float membrane_damping = 0, bending_damping = 0;
 };

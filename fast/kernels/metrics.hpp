@@ -52,7 +52,7 @@ struct CheckVertex {
     atomic_min(&control->smallest_bound, bound[v]);
     if (prescribed_number[v] < 0) return;
     const Vec behind = target[v] - x;
-    atomic_max(&control->largest_lag, float_bits(sqrtf(dot(behind, behind))));
+    atomic_max(&control->largest_lag, float_bits(square_root(dot(behind, behind))));
   }
 };
 

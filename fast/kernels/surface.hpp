@@ -9,14 +9,14 @@ namespace ogc::fast {
 
 /// A triangle with its corners in the order of the mesh and the numbers of its edges 01, 12, 20. Bit k of `descending` is set where edge k starts at
 /// its higher-numbered vertex, so that every triangle at an edge can give the edge's predicate the same operands.
-struct Facet {
+struct alignas(16) Facet {
   int corner[3];
   int edge[3];
   unsigned descending;
 };
 
 /// Vertices of an edge, smaller first.
-struct EdgeEnds {
+struct alignas(8) EdgeEnds {
   int a, b;
 };
 

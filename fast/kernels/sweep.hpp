@@ -3,7 +3,7 @@
 //
 // Two position buffers an iteration (method.md §7): a neighbour of lower colour is read from the fresh buffer, any other from the old one. Which of the
 // two is known when the streams are made, so it stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as
-// colour -1.
+// colour -1. Both buffers are halves of one array, so that the choice is arithmetic and no read of a pointer.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@
 namespace ogc::fast {
 
 /// A free vertex in the order of the sweep, with its rows in the streams.
-struct SweepVertex {
+struct alignas(16) SweepVertex {
   int vertex = -1;
   int body = -1;
   float inertia = 0;  ///< m/h² [N/m]
@@ -54,7 +54,7 @@ struct alignas(16) ContactIncidence {
 };
 
 /// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
-struct ContactRow {
+struct alignas(16) ContactRow {
   int begin = 0, vertex_facet = 0, count = 0;
 };
 
@@ -76,12 +76,13 @@ struct SweepView {
   const SurfaceMaterial* materials = nullptr;
   const Symmetric2* strain_start = nullptr;  ///< Gᵗ by triangle
   const float* angle_start = nullptr;        ///< θᵗ by hinge
-  const Vec* start = nullptr;                ///< xᵗ
+  Places start;                              ///< xᵗ
   const Vec* target = nullptr;               ///< y
   const Vec* previous = nullptr;             ///< X_prev
   const float* bound = nullptr;              ///< b_v
-  const Vec* old = nullptr;
-  Vec* fresh = nullptr;
+  Place* old = nullptr;                      ///< x before the iteration
+  int to_fresh = 0;                          ///< from a vertex there to the same one in the fresh buffer
+  Vec* position = nullptr;                   ///< as fresh, for all but the sweep, which does not read it
   StepControl* control = nullptr;
   float radius = 0;          ///< r [m]
   float friction_limit = 0;  ///< ε_v h [m]
@@ -92,7 +93,15 @@ struct SweepView {
   const SpringIncidence* springs = nullptr;
   ContactActivation activation = ContactActivation::ogc;
 
-  OGC_HD Vec read(int index) const { return (index < 0 ? fresh : old)[decoded(index)]; }
+  OGC_HD const Place& place(int index) const { return old[decoded(index) + ((index >> 31) & to_fresh)]; }
+  OGC_HD Vec read(int index) const {
+    const Place whole = place(index);
+    return whole;
+  }
+  OGC_HD void write(int v, const Vec& x) const {
+    old[v + to_fresh] = Place(x);
+    position[v] = x;
+  }
 };
 
 // What a stencil reads beside its incidence, all at once: the latency of reads, not arithmetic, is what a vertex costs on a device.
@@ -159,10 +168,14 @@ struct ContactAt {
   ContactShape shape;
   float weight = 0;  ///< of the vertex itself
 
-  OGC_HD ContactAt(const ContactIncidence& incidence, const ContactReads& reads, float radius)
-      : weights(contact_weights(incidence.kind, reads.x)), shape(contact_shape(weighted_sum(weights, reads.x), radius)), weight(weights.slot[incidence.own]) {}
   OGC_HD bool acts() const { return shape.acts && weight != 0; }
 };
+
+template <ContactSort sort = ContactSort::any>
+OGC_HD ContactAt contact_at(const ContactIncidence& incidence, const ContactReads& reads, float radius) {
+  const ContactWeights weights = contact_weights<sort>(incidence.kind, reads.x);
+  return {weights, contact_shape(weighted_sum(weights, reads.x), radius), weights.of(incidence.own)};
+}
 
 /// The friction of a contact that acts with the normal force λ.
 OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const ContactReads& reads, const ContactAt& at, float normal_force, float limit,
@@ -175,9 +188,10 @@ OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const
   add_friction(at.shape.normal, relative, at.weight, incidence.friction, normal_force, limit, sum);
 }
 
-OGC_HD inline ForceAndBlock contact_term(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence, const ContactReads& reads) {
+template <ContactSort sort>
+OGC_HD ForceAndBlock contact_term(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence, const ContactReads& reads) {
   ForceAndBlock term;
-  const ContactAt at(incidence, reads, view.radius);
+  const ContactAt at = contact_at<sort>(incidence, reads, view.radius);
   if (!at.acts()) return term;
   const float normal_force = add_contact(kind, at.shape, at.weight, view.radius, incidence.stiffness, term);
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, term);
@@ -190,15 +204,24 @@ struct ContactParts {
   ContactRow row;
   ContactActivation kind;
 
+  template <ContactSort sort>
   OGC_HD auto range(int begin, int count) const {
     return pooled_part(begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
                        [seen = &view, activation = kind](const ContactIncidence& contact) {
-                         return contact_term(*seen, activation, contact, read_contact(*seen, contact));
+                         return contact_term<sort>(*seen, activation, contact, read_contact(*seen, contact));
                        });
   }
-  OGC_HD auto vertex_facet() const { return range(row.begin, row.vertex_facet); }
-  OGC_HD auto edge_edge() const { return range(row.begin + row.vertex_facet, row.count - row.vertex_facet); }
+  OGC_HD auto vertex_facet() const { return range<ContactSort::vertex_facet>(row.begin, row.vertex_facet); }
+  OGC_HD auto edge_edge() const { return range<ContactSort::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet); }
 };
+
+/// The rows of a vertex, which its sum is going to read.
+template <class Team>
+OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, const ContactRow& contacts, const Team& team) {
+  team.prefetch(view.membrane + vertex.membrane_begin, vertex.membrane_count * static_cast<int>(sizeof(MembraneIncidence)));
+  team.prefetch(view.hinges + vertex.hinge_begin, vertex.hinge_count * static_cast<int>(sizeof(HingeIncidence)));
+  team.prefetch(view.contacts + contacts.begin, contacts.count * static_cast<int>(sizeof(ContactIncidence)));
+}
 
 /// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St. Venant–Kirchhoff, discrete hinges, activation `ogc`, damping
 /// of strains, no springs), in four parts: triangles, hinges, vertex–facet contacts, edge–edge contacts.
@@ -209,6 +232,7 @@ struct GatherDefault {
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
     const ContactParts contacts{view, view.contact_rows[slot], ContactActivation::ogc};
     const SurfaceMaterial material = view.materials[vertex.body];
+    prefetch_rows(view, vertex, contacts.row, team);
     return team.template sum<ForceAndBlock>(
         part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
              [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
@@ -223,12 +247,12 @@ struct GatherDefault {
 /// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written: the vertex stays and the step fails.
 OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const Vec& previous, float bound) {
   if (!is_finite(proposal)) {
-    view.fresh[v] = stay;
+    view.write(v, stay);
     view.control->count_not_finite();
     return;
   }
   const Truncated kept = truncate(previous, proposal, bound);
-  view.fresh[v] = kept.position;
+  view.write(v, kept.position);
   if (kept.exceeded) view.control->count_cut();
 }
 

@@ -146,6 +146,7 @@ struct GatherEveryModel {
     const SurfaceMaterial material = view.materials[vertex.body];
     const SurfaceModels models = view.models[vertex.body];
     const OwnVertex at{own, own - view.start[vertex.vertex]};
+    prefetch_rows(view, vertex, contacts.row, team);
     const auto load_hinge = [&](int k) {
       const int i = vertex.hinge_begin + k;
       AnyHinge any{view.hinges[i], {}};

@@ -60,6 +60,9 @@ struct SerialTeam {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;
 
+  /// Has `bytes` from `rows` on brought near, where that helps, as the team is going to read them.
+  OGC_HD static void prefetch(const void*, int) {}
+
   /// Σ over all terms of all parts. The leader of a team gets the total.
   template <class Accumulator, class... Parts>
   OGC_HD Accumulator sum(const Parts&... parts) const {

@@ -75,9 +75,8 @@ OGC_HD inline float towards(float p, float x, double s) {
   return step > 0 ? round_down(place) : round_up(place);
 }
 
-/// x where it is within the bound, bit for bit; otherwise the point of the segment from x_prev at distance b, or just short of it. x_prev where x is
-/// not finite.
-OGC_HD inline Truncated truncate(const Vec& previous, const Vec& x, float bound) {
+/// `truncate` where single precision does not see x within the bound.
+OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Vec previous, Vec x, float bound) {
   if (is_within_bound(previous, x, bound)) return {x, false};
   const Vector<Rounded> step = difference<Rounded>(x, previous);
   double s = divide(static_cast<double>(bound), square_root(dot(step, step).value));
@@ -88,6 +87,13 @@ OGC_HD inline Truncated truncate(const Vec& previous, const Vec& x, float bound)
     s = mul(s, 1 - 0x1p-22);
   }
   return {previous, true};
+}
+
+/// x where it is within the bound, bit for bit; otherwise the point of the segment from x_prev at distance b, or just short of it. x_prev where x is
+/// not finite.
+OGC_HD inline Truncated truncate(const Vec& previous, const Vec& x, float bound) {
+  if (is_certainly_within_bound(previous, x, bound)) return {x, false};
+  return truncate_in_double(previous, x, bound);
 }
 
 }  // namespace ogc::fast

@@ -23,6 +23,25 @@ struct Vector {
 /// A point or vector in single precision [unit given where it is used].
 using Vec = Vector<float>;
 
+/// A position where it is gathered again and again: sixteen bytes are one read on a device, and one register on a CPU.
+struct alignas(16) Place {
+  float x = 0, y = 0, z = 0, unused = 0;
+
+  Place() = default;
+  OGC_HD explicit Place(const Vec& a) : x(a.x), y(a.y), z(a.z) {}
+  OGC_HD operator Vec() const { return {x, y, z}; }
+};
+
+/// Such positions, read whole.
+struct Places {
+  const Place* at = nullptr;
+
+  OGC_HD Vec operator[](int v) const {
+    const Place whole = at[v];
+    return whole;
+  }
+};
+
 template <class T>
 OGC_HD Vector<T> operator+(const Vector<T>& a, const Vector<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

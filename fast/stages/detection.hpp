@@ -43,11 +43,16 @@ struct RecheckPairs {
 template <class Before>
 struct PrepareDetection {
   Before before;
+  const Vec* positions;
+  Place* places;
   PrepareLists lists;
   ResetDistances distances;
 
   OGC_HD void operator()(int i) const {
-    if (i < distances.vertex_count) before(i);
+    if (i < distances.vertex_count) {
+      before(i);
+      places[i] = Place(positions[i]);
+    }
     lists(i);
     distances(i);
   }
@@ -80,6 +85,7 @@ class Detection {
     const auto at_least_one = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
     const SurfaceView surface = surface_.view();
     for (auto* by_vertex : {&d_min_vertex_, &bound_}) by_vertex->resize(at_least_one(surface.vertex_count)), by_vertex->fill_zero();
+    places_.resize(at_least_one(surface.vertex_count));
     d_min_edge_.resize(at_least_one(surface.edge_count));
     d_min_triangle_.resize(at_least_one(surface.triangle_count));
   }
@@ -98,6 +104,8 @@ class Detection {
     const SkinView skin = skin_.view(contact_radius);
     float *d_vertex = d_min_vertex_.data(), *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
     const PrepareDetection<Before> prepare{before,
+                                           positions,
+                                           places_.data(),
                                            {lists, surface.vertex_count},
                                            {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex,
                                             d_edge, d_triangle}};
@@ -111,9 +119,10 @@ class Detection {
     } else {
       backend_.for_each(std::max(items, primitives), PrepareAndRefit<Before>{prepare, refit, primitives});
     }
-    const DetectVertexFacet vertex_facet{surface, positions, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
+    const Places places{places_.data()};
+    const DetectVertexFacet vertex_facet{surface, places, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
                                          d_vertex, d_triangle};
-    const DetectEdgeEdge edge_edge{surface, positions, bvh_.edges(), lists, skin, contact_radius, d_edge};
+    const DetectEdgeEdge edge_edge{surface, places, bvh_.edges(), lists, skin, contact_radius, d_edge};
     backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
     if (skin_.is_used()) {
       backend_.for_each_counted(&skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
@@ -122,7 +131,7 @@ class Detection {
     }
     const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow,
                                    bound_.data()};
-    lists_.assemble(backend_, positions, contact_radius, surface.vertex_count, bounds, after);
+    lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, after);
   }
 
   /// Of the last complete detection; valid until grow() returns true.
@@ -170,6 +179,7 @@ class Detection {
   Bvh<Backend> bvh_;
   Skin<Backend> skin_;
   Lists<Backend> lists_;
+  typename Backend::template Buffer<Place> places_;  ///< positions of the last detection
   typename Backend::template Buffer<float> d_min_vertex_, d_min_edge_, d_min_triangle_, bound_;
 };
 

@@ -43,7 +43,7 @@ class Lists {
   /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other: beside(i) for 0 ≤ i < beside_count with the
   /// first launch, and after(0) with the last, when overflow() is known.
   template <class Beside, class After>
-  void assemble(Backend& backend, const Vec* positions, float contact_radius, int beside_count, const Beside& beside, const After& after) {
+  void assemble(Backend& backend, Places positions, float contact_radius, int beside_count, const Beside& beside, const After& after) {
     const ListsView lists = view();
     backend.for_both(beside_count, beside, lists.noted_count, noted_capacity_,
                      CollectContacts{{surface_, positions, lists, contact_radius}, {surface_, positions, lists, contact_radius}});

@@ -15,7 +15,7 @@ namespace ogc::fast {
 
 struct ProbeBlock {
   SurfaceView surface;
-  const Vec* positions;
+  Places positions;
   const compare::BlockQuestion* questions;
   std::uint8_t* inside;
 
@@ -63,7 +63,7 @@ compare::BlockOut probe_block(Backend& backend, const compare::BlockIn& in) {
   const std::vector<compare::Vec3f> positions(in.positions.begin(), in.positions.end());
   const std::vector<compare::BlockQuestion> questions(in.questions.begin(), in.questions.end());
   backend.for_each(static_cast<int>(questions.size()),
-                   ProbeBlock{surface.view(), memory.template in<Vec>(positions), memory.template in<compare::BlockQuestion>(questions),
+                   ProbeBlock{surface.view(), {memory.places(positions)}, memory.template in<compare::BlockQuestion>(questions),
                               memory.template out<std::uint8_t>(out.inside, questions.size())});
   memory.fetch();
   return out;

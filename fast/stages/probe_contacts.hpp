@@ -49,7 +49,7 @@ struct ProbeContact {
     incidence.own = slot_of_role(is_edge_edge[i] != 0, incidence.kind, role[i]);
     ForceAndBlock sum;
     const ContactReads reads = read_contact(here, incidence);
-    const ContactAt at(incidence, reads, here.radius);
+    const ContactAt at = contact_at(incidence, reads, here.radius);
     if (at.acts()) {
       ForceAndBlock normal;
       const float normal_force = add_contact(activation[i], at.shape, at.weight, here.radius, incidence.stiffness, normal);
@@ -65,8 +65,8 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   ProbeMemory<Backend> memory(backend);
   compare::ForceOut out;
   SweepView view;
-  view.old = memory.template in<Vec>(batch.positions);
-  view.start = memory.template in<Vec>(batch.start);
+  view.old = memory.places(batch.positions);
+  view.start = {memory.places(batch.start)};
   // Without a body count the material of a pair is that of its second body, here of its case.
   const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials), 0,
                              memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.detected), true};

@@ -6,6 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "compare/problem/vector.hpp"
+#include "fast/kernels/vector.hpp"
+
 namespace ogc::fast {
 
 /// Arrays of one probe on the backend: cases go in, answers come out.
@@ -32,6 +35,18 @@ class ProbeMemory {
     buffer->resize(n);
     to.resize(n);
     fetches_.push_back([buffer, &to] { buffer->download(reinterpret_cast<From*>(to.data()), to.size()); });
+    return buffer->data();
+  }
+
+  /// Positions as a sweep gathers them, `copies` times one after the other.
+  Place* places(const std::vector<compare::Vec3f>& positions, int copies = 1) {
+    std::vector<Place> all;
+    for (int k = 0; k < copies; ++k) {
+      for (const compare::Vec3f& x : positions) all.emplace_back(Vec{x.x, x.y, x.z});
+    }
+    auto buffer = std::make_shared<typename Backend::template Buffer<Place>>();
+    buffer->upload(all.data(), all.size());
+    kept_.push_back(buffer);
     return buffer->data();
   }
 

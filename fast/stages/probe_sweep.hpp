@@ -114,7 +114,8 @@ class ProbeStart {
 template <class Backend>
 compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   ProbeMemory<Backend> memory(backend);
-  const auto vectors = [&memory](std::span<const compare::Vec3f> x) { return memory.template in<Vec>(std::vector<compare::Vec3f>(x.begin(), x.end())); };
+  const auto whole = [](std::span<const compare::Vec3f> x) { return std::vector<compare::Vec3f>(x.begin(), x.end()); };
+  const auto vectors = [&](std::span<const compare::Vec3f> x) { return memory.template in<Vec>(whole(x)); };
   const RestState rest = rest_state_of({in.scene, in.topology}, *in.rest);
   const StepSettings settings = step_settings(*in.scene, in.old.size(), false);
   Sweep<Backend> sweep(backend, rest, colouring_of(in.colour), *in.topology, *in.scene);
@@ -122,20 +123,21 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   control.active = 1;
   typename Backend::template Buffer<StepControl> control_buffer;
   control_buffer.upload(&control, 1);
-  typename Backend::template Buffer<Vec> fresh;
-  fresh.upload(reinterpret_cast<const Vec*>(in.old.data()), in.old.size());
+  typename Backend::template Buffer<Vec> position;
+  position.upload(reinterpret_cast<const Vec*>(in.old.data()), in.old.size());
 
   SweepView view;
-  view.start = vectors(in.start);
+  view.start = {memory.places(whole(in.start))};
   view.target = vectors(in.target);
   view.previous = vectors(in.previous);
   view.bound = memory.template in<float>(std::vector<float>(in.bound.begin(), in.bound.end()));
-  view.old = vectors(in.old);
-  view.fresh = fresh.data();
+  view.old = memory.places(whole(in.old), 2);
+  view.to_fresh = static_cast<int>(in.old.size());
+  view.position = position.data();
   view.control = control_buffer.data();
   view.radius = settings.contact_radius;
   view.friction_limit = settings.friction_limit;
-  const ProbeStart<Backend> start(backend, rest, view.start);
+  const ProbeStart<Backend> start(backend, rest, vectors(in.start));
   view.strain_start = start.strain();
   view.angle_start = start.angle();
   const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
@@ -147,7 +149,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   backend.synchronize();
   compare::SweepOut out;
   out.position.resize(in.old.size());
-  fresh.download(reinterpret_cast<Vec*>(out.position.data()), out.position.size());
+  position.download(reinterpret_cast<Vec*>(out.position.data()), out.position.size());
   control_buffer.download(&control, 1);
   out.cut = control.cut;
   return out;

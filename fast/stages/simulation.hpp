@@ -133,7 +133,9 @@ class ResidentSimulation : public compare::Simulation {
     s.spring_count = static_cast<int>(rest_.springs.size());
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
-    for (auto* buffer : {&s.target, &s.previous, &s.first, &s.second}) buffer->resize(n);
+    for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
+    s.start_places.resize(n);
+    s.places.resize(2 * n);
     s.strain_start.resize(rest_.triangles.size());
     s.angle_start.resize(rest_.hinges.size());
     s.sums_guess.resize(sum_columns);
@@ -154,10 +156,9 @@ class ResidentSimulation : public compare::Simulation {
     s.prescribed_targets.resize(static_cast<std::size_t>(longest_frame) * static_cast<std::size_t>(s.prescribed_count));
   }
 
-  /// Both position buffers and X_prev start at the positions: fixed vertices are written nowhere else.
   void upload_motion(const std::vector<compare::Vec3f>& positions, const std::vector<compare::Vec3f>& velocities) {
     const std::vector<Vec> x = vectors(positions);
-    for (auto* buffer : {&state_.start, &state_.first, &state_.second, &state_.previous}) upload(*buffer, x);
+    for (auto* buffer : {&state_.start, &state_.position, &state_.previous}) upload(*buffer, x);
     upload(state_.velocity, vectors(velocities));
   }
 

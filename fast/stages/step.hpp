@@ -56,7 +56,8 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   return to;
 }
 
-/// Resident arrays of a simulation. `first` and `second` are the two position buffers of the sweep; detection reads the current one.
+/// Resident arrays of a simulation. The sweep gathers from `places`, its two position buffers one after the other, and from `start_places`; detection and all
+/// else read `position`, the same numbers closer together.
 template <class Backend>
 struct StepState {
   template <class T>
@@ -64,7 +65,8 @@ struct StepState {
 
   int vertex_count = 0, triangle_count = 0, hinge_count = 0, spring_count = 0, prescribed_count = 0;
   bool damped = false;
-  Buffer<Vec> start, velocity, target, previous, first, second;
+  Buffer<Vec> start, velocity, target, previous, position;
+  Buffer<Place> start_places, places;
   Buffer<float> mass;
   Buffer<int> prescribed_number;   ///< by vertex: place among the prescribed ones; -1 free, -2 fixed
   Buffer<Vec> prescribed_targets;  ///< [step of the frame][place]
@@ -105,21 +107,15 @@ class Step {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(); });
     guess_loop();
-    Vec* old = state_.first.data();
-    Vec* fresh = state_.second.data();
-    for (int i = 0; i < settings_.iterations; ++i) {
-      const bool last = i + 1 == settings_.iterations;
-      iterate(old, fresh, last);
-      std::swap(old, fresh);
-    }
-    clock_.time(StepStage::metrics, [&] { finish(old); });
+    for (int i = 0; i < settings_.iterations; ++i) iterate(i);
+    clock_.time(StepStage::metrics, [&] { finish(); });
   }
 
  private:
   StepControl* control() { return state_.control.data(); }
   const int* flag(int StepControl::* member) { return &(control()->*member); }
-  void observe(compare::StepEventKind part, const Vec* position) {
-    if (observer_ != nullptr) observer_->after(part, position);
+  void observe(compare::StepEventKind part) {
+    if (observer_ != nullptr) observer_->after(part, state_.position.data());
   }
 
   void begin() {
@@ -127,7 +123,7 @@ class Step {
     backend_.when(BeginStep{control(), settings_.control}, flag(&StepControl::sort), [&] { detection_.rebuild(s.start.data()); });
     backend_.for_each(s.vertex_count,
                       BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(), s.prescribed_targets.data(), s.prescribed_count,
-                                  settings_.acceleration, settings_.step, s.first.data(), s.target.data(), control()});
+                                  settings_.acceleration, settings_.step, s.position.data(), s.target.data(), control()});
     if (s.damped) {
       backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
       backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
@@ -135,20 +131,21 @@ class Step {
   }
 
   /// Bounds that end here are certified, then X_prev ← x and everything is found anew.
-  void detect(const Vec* position) {
+  void detect() {
+    const Vec* position = state_.position.data();
     detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
                       BeginBounds{position, detection_.view().bound, state_.previous.data(), control()}, EndDetection{control(), detection_.overflow()});
   }
 
-  void detect_again(const Vec* position) {
-    detect(position);
+  void detect_again() {
+    detect();
     sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
   }
 
   void guess() {
     const ContactView view = detection_.view();
     backend_.for_each(state_.vertex_count,
-                      GuessVertex{state_.target.data(), state_.previous.data(), view.bound, view.incidence_offsets, state_.first.data(), control()});
+                      GuessVertex{state_.target.data(), state_.previous.data(), view.bound, view.incidence_offsets, state_.position.data(), control()});
   }
 
   void guess_loop() {
@@ -156,81 +153,89 @@ class Step {
     const ChooseQueryRadius choose{control(), settings_.control};
     const EndRound end{control(), settings_.control};
     if (!clock_.on()) {
-      backend_.repeat(choose, again, [&] { detect(state_.first.data()), guess(); }, end);
+      backend_.repeat(choose, again, [&] { detect(), guess(); }, end);
     } else {
       backend_.for_each(1, choose);
       for (int round = 0; round < settings_.control.guess_rounds; ++round) timed_round(again, end);
     }
     clock_.time(StepStage::initial_guess, [&] {
       sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
-      add_vertices(state_.first.data());
+      add_vertices();
       reduction_.end(state_.sums_guess.data());
+      const StepState<Backend>& s = state_;
+      backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), state_.start_places.data(), state_.places.data(), s.vertex_count});
     });
   }
 
   /// A round of the guess loop for a clock and an observer, which want its parts.
   void timed_round(const int* again, const EndRound& end) {
-    clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, again, [&] { detect(state_.first.data()); }); });
-    observe(compare::StepEventKind::detection, state_.first.data());
+    clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, again, [&] { detect(); }); });
+    observe(compare::StepEventKind::detection);
     clock_.time(StepStage::initial_guess, [&] { backend_.when(Decided{}, again, [&] { guess(), backend_.for_each(1, end); }); });
-    observe(compare::StepEventKind::guess, state_.first.data());
+    observe(compare::StepEventKind::guess);
   }
 
-  /// An iteration, and before the next one a detection where it is due.
-  void iterate(const Vec* old, Vec* fresh, bool last) {
+  /// Iteration i, and before the next one a detection where it is due.
+  void iterate(int i) {
+    const bool last = i + 1 == settings_.iterations;
     const EndIteration end{control(), settings_.control};
     const int* due = flag(&StepControl::detect);
-    const auto find = [&] { detect_again(fresh); };
+    const auto find = [&] { detect_again(); };
     clock_.time(StepStage::sweep, [&] {
-      sweep(old, fresh);
+      sweep(i);
       if (last || clock_.on()) backend_.for_each(1, end);
     });
-    observe(compare::StepEventKind::sweep, fresh);
+    observe(compare::StepEventKind::sweep);
     if (last) return;
     if (!clock_.on()) return backend_.when(end, due, find);
     clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, due, find); });
-    observe(compare::StepEventKind::detection, fresh);
+    observe(compare::StepEventKind::detection);
   }
 
-  void sweep(const Vec* old, Vec* fresh) {
+  void sweep(int iteration) {
     StepState<Backend>& s = state_;
     SweepView view;
     sweep_.complete(view);
     view.strain_start = s.strain_start.data();
     view.angle_start = s.angle_start.data();
-    view.start = s.start.data();
+    view.start = {s.start_places.data()};
     view.target = s.target.data();
     view.previous = s.previous.data();
     view.bound = detection_.view().bound;
-    view.old = old;
-    view.fresh = fresh;
+    const bool swapped = iteration % 2 != 0;
+    view.old = s.places.data() + (swapped ? s.vertex_count : 0);
+    view.to_fresh = swapped ? -s.vertex_count : s.vertex_count;
+    view.position = s.position.data();
     view.control = control();
     view.radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
     sweep_.iterate(view);
   }
 
-  void finish(const Vec* position) {
+  void finish() {
     StepState<Backend>& s = state_;
+    const Vec* position = s.position.data();
     backend_.for_each(s.vertex_count,
                       CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(), s.prescribed_number.data(), control()});
     backend_.for_each(1, EndCheck{control()});
-    add_vertices(position);
-    if (settings_.energies) add_energies(position);
+    add_vertices();
+    if (settings_.energies) add_energies();
     reduction_.end(s.sums_end.data());
     backend_.for_each(s.vertex_count, CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
     backend_.for_each(1, FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
   }
 
-  void add_vertices(const Vec* position) {
+  void add_vertices() {
     StepState<Backend>& s = state_;
+    const Vec* position = s.position.data();
     reduction_.begin();
     reduction_.add(s.vertex_count, VertexTerm{position, s.start.data(), s.target.data(), s.mass.data(), s.prescribed_number.data(), settings_.acceleration,
                                               static_cast<double>(settings_.step)});
   }
 
-  void add_energies(const Vec* position) {
+  void add_energies() {
     StepState<Backend>& s = state_;
+    const Vec* position = s.position.data();
     const ContactView view = detection_.view();
     const ContactTables tables = sweep_.tables(s.previous.data());
     reduction_.add(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position});

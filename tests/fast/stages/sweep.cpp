@@ -15,6 +15,14 @@ using namespace ogc::fast::test;
 
 namespace {
 
+std::vector<Place> places_of(const std::vector<Vec>& positions, int copies = 1) {
+  std::vector<Place> places;
+  for (int k = 0; k < copies; ++k) {
+    for (const Vec& x : positions) places.emplace_back(x);
+  }
+  return places;
+}
+
 // Two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions a little elsewhere, so that damping and friction act.
 struct Fixture {
   compare::Scene scene;
@@ -23,6 +31,7 @@ struct Fixture {
   Colouring colouring;
   CpuBackend backend;
   std::vector<Vec> x, start, target, fresh, previous;
+  std::vector<Place> places, start_places;  // of x, twice, and of start
   std::vector<float> bound;
   std::vector<Symmetric2> strain;
   std::vector<float> angle;
@@ -71,16 +80,19 @@ struct Fixture {
   }
 
   SweepView view() {
+    places = places_of(x, 2);
+    start_places = places_of(start);
     SweepView v;
     sweep->complete(v);
     v.strain_start = strain.data();
     v.angle_start = angle.data();
-    v.start = start.data();
+    v.start = {start_places.data()};
     v.target = target.data();
     v.previous = previous.data();
     v.bound = bound.data();
-    v.old = x.data();
-    v.fresh = fresh.data();
+    v.old = places.data();
+    v.to_fresh = static_cast<int>(x.size());
+    v.position = fresh.data();
     v.control = &control;
     v.radius = 0.02f;
     v.friction_limit = 1e-4f;
@@ -148,8 +160,8 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
       std::vector<Vec> seen = now, out = now;
       for (int i = f.colouring.begin[static_cast<std::size_t>(c)]; i < f.colouring.begin[static_cast<std::size_t>(c) + 1]; ++i) {
         SweepView naive = view;
-        naive.old = seen.data();
-        naive.fresh = seen.data();
+        std::vector<Place> both = places_of(seen, 2);
+        naive.old = both.data();
         const SweepVertex vertex = view.vertices[i];
         const auto v = static_cast<std::size_t>(vertex.vertex);
         ForceAndBlock total = GatherDefault{}(naive, i, vertex, seen[v], SerialTeam<8>{});
@@ -159,6 +171,16 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
       now = out;
     }
     CHECK(same_bits(answer, now));
+  }
+}
+
+TEST_CASE("what a sweep writes for others to read is what it gathers from itself", "[unit]") {
+  Fixture f(true, 8);
+  f.sweep->iterate(f.view());
+  for (const int v : f.colouring.order) {
+    const auto i = static_cast<std::size_t>(v);
+    REQUIRE(same_bits({f.places[f.x.size() + i]}, {f.fresh[i]}));
+    REQUIRE(same_bits({f.places[i]}, {f.x[i]}));
   }
 }
 
