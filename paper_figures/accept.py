@@ -19,8 +19,8 @@ from paper_figures import in_time, recipes
 from paper_figures.evidence import NOT_RUN, RESULTS
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-# A file above this is no small data; the folder as a whole stays under 30 MiB. Rows above half of it are kept compressed.
-LARGEST = 2 * 2**20
+# A file above the first is no small data; the folder as a whole stays under 30 MiB. Rows above the second are kept compressed.
+LARGEST, LONG = 2 * 2**20, 2**17
 
 
 class AcceptError(Exception):
@@ -119,7 +119,7 @@ def run_name(path, folder):
 
 def compressed(name, data):
     """(name, data) as they are kept: long rows with gzip, which evidence.py reads as well."""
-    return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LARGEST / 2 else (name, data)
+    return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
 
 
 def run_files(path, stem):

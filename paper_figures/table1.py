@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 from paper_figures.device_memory import taken
-from paper_figures.evidence import EvidenceError, run_at
+from paper_figures.evidence import NOT_RUN, EvidenceError, run_at
 
 ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m", "dress", "robot_shirt")
 WINDOWS = 5  # on the CPU, of each row
@@ -49,7 +49,7 @@ def paper(scene, backend, quantity):
 
 def origin(run):
     m = run.manifest
-    return {"device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""), "ended": m["ended"], "scale": m.get("scale", "")}
+    return {"device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""), "ended": m["ended"], "scale": m.get("scale", ""), "status": m["status"]}
 
 
 def beside(run, average, maximum):
@@ -103,6 +103,8 @@ def rows_of(folder):
             rows.append(device_row(scene, whole, taken(Path(folder) / f"{scene}_device_memory.json")))
         if windows:
             rows.append(cpu_row(scene, windows, whole[-1].manifest["settings"]["steps"]["value"] if whole else ""))
+        if windows and not whole:
+            rows.append(dict.fromkeys(rows[-1], "") | {"scene": scene, "scale": rows[-1]["scale"], "status": NOT_RUN, "commit": "-"})
     if not rows:
         raise EvidenceError(f"{folder} holds no run of Table 1: make them with experiments/table1 PROGRAM {folder}")
     return rows
@@ -116,7 +118,7 @@ def text(value):
 
 SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
          "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states", "device memory [MiB]", "device",
-         "paper's machine", "commit")
+         "paper's machine", "status", "commit")
 
 NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in the average, not in the maximum. "
         "CPU: windows of steps from states of the device's run, average of the windows (first state: average [ms]), maximum over all. fifty_layers and "

@@ -15,7 +15,7 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]), sys.argv[2]
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
-from paper_figures import table1  # noqa: E402
+from paper_figures import accept, table1  # noqa: E402
 from paper_figures.evidence import Evidence, EvidenceError  # noqa: E402
 
 
@@ -54,6 +54,14 @@ class Known(unittest.TestCase):
             make_run(self.folder / "twist" / name, "cuda", [(ms, 0, 0)])
         row, = table1.rows_of(self.folder)
         self.assertEqual((row["average [ms]"], row["maximum [ms]"], row["runs"]), (2, 2, 3))
+
+    def test_a_scene_of_which_only_windows_are_here_is_not_said_to_be_whole(self):
+        make_run(self.folder / "twist/cpu_0", "cpu", [(10, 1, 0)])
+        cpu, left_out = table1.rows_of(self.folder)
+        self.assertEqual((cpu["scene"], cpu["backend"]), ("twist", "cpu"))
+        self.assertEqual((left_out["scene"], left_out["status"], left_out["average [ms]"], left_out["commit"]), ("twist", "not run", "", "-"))
+        table1.write([cpu, left_out], self.folder)
+        self.assertEqual(list(accept.left_out(self.folder)), ["twist"])
 
     def test_a_claim_can_read_the_table(self):
         make_run(self.folder / "runs/twist/whole", "cuda", [(1, 10, 0)])
