@@ -226,12 +226,13 @@ def pack(out, book, folder, before=None):
     out.mkdir(parents=True, exist_ok=True)
     whole = out / f"packed_{os.getpid()}.tar.gz"
     with tarfile.open(whole, "w:gz", compresslevel=6) as archive:
-        for name, part in book.items():
-            files = list(files_of(out, part))
+        found = [(name, list(files_of(out, part))) for name, part in book.items()]
+        sizes = {name: sum(path.lstat().st_size for path in files) for name, files in found}
+        for name, files in sorted(found, key=lambda item: sizes[item[0]]):  # a piece that is lost on its way takes few runs along
             runs = [path.parent.as_posix() for path in files if path.name == "run.json"]
             if not runs or packed.get(name) == runs:
                 continue
-            size = sum(path.lstat().st_size for path in files)
+            size = sizes[name]
             if archive.fileobj.fileobj.tell() + size > TOTAL:  # as if nothing were compressed
                 lines.append(f"{name}: {size / 2**20:.1f} MiB did not fit; pack again")
                 continue
@@ -252,10 +253,14 @@ def unpack(folder, out, program):
     out.mkdir(parents=True, exist_ok=True)
     whole = out / "packed.tar.gz"
     whole.write_bytes(b"".join(path.read_bytes() for path in sorted(folder.glob("runs_*"))))
-    with tarfile.open(whole) as archive:
-        names = archive.getnames()
-        archive.extractall(out)
-    whole.unlink()
+    try:
+        with tarfile.open(whole) as archive:
+            names = archive.getnames()
+            archive.extractall(out)
+    except (EOFError, tarfile.ReadError):
+        sys.exit(f"device_runs: the pieces in {folder} end in the middle of a file: the last ones are missing or cut; nothing of them is unpacked")
+    finally:
+        whole.unlink()
     for run in sorted({(out / name).parent for name in names if name.endswith("run.json")}):
         if any((run / "frames").glob("*")) and not (run / "trajectory.vtkhdf").is_file():
             scratch = run / "exported"

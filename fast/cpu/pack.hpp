@@ -34,6 +34,7 @@ struct Pack {
   Pack(float everywhere) : value{everywhere, everywhere, everywhere, everywhere} {}
   Pack(float a, float b, float c, float d) : value{a, b, c, d} {}
   explicit Pack(const float* from) { std::memcpy(&value, from, sizeof value); }
+  explicit Pack(const Place& whole) : value(std::bit_cast<Numbers>(whole)) {}
 
   void store(float* to) const { std::memcpy(to, &value, sizeof value); }
   float operator[](int k) const { return value[k]; }
@@ -71,11 +72,12 @@ inline bool is_false(PackMask condition) { return (condition.bits[0] | condition
 inline Pack rough_quotient(Pack a, Pack b) { return a / b; }
 inline Pack rough_inverse_root(Pack a) { return 1.0F / root(a); }
 
-/// Of four places read whole: their x, y and z.
-inline Vector<Pack> transposed(Pack a, Pack b, Pack c, Pack d) {
+/// The x, the y and the z of four places, each of which is read whole.
+inline Vector<Pack> transposed(const Place& a, const Place& b, const Place& c, const Place& d) {
   using Bits = PackMask::Bits;
-  const auto ab = __builtin_shuffle(a.value, b.value, Bits{0, 4, 1, 5}), cd = __builtin_shuffle(c.value, d.value, Bits{0, 4, 1, 5});
-  const auto z_ab = __builtin_shuffle(a.value, b.value, Bits{2, 6, 3, 7}), z_cd = __builtin_shuffle(c.value, d.value, Bits{2, 6, 3, 7});
+  const auto p = Pack(a).value, q = Pack(b).value, r = Pack(c).value, s = Pack(d).value;
+  const auto ab = __builtin_shuffle(p, q, Bits{0, 4, 1, 5}), cd = __builtin_shuffle(r, s, Bits{0, 4, 1, 5});
+  const auto z_ab = __builtin_shuffle(p, q, Bits{2, 6, 3, 7}), z_cd = __builtin_shuffle(r, s, Bits{2, 6, 3, 7});
   return {__builtin_shuffle(ab, cd, Bits{0, 1, 4, 5}), __builtin_shuffle(ab, cd, Bits{2, 3, 6, 7}), __builtin_shuffle(z_ab, z_cd, Bits{0, 1, 4, 5})};
 }
 

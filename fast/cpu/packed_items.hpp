@@ -22,8 +22,7 @@ struct Items {
   /// place(item): where it is.
   template <class F>
   Vector<Pack> each_place(F place) const {
-    const Place &a = place(*at[0]), &b = place(*at[1]), &c = place(*at[2]), &d = place(*at[3]);
-    return transposed(Pack(&a.x), Pack(&b.x), Pack(&c.x), Pack(&d.x));
+    return transposed(place(*at[0]), place(*at[1]), place(*at[2]), place(*at[3]));
   }
 };
 

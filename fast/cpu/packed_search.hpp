@@ -10,8 +10,7 @@ namespace ogc::fast::packed {
 
 /// Vertices of four primitives, one of each.
 inline Vector<Pack> gathered(Places positions, int a, int b, int c, int d) {
-  const auto row = [&](int v) { return Pack(&positions.at[v].x); };
-  return transposed(row(a), row(b), row(c), row(d));
+  return transposed(positions.at[a], positions.at[b], positions.at[c], positions.at[d]);
 }
 
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* place) {

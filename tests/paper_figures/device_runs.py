@@ -81,7 +81,9 @@ class Parts(Scratch):
         self.assertEqual([line.split()[3] for line in self.say(there, *self.OPTIONS, *self.WANTED)], ["finished"] * 3)
         self.assertEqual([line.split()[3] for line in self.say(there, *self.OPTIONS, *self.WANTED)], ["kept"] * 3)
         packed = self.say(there, *self.OPTIONS, "--pack", self.folder / "pieces")
-        self.assertEqual([line.split()[0] for line in packed][:-1], ["fig20:", "cloth_on_sphere:", "windows_cloth_on_sphere:"])
+        self.assertEqual({line.split()[0] for line in packed[:-1]}, {"fig20:", "cloth_on_sphere:", "windows_cloth_on_sphere:"})
+        sizes = [float(line.split()[3]) for line in packed[:-1]]
+        self.assertEqual(sizes, sorted(sizes))  # what is lost with the last piece is little
         self.assertEqual(len(self.say(there, *self.OPTIONS, "--pack", self.folder / "again")), 1)
         self.assertEqual(len(self.say(home, "--unpack", self.folder / "pieces")), 7)
         part = device_runs.parts("smoke", "cpu")["fig20"]
@@ -116,6 +118,11 @@ class Parts(Scratch):
         done = self.say(there, *self.OPTIONS, "--keep", pieces, "cloth_on_sphere")  # of this call alone
         self.assertEqual(done[0].split()[3], "finished")
         self.assertTrue(all("table1" in line or "fig18" in line for line in self.say(self.folder / "other", "--unpack", pieces)))
+        last = sorted(pieces.glob("runs_*"))[-1]
+        last.write_bytes(last.read_bytes()[:-2000])
+        command = [sys.executable, "-m", "paper_figures.device_runs", "--program", OGC, "--out", self.folder / "cut", "--unpack", pieces]
+        said = subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True, check=False)
+        self.assertEqual((said.returncode, "end in the middle" in said.stderr, [path.name for path in (self.folder / "cut").iterdir()]), (1, True, []))
 
     def test_a_group_waits_for_the_one_before_and_none_begins_without_time(self):
         machine = device_runs.Machine(device_runs.arguments().parse_args(["--out", str(self.folder), "--program", OGC, "--scale", "smoke"]))

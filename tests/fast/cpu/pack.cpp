@@ -76,6 +76,14 @@ TEST_CASE("a mask is false only where none of its places is true, and counts fro
   }
 }
 
+TEST_CASE("four places make three packs, coordinate by coordinate") {
+  const Place place[4] = {Place({1, 2, 3}), Place({4, 5, 6}), Place({7, 8, 9}), Place({10, 11, 12})};
+  const Vector<Pack> all = transposed(place[0], place[1], place[2], place[3]);
+  CHECK(floats(all.x) == Floats{1, 4, 7, 10});
+  CHECK(floats(all.y) == Floats{2, 5, 8, 11});
+  CHECK(floats(all.z) == Floats{3, 6, 9, 12});
+}
+
 TEST_CASE("the lower bounds of distances of four pairs at a time have the bits of each", "[property]") {
   std::mt19937 random(11);
   std::normal_distribution<float> normal;

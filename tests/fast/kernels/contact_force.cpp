@@ -71,6 +71,23 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
   }
 }
 
+TEST_CASE("where the sort of a contact is known its weights are the same, and a slot's weight is found by its number", "[property]") {
+  std::mt19937 random(32);
+  const auto same = [](const ContactWeights& a, const ContactWeights& b) {
+    bool equal = true;
+    for (int k = 0; k < 4; ++k) equal = equal && a.slot[k] == b.slot[k] && a.of(k) == a.slot[k];
+    return equal;
+  };
+  for (const ContactKind kind : kinds) {
+    for (int i = 0; i < 1000; ++i) {
+      const Placement p = random_placement(random, kind, 0.01);
+      const ContactWeights any = contact_weights(kind, p.x);
+      if (kind != ContactKind::segment_segment) REQUIRE(same(contact_weights<ContactSort::vertex_facet>(kind, p.x), any));
+      if (kind != ContactKind::point_triangle) REQUIRE(same(contact_weights<ContactSort::edge_edge>(kind, p.x), any));
+    }
+  }
+}
+
 TEST_CASE("normal and distance are those of the gap between the weighted points", "[property]") {
   std::mt19937 random(32);
   for (const ContactKind kind : kinds) {
