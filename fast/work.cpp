@@ -45,8 +45,8 @@ constexpr double edge_distance_flop = 96 + 161 + 6;
 /// separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides 69, from three edges 67; 6 more.
 constexpr double facet_distance_flop = 158 + 192 + 6;
 /// Number and ends of a candidate edge, and its two positions where the distance is taken; likewise of a facet.
-constexpr double edge_bytes = sizeof(int) + sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(Vec);
-constexpr double facet_bytes = sizeof(int) + sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(Vec);
+constexpr double edge_bytes = sizeof(int) + sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(Place);
+constexpr double facet_bytes = sizeof(int) + sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(Place);
 
 struct SearchCount {
   std::int64_t nodes = 0, candidates = 0, distances = 0;
@@ -112,8 +112,8 @@ SweepWork sweep_work(const compare::Scene& scene) {
   work.colours = colour_vertices(rest).count;
   const double vertices = work.vertices;
   work.flop = vertices * vertex_flop + triangles * membrane_flop + hinges * hinge_flop;
-  // x, y, X_prev, b_v read, x written.
-  work.bytes = vertices * (sizeof(SweepVertex) + sizeof(ContactRow) + 4 * sizeof(Vec) + sizeof(float)) + triangles * sizeof(MembraneIncidence) +
+  // x as a place, y, X_prev, b_v read; x written as a place, and tight.
+  work.bytes = vertices * (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(Place) + 3 * sizeof(Vec) + sizeof(float)) + triangles * sizeof(MembraneIncidence) +
                hinges * sizeof(HingeIncidence);
   if (damped) work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
   work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
