@@ -98,7 +98,7 @@ inline void add_slip(const SweepView& view, const Items<ContactIncidence>& items
 inline void add_contacts(const SweepView& view, const Items<ContactIncidence>& items, ForceAndBlockOf<Pack>& sum) {
   using Incidence = ContactIncidence;
   Vector<Pack> x[4];
-  for (int s = 0; s < 4; ++s) x[s] = items.each_place([&](const Incidence& i) -> const Place& { return view.place(i.index[s]); });
+  for (int s = 0; s < 4; ++s) x[s] = items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[s])]; });
   const Weights weights = packed::weights(items, x);
   const Vector<Pack> separation = weighted_sum(weights, x);
   const Pack squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);

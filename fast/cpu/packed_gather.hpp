@@ -33,8 +33,8 @@ inline void add_triangles(const SweepView& view, const Items<MembraneIncidence>&
       {items.each([](const Incidence& i) { return i.stencil.gradient_b[0]; }), items.each([](const Incidence& i) { return i.stencil.gradient_b[1]; })},
       {items.each([](const Incidence& i) { return i.stencil.gradient_c[0]; }), items.each([](const Incidence& i) { return i.stencil.gradient_c[1]; })},
       items.each([](const Incidence& i) { return i.stencil.area; })};
-  const Vector<Pack> b = items.each_place([&](const Incidence& i) -> const Place& { return view.place(i.index[0]); });
-  const Vector<Pack> c = items.each_place([&](const Incidence& i) -> const Place& { return view.place(i.index[1]); });
+  const Vector<Pack> b = items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[0])]; });
+  const Vector<Pack> c = items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[1])]; });
   Symmetric2Of<Pack> start;
   if (material.membrane_damping > 0) {
     start = {items.each([&](const Incidence& i) { return view.strain_start[i.triangle].xx; }),
@@ -51,7 +51,7 @@ inline void add_hinges(const SweepView& view, const Items<HingeIncidence>& items
   using Incidence = HingeIncidence;
   const PackMask opposite = items.each([](const Incidence& i) { return i.hinge < 0 ? 1.0F : 0.0F; }) > Pack{};
   Vector<Pack> p[3];
-  for (int k = 0; k < 3; ++k) p[k] = items.each_place([&](const Incidence& i) -> const Place& { return view.place(i.index[k]); });
+  for (int k = 0; k < 3; ++k) p[k] = items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[k])]; });
   const HingeShapeOf<Pack> shape = hinge_shape_seen<Pack>(opposite, p, own);
   Pack start;
   if (material.bending_damping > 0) start = items.each([&](const Incidence& i) { return view.angle_start[decoded(i.hinge)]; });

@@ -85,7 +85,8 @@ class WarpSearch {
  private:
   static constexpr unsigned everyone_ = 0xffffffffU;
 
-  /// The same, kept in a register: the compiler would read numbers of threads and compute addresses in shared memory anew wherever they are needed.
+  /// The same, to be kept in a register: the compiler would compute addresses in shared memory anew wherever they are needed, and read numbers of threads, as it
+  /// still does in places.
   __device__ static unsigned at_hand(unsigned number) {
     asm volatile("" : "+r"(number));
     return number;
@@ -120,7 +121,7 @@ class WarpSearch {
     pair_count_ += __popc(kept);
   }
 
-  /// The innermost loop of a detection: no branch in it but for the stores, and nothing signed, which would cost divisions by 4 and long addresses more.
+  /// The innermost loop of a detection: no branch in it, and nothing signed, which would cost divisions by 4 and long addresses more.
   __device__ void open() {
     const unsigned take = min(8U, node_count_), own = lane_ / 4, child = lane_ % 4;
     node_count_ -= take;

@@ -93,11 +93,9 @@ struct SweepView {
   const SpringIncidence* springs = nullptr;
   ContactActivation activation = ContactActivation::ogc;
 
-  OGC_HD const Place& place(int index) const { return old[decoded(index) + ((index >> 31) & to_fresh)]; }
-  OGC_HD Vec read(int index) const {
-    const Place whole = place(index);
-    return whole;
-  }
+  /// Where an encoded index is read.
+  OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
+  OGC_HD Vec read(int index) const { return Places{old}[number(index)]; }
   OGC_HD void write(int v, const Vec& x) const {
     old[v + to_fresh] = Place(x);
     position[v] = x;

@@ -2,7 +2,7 @@
 // the device, so the sequence can be recorded once and nothing in it waits for the host.
 //
 //   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
-//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times
+//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then xᵗ and x as places, for the sweep
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; when(detect): X_prev ← x, detect
 //   finish      certificate; commit and sums only if clean; one row
 //
