@@ -44,9 +44,9 @@ constexpr double node_flop = 44;
 constexpr double edge_distance_flop = 96 + 161 + 6;
 /// separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides 69, from three edges 67; 6 more.
 constexpr double facet_distance_flop = 158 + 192 + 6;
-/// Number and ends of a candidate edge, and its two positions where the distance is taken; likewise of a facet.
-constexpr double edge_bytes = sizeof(int) + sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(Place);
-constexpr double facet_bytes = sizeof(int) + sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(Place);
+/// Ends of a candidate edge, and its two positions where the distance is taken; likewise of a facet.
+constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(Place);
+constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(Place);
 
 struct SearchCount {
   std::int64_t nodes = 0, candidates = 0, distances = 0;
@@ -69,11 +69,11 @@ SearchCount count_searches(const Searches<Query>& searches) {
   SearchCount count;
   for (int i = 0; i < searches.count && !searches.query.is_off(); ++i) {
     Search search = searches.query.begin(i);
-    for_each_near(CountedTree{searches.tree, count.nodes}, search.box, search.from, search.limit, [&](int place, float gap) {
+    for_each_near(CountedTree{searches.tree, count.nodes}, search.box, search.from, search.limit, [&](const Offer& offer) {
       ++count.candidates;
-      if (!searches.query.is_pair(search, place, gap)) return;
+      if (!searches.query.is_pair(search, offer)) return;
       ++count.distances;
-      search.limit = smaller(search.limit, searches.query.meet(search, place, gap));
+      search.limit = smaller(search.limit, searches.query.meet(search, offer.primitive, offer.gap));
     });
   }
   return count;

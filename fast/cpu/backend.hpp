@@ -66,8 +66,8 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
-inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) { return {f.view, f.first_slot}; }
-inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) { return {f.view, f.first_slot}; }
+inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) { return {f.view, f.first_slot, f.asks_late}; }
+inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) { return {f.view, f.first_slot, f.asks_late}; }
 
 class CpuBackend {
  public:
@@ -119,6 +119,11 @@ class CpuBackend {
       total += item;
     }
     out[n] = total;
+  }
+
+  void exclusive_scans(const Scan& first, const Scan& second) {
+    exclusive_scan(first.in, first.out, first.count);
+    exclusive_scan(second.in, second.out, second.count);
   }
 
   /// The original place breaks ties: that makes an unstable parallel sort stable.

@@ -13,18 +13,18 @@ inline Vector<Pack> gathered(Places positions, int a, int b, int c, int d) {
   return transposed(positions.at[a], positions.at[b], positions.at[c], positions.at[d]);
 }
 
-inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* place) {
+inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
-  for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[query.tree.order[place[k]]];
+  for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[primitive[k]];
   const Places x = query.positions;
   return separation(EndsOf<Pack>{everywhere(x[own.a]), everywhere(x[own.b])},
                     EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a), gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
-inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* place) {
+inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* primitive) {
   const int* corner[Pack::width];
-  for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[query.tree.order[place[k]]].corner;
+  for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
   const auto at = [&](int i) { return gathered(query.positions, corner[0][i], corner[1][i], corner[2][i], corner[3][i]); };
   return separation(everywhere(search.box.lower), CornersOf<Pack>{at(0), at(1), at(2)});
 }
@@ -34,23 +34,23 @@ template <class Query>
 struct Waiting {
   const Query& query;
   Search& search;
-  int place[Pack::width], count = 0;
+  int primitive[Pack::width], count = 0;
   float gap[Pack::width], within[Pack::width];
 
-  void take(int at, float its_gap) {
-    const float limit = query.candidate_limit(search, at, its_gap);
+  void take(const Offer& offer) {
+    const float limit = query.candidate_limit(search, offer);
     if (limit < 0) return;
-    place[count] = at, gap[count] = its_gap, within[count] = limit;
+    primitive[count] = offer.primitive, gap[count] = offer.gap, within[count] = limit;
     if (++count == Pack::width) look();
   }
 
   void look() {
     if (count == 0) return;
-    for (int k = count; k < Pack::width; ++k) place[k] = place[0];
+    for (int k = count; k < Pack::width; ++k) primitive[k] = primitive[0];
     float apart[Pack::width];
-    separations(query, search, place).store(apart);
+    separations(query, search, primitive).store(apart);
     for (int k = 0; k < count; ++k) {
-      if (!is_beyond(apart[k], within[k])) search.limit = smaller(search.limit, query.meet(search, place[k], gap[k]));
+      if (!is_beyond(apart[k], within[k])) search.limit = smaller(search.limit, query.meet(search, primitive[k], gap[k]));
     }
     count = 0;
   }
@@ -63,7 +63,7 @@ void run_search(const Searches<Query>& searches, int i) {
   Search search = searches.query.begin(i);
   if (search.margin > 0) return searches.run_alone(i);
   Waiting<Query> waiting{searches.query, search, {}, 0, {}, {}};
-  for_each_near(searches.tree, search.box, search.from, search.limit, [&](int place, float gap) { waiting.take(place, gap); });
+  for_each_near(searches.tree, search.box, search.from, search.limit, [&](const Offer& offer) { waiting.take(offer); });
   waiting.look();
 }
 

@@ -7,7 +7,7 @@
 //
 // A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs. So `replay` records what a body
 // enqueues into a graph, once, and launches the graph once for each repetition. It records again when a Buffer has moved, since a graph holds pointers.
-// `when` becomes a conditional IF node there (4.6 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel of a detection's 20 to 60), `repeat` a
+// `when` becomes a conditional IF node there (4.1 to 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a
 // WHILE node. Outside a recording (probes, --profile) both read the flag on the host. Conditional nodes need a driver of CUDA 12.4; this runtime (13) asks for a newer one.
 #pragma once
 
@@ -36,7 +36,11 @@ inline constexpr int cuda_block_size = 128;
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
 /// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md); the bits are the same.
-inline constexpr int serial_lanes_per_multiprocessor = 240;
+inline constexpr int serial_lanes_per_multiprocessor = 350;
+
+/// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come one after the other anyway, neighbours in one
+/// block share more of what they read (measured: fast/PERFORMANCE.md).
+inline constexpr int strided_blocks_per_multiprocessor = 5;
 
 /// Blocks of a loop's launch that a multiprocessor shall hold at once, as F::resident_blocks says: the compiler then takes no more registers than leave room for
 /// them. 0: as many registers as it likes.
@@ -86,10 +90,13 @@ __global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }
 
-/// Likewise; a block is serial_block_size/W teams.
+/// Likewise; a block is serial_block_size/W teams. `strided`: those of a warp are neighbours, those of its warps are far apart, so that items which take long and
+/// lie side by side are shared out.
 template <int W, class F>
-__global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f) {
-  const int i = (static_cast<int>(blockIdx.x) * serial_block_size + static_cast<int>(threadIdx.x)) / W;
+__global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f, bool strided) {
+  const int warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
+  const int place = strided ? warp * static_cast<int>(gridDim.x) + block : block * (serial_block_size / 32) + warp;
+  const int i = place * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
@@ -146,8 +153,12 @@ class CudaBackend {
     const bool serial = static_cast<std::int64_t>(n) * W >= std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
     const int teams = (serial ? serial_block_size : 32) / W;  // of a block
     const int blocks = (n + teams - 1) / teams;
-    launch_kernel(current_, start == Start::overlapping, serial ? run_serial_teams<W, F> : run_spread_teams<W, F>, blocks,
-                  serial ? serial_block_size : 32 * F::parts, n, f);
+    const bool early = start == Start::overlapping;
+    if (serial) {
+      launch_kernel(current_, early, run_serial_teams<W, F>, blocks, serial_block_size, n, f, blocks <= multiprocessors_ * strided_blocks_per_multiprocessor);
+    } else {
+      launch_kernel(current_, early, run_spread_teams<W, F>, blocks, 32 * F::parts, n, f);
+    }
     check_launch(typeid(F));
     follows_ = true;
   }
@@ -165,6 +176,10 @@ class CudaBackend {
 
   void exclusive_scan(const int* in, int* out, int n) {
     fast::exclusive_scan(current_, scratch_, recording_ && follows_, in, out, n);
+    follows_ = true;
+  }
+  void exclusive_scans(const Scan& first, const Scan& second) {
+    fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;
   }
   void sort_pairs(std::uint64_t* keys, int* values, int n) {

@@ -32,12 +32,18 @@ constexpr int longest_short_scan = 1 << 16;
 
 // A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two launches, and a detection has three
 // scans.
-__global__ void __launch_bounds__(scan_threads) scan_short(const int* in, int* out, int n) {
+// The first blocks scan the one, the others the other.
+__global__ void __launch_bounds__(scan_threads) scan_short(Scan first_scan, int first_blocks, Scan second_scan) {
   follow_launch();
+  const bool is_first = static_cast<int>(blockIdx.x) < first_blocks;
+  const Scan scan = is_first ? first_scan : second_scan;
+  const int* in = scan.in;
+  int* out = scan.out;
+  const int n = scan.count, block = static_cast<int>(blockIdx.x) - (is_first ? 0 : first_blocks);
   using Sums = unsigned long long;  // of what stands before the tile, above; of the tile, in the low half
   using Scan = cub::BlockScan<Sums, scan_threads, cub::BLOCK_SCAN_WARP_SCANS>;
   __shared__ typename Scan::TempStorage memory;
-  const int thread = static_cast<int>(threadIdx.x), tile = static_cast<int>(blockIdx.x) * scan_tile, first = tile + thread * scan_items;
+  const int thread = static_cast<int>(threadIdx.x), tile = block * scan_tile, first = tile + thread * scan_items;
   int item[scan_items], own = 0, before = 0;
   for (int k = 0; k < scan_items; ++k) own += item[k] = first + k < n ? in[first + k] : 0;
   const int4* fours = reinterpret_cast<const int4*>(in);
@@ -52,6 +58,17 @@ __global__ void __launch_bounds__(scan_threads) scan_short(const int* in, int* o
   for (int k = 0; k < scan_items; sum += item[k], ++k) {
     if (first + k <= n) out[first + k] = sum;
   }
+}
+
+bool is_short(const Scan& scan) {
+  return scan.count <= longest_short_scan && scan.in != scan.out && reinterpret_cast<std::uintptr_t>(scan.in) % alignof(int4) == 0;
+}
+
+// A count of −1: none.
+void launch_short(cudaStream_t stream, bool early, const Scan& first, const Scan& second) {
+  const auto blocks = [](const Scan& scan) { return scan.count < 0 ? 0 : scan.count / scan_tile + 1; };
+  launch_kernel(stream, early, scan_short, blocks(first) + blocks(second), scan_threads, first, blocks(first), second);
+  OGC_CUDA_CHECK(cudaGetLastError());
 }
 
 }  // namespace
@@ -70,16 +87,18 @@ void* Scratch::request(std::size_t bytes) {
 }
 
 void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const int* in, int* out, int n) {
-  if (n <= longest_short_scan && in != out && reinterpret_cast<std::uintptr_t>(in) % alignof(int4) == 0) {
-    launch_kernel(stream, early, scan_short, n / scan_tile + 1, scan_threads, in, out, n);
-    OGC_CUDA_CHECK(cudaGetLastError());
-    return;
-  }
+  if (is_short({in, out, n})) return launch_short(stream, early, {in, out, n}, {nullptr, nullptr, -1});
   const auto padded = thrust::make_transform_iterator(thrust::counting_iterator<int>(0), PaddedItems{in, n});
   std::size_t bytes = 0;
   OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(nullptr, bytes, padded, out, n + 1, stream));
   void* temporary = scratch.request(std::max<std::size_t>(bytes, 1));
   OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(temporary, bytes, padded, out, n + 1, stream));
+}
+
+void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second) {
+  if (is_short(first) && is_short(second)) return launch_short(stream, early, first, second);
+  exclusive_scan(stream, scratch, early, first.in, first.out, first.count);
+  exclusive_scan(stream, scratch, true, second.in, second.out, second.count);
 }
 
 void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n) {

@@ -8,6 +8,8 @@
 
 #include <cuda_runtime.h>
 
+#include "fast/stages/backend.hpp"
+
 namespace ogc::fast {
 
 /// Temporary memory of a backend's collectives. A request that is larger than any before adds a block and keeps the old ones until the backend ends:
@@ -28,6 +30,9 @@ class Scratch {
 
 /// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ n; `out` may be `in`. `early`: see launch_kernel.
 void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const int* in, int* out, int n);
+
+/// Two of them, neither of which reads what the other writes; one launch where both are short.
+void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second);
 
 /// Stable, ascending, in place.
 void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n);

@@ -1,4 +1,4 @@
-// How a kernel comes after another. In a graph a launch costs its latency each time, and a detection is twelve dependent launches of a few microseconds
+// How a kernel comes after another. In a graph a launch costs its latency each time, and a detection is nine dependent launches of a few microseconds
 // each. So a launch may be brought to the device while the one before it still runs (programmatic dependent launch): `follow_launch` is the first thing that
 // such a kernel does, and it waits there until the one before has ended and what it wrote can be seen. The next launch is let in only after this wait, so
 // that whatever came two launches before has ended too; a kernel that reads ahead of its wait (fast/cuda/team.cuh) relies on that.

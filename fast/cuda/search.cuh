@@ -37,14 +37,10 @@ struct SearchNode {
   __device__ int place() const { return static_cast<int>(bits & 0x1ffffffU); }
 };
 
-/// A primitive that a leaf offered: search of the group, place.
-struct SearchItem {
-  unsigned bits;
-  float gap;
-
-  __device__ static SearchItem of(int slot, int place, float gap) { return {static_cast<unsigned>(slot) << 28 | static_cast<unsigned>(place), gap}; }
-  __device__ int slot() const { return static_cast<int>(bits >> 28); }
-  __device__ int place() const { return static_cast<int>(bits & 0xfffffffU); }
+/// A primitive that a leaf offered to a search of the group.
+struct alignas(16) SearchItem {
+  int slot;
+  Offer offer;
 };
 
 /// Open ends of one warp. A list from which 32 could be taken gets nothing, and no round adds more than 32.
@@ -102,8 +98,8 @@ class WarpSearch {
     pair_count_ -= take;
     if (lane_ >= take) return;
     const SearchItem pair = memory_.pairs[pair_count_ + lane_];
-    Search& search = memory_.searches[pair.slot()];
-    const float limit = query_.meet(search, pair.place(), pair.gap);
+    Search& search = memory_.searches[pair.slot];
+    const float limit = query_.meet(search, pair.offer.primitive, pair.offer.gap);
     if (limit < search.limit) atomicMin(reinterpret_cast<int*>(&search.limit), __float_as_int(limit));
   }
 
@@ -114,7 +110,7 @@ class WarpSearch {
     bool keep = false;
     if (lane_ < take) {
       item = memory_.candidates[candidate_count_ + lane_];
-      keep = query_.is_pair(memory_.searches[item.slot()], item.place(), item.gap);
+      keep = query_.is_pair(memory_.searches[item.slot], item.offer);
     }
     const unsigned kept = __ballot_sync(everyone_, keep);
     if (keep) memory_.pairs[pair_count_ + __popc(kept & before())] = item;
@@ -128,13 +124,13 @@ class WarpSearch {
     const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];  // who has none looks at the last, for nothing
     const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(child);
     const Search& search = memory_.searches[slot];
-    const Quad& quad = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())];
-    const float gap = squared_gap(quad.box(child), search.box);
-    const bool is_leaf = level == 0, is_near = (own < take) & (gap <= larger(search.limit, quad.reach[child])) & (j >= search.from >> (2 * level));
+    const Lane lane = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())].lane[child];
+    const float gap = squared_gap(lane.box(), search.box);
+    const bool is_leaf = level == 0, is_near = (own < take) & (gap <= larger(search.limit, lane.reach)) & (j >= search.from >> (2 * level));
     const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
     const unsigned rank = __popc(near & (is_leaf ? leaves : ~leaves) & before());
     __syncwarp();
-    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = SearchItem::of(slot, j, gap);
+    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = {slot, {lane.primitive, gap, lane.reach}};
     if (is_near & !is_leaf) memory_.nodes[node_count_ + rank] = SearchNode::of(level - 1, slot, j);
     candidate_count_ += __popc(near & leaves);
     node_count_ += __popc(near & ~leaves);

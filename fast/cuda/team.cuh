@@ -119,7 +119,8 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
 
 }  // namespace detail
 
-/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; once in a kernel, by every thread of the block.
+/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; once in a kernel, by every thread of the block, or `leave` in
+/// its place: whoever comes after this launch may rely on what came before it.
 template <int W>
 class SpreadTeam {
  public:
@@ -127,6 +128,8 @@ class SpreadTeam {
   static constexpr int width = W;
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
+
+  __device__ static void leave() { cudaGridDependencySynchronize(); }
 
   __device__ static void prefetch(const void*, int) {}
 
@@ -164,6 +167,8 @@ class SerialLaneTeam {
   static constexpr int width = W;
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
+
+  __device__ static void leave() { cudaGridDependencySynchronize(); }
 
   /// Has rows of a stream brought near while others are worked on. A launch of SerialLaneTeams reads more than the second-level cache holds.
   __device__ static void prefetch(const void* rows, int bytes) {

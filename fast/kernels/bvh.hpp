@@ -50,22 +50,26 @@ OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 
 /// A squared gap beyond this limit has gap_below ≥ reach: reach² (1 + 64 u) makes up for its 20 u and for the two roundings here.
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
-/// Four boxes, coordinate by coordinate, with the gap limit of each one's reach; lanes without a box are empty.
-struct alignas(16) Quad {
-  float lower[3][4], upper[3][4], reach[4];
+/// A box with the gap limit of its reach and, in level 0, the primitive in it: two reads of 16 B.
+struct alignas(16) Lane {
+  Vec lower{infinity, infinity, infinity};
+  float reach = 0;
+  Vec upper{-infinity, -infinity, -infinity};
+  int primitive = -1;
 
-  OGC_HD void set(int lane, const Box& box, float limit) {
-    lower[0][lane] = box.lower.x, lower[1][lane] = box.lower.y, lower[2][lane] = box.lower.z;
-    upper[0][lane] = box.upper.x, upper[1][lane] = box.upper.y, upper[2][lane] = box.upper.z;
-    reach[lane] = limit;
-  }
-  OGC_HD Box box(int lane) const { return {{lower[0][lane], lower[1][lane], lower[2][lane]}, {upper[0][lane], upper[1][lane], upper[2][lane]}}; }
+  OGC_HD Box box() const { return {lower, upper}; }
+};
+
+/// Four lanes, those without a box empty; as long as a line of a device's cache, and none lies in two.
+struct alignas(128) Quad {
+  Lane lane[4];
+
   OGC_HD Box whole() const {
-    Box all = box(0);
-    for (int lane = 1; lane < 4; ++lane) all.include(box(lane));
+    Box all = lane[0].box();
+    for (int k = 1; k < 4; ++k) all.include(lane[k].box());
     return all;
   }
-  OGC_HD float whole_reach() const { return larger(larger(reach[0], reach[1]), larger(reach[2], reach[3])); }
+  OGC_HD float whole_reach() const { return larger(larger(lane[0].reach, lane[1].reach), larger(lane[2].reach, lane[3].reach)); }
 };
 
 inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal; 4¹⁶ primitives
@@ -101,10 +105,8 @@ struct QuadGaps {
 OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   QuadGaps gaps{{}, 0};
   for (unsigned i = 0; i < 4; ++i) {
-    const float x = gap(quad.lower[0][i], quad.upper[0][i], box.lower.x, box.upper.x), y = gap(quad.lower[1][i], quad.upper[1][i], box.lower.y, box.upper.y);
-    const float z = gap(quad.lower[2][i], quad.upper[2][i], box.lower.z, box.upper.z);
-    gaps.lane[i] = add(add(mul(x, x), mul(y, y)), mul(z, z));
-    gaps.near |= static_cast<unsigned>(gaps.lane[i] <= larger(limit, quad.reach[i])) << i;
+    gaps.lane[i] = squared_gap(quad.lane[i].box(), box);
+    gaps.near |= static_cast<unsigned>(gaps.lane[i] <= larger(limit, quad.lane[i].reach)) << i;
   }
   return gaps;
 }
@@ -114,22 +116,31 @@ OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limi
 /// Four lanes of one register: g++ leaves the loop above scalar, which doubles the time of a whole detection. Same operations, same bits.
 using Four __attribute__((vector_size(16))) = float;
 
-inline Four four(const float (&from)[4]) {
-  Four to;
-  __builtin_memcpy(&to, from, sizeof to);
-  return to;
-}
-
 inline Four larger(Four a, Four b) { return a < b ? b : a; }
 
 inline Four gap(Four lower, Four upper, float other_lower, float other_upper) { return larger(larger(lower - other_upper, other_lower - upper), Four{}); }
 
+/// One half of the four lanes, number by number: the lower corners and the reaches, or the upper corners.
+struct Halves {
+  Four x, y, z, last;
+
+  Halves(const Quad& quad, std::size_t half) {
+    using Bits __attribute__((vector_size(16))) = std::int32_t;
+    Four of[4];
+    for (int k = 0; k < 4; ++k) __builtin_memcpy(&of[k], reinterpret_cast<const char*>(&quad.lane[k]) + half * sizeof(Four), sizeof(Four));
+    const Four xy_01 = __builtin_shuffle(of[0], of[1], Bits{0, 4, 1, 5}), xy_23 = __builtin_shuffle(of[2], of[3], Bits{0, 4, 1, 5});
+    const Four zw_01 = __builtin_shuffle(of[0], of[1], Bits{2, 6, 3, 7}), zw_23 = __builtin_shuffle(of[2], of[3], Bits{2, 6, 3, 7});
+    x = __builtin_shuffle(xy_01, xy_23, Bits{0, 1, 4, 5}), y = __builtin_shuffle(xy_01, xy_23, Bits{2, 3, 6, 7});
+    z = __builtin_shuffle(zw_01, zw_23, Bits{0, 1, 4, 5}), last = __builtin_shuffle(zw_01, zw_23, Bits{2, 3, 6, 7});
+  }
+};
+
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
-  const Four x = gap(four(quad.lower[0]), four(quad.upper[0]), box.lower.x, box.upper.x);
-  const Four y = gap(four(quad.lower[1]), four(quad.upper[1]), box.lower.y, box.upper.y);
-  const Four z = gap(four(quad.lower[2]), four(quad.upper[2]), box.lower.z, box.upper.z);
+  const Halves lower(quad, 0), upper(quad, 1);
+  const Four x = gap(lower.x, upper.x, box.lower.x, box.upper.x), y = gap(lower.y, upper.y, box.lower.y, box.upper.y);
+  const Four z = gap(lower.z, upper.z, box.lower.z, box.upper.z);
   const Four all = x * x + y * y + z * z;
-  const auto bits = (all <= larger(Four{} + limit, four(quad.reach))) & decltype(all <= all){1, 2, 4, 8};
+  const auto bits = (all <= larger(Four{} + limit, lower.last)) & decltype(all <= all){1, 2, 4, 8};
   QuadGaps gaps{{}, static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3])};
   __builtin_memcpy(gaps.lane, &all, sizeof all);
   return gaps;
@@ -137,13 +148,21 @@ inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
 
 #endif
 
-/// Calls visit(place, squared gap) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own reach. The visitor
+/// A primitive that a leaf offers to a search: the squared gap of their boxes, and the gap limit of its reach.
+struct Offer {
+  int primitive;
+  float gap, reach;
+};
+
+/// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own reach. The visitor
 /// may lower `limit` on the way. `Tree`: a TreeView, or what counts the nodes of one as they are opened (fast/work.cpp).
 template <class Tree, class Visit>
 OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
   QuadGaps gaps;
+  const Quad* quad = nullptr;
   const auto near_lanes = [&](int level, int j) {
-    gaps = squared_gaps(tree.node(level, j), box, limit);
+    quad = &tree.node(level, j);
+    gaps = squared_gaps(*quad, box, limit);
     const int passed = (from >> (2 * level)) - 4 * j;  // lanes that lie before `from` altogether
     return passed > 0 ? gaps.near & 15U << (passed < 4 ? passed : 4) : gaps.near;
   };
@@ -165,7 +184,7 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
     }
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = lowest_bit(lanes);
-      visit(4 * child + lane, gaps[lane]);
+      visit(Offer{quad->lane[lane].primitive, gaps[lane], quad->lane[lane].reach});
     }
   }
 }
@@ -218,25 +237,38 @@ struct Reach {
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
 /// Boxes and gap limits of the reaches of all primitives and of the nodes above them, and those limits of the vertices; index: places of the facets, of the
-/// edges, vertices. Whoever completes the 16 children that two levels stand on goes on with these: the whole tree in one launch. Who that is changes no bit.
+/// edges, each kind filled up to a multiple of 32, vertices. Whoever completes the 16 children that two levels stand on goes on with these: the whole tree in one launch. Who
+/// that is changes no bit. A warp of a device holds 32 neighbours, which must take part together, so that its lowest two levels never leave its registers.
 struct RefitTrees {
   Reach reach;
   TreeView facets, edges;
   int *facet_arrivals, *edge_arrivals;  ///< a number for each node, 0 between two launches
   float* vertex_limit;
+  int vertex_count;
+
+  OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
+  OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
   OGC_HD void operator()(int i) const {
     if (!needs_trees(reach.skin)) return;
-    const int edge_place = i - facets.count, v = edge_place - edges.count;
+    const int edge_place = i - filled_up(facets.count), v = edge_place - filled_up(edges.count);
     if (edge_place < 0) {
-      const int t = facets.order[i];
-      facets.node(0, i / 4).set(i % 4, facet_box(t), gap_limit(reach.of_facet(t)));
-      climb(facets, facet_arrivals, i);
+      Lane own;
+      if (i < facets.count) {
+        const int t = facets.order[i];
+        const Box box = facet_box(t);
+        own = {box.lower, gap_limit(reach.of_facet(t)), box.upper, t};
+      }
+      place(facets, facet_arrivals, i, own);
     } else if (v < 0) {
-      const int e = edges.order[edge_place];
-      edges.node(0, edge_place / 4).set(edge_place % 4, edge_box(e), gap_limit(reach.of_edge(e)));
-      climb(edges, edge_arrivals, edge_place);
-    } else {
+      Lane own;
+      if (edge_place < edges.count) {
+        const int e = edges.order[edge_place];
+        const Box box = edge_box(e);
+        own = {box.lower, gap_limit(reach.of_edge(e)), box.upper, e};
+      }
+      place(edges, edge_arrivals, edge_place, own);
+    } else if (v < vertex_count) {
       vertex_limit[v] = gap_limit(reach.of_vertex(v));
     }
   }
@@ -254,8 +286,49 @@ struct RefitTrees {
     return box;
   }
 
-  /// From the lanes of a place up, as far as nobody else is still to come.
-  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j) {
+#if defined(__CUDA_ARCH__)
+
+  static constexpr unsigned everyone = 0xffffffffU;
+
+  /// The lane of four neighbours, or of four lanes that are `apart` threads from each other, in each of them.
+  OGC_HD static Lane of_four(Lane lane, int apart) {
+    for (int step = apart; step <= 2 * apart; step *= 2) {
+      const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
+      Box box = lane.box();
+      box.include(Box{{other(lane.lower.x), other(lane.lower.y), other(lane.lower.z)}, {other(lane.upper.x), other(lane.upper.y), other(lane.upper.z)}});
+      lane = {box.lower, larger(lane.reach, other(lane.reach)), box.upper, -1};
+    }
+    return lane;
+  }
+
+  /// The lanes of a place, and up from there. 16 neighbours go on together, as long as they complete what two levels stand on: each reads one lane of it.
+  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Lane own) {
+    const int lane = static_cast<int>(threadIdx.x % 16);
+    int node = j / 16;  // of level 1, and so on
+    bool goes_on = j - lane < tree.count;
+    if (j < tree.count) tree.node(0, j / 4).lane[j % 4] = own;
+    for (int level = 1;; level += 2) {
+      const Lane four = of_four(own, 1), sixteen = of_four(four, 4);
+      if (goes_on && lane % 4 == 0 && 4 * node + lane / 4 < level_size(tree.count, level - 1)) tree.node(level, node).lane[lane / 4] = four;
+      if (goes_on && lane == 0 && level + 1 < tree.levels) tree.node(level + 1, node / 4).lane[node % 4] = sixteen;
+      if (level + 2 >= tree.levels) return;
+      const int above = node / 16, children = level_size(tree.count, level) - 16 * above;
+      if (goes_on && lane == 0) goes_on = arrives_last(&arrivals[tree.start[level + 2] + above], children < 16 ? children : 16);
+      goes_on = __shfl_sync(everyone, goes_on ? 1 : 0, static_cast<int>(threadIdx.x % 32 - threadIdx.x % 16)) != 0;
+      if (!__any_sync(everyone, goes_on)) return;
+      __syncwarp();
+      node = above;
+      const int below = 4 * node + lane / 4;
+      own = goes_on && below < level_size(tree.count, level + 1) ? tree.node(level + 1, below).lane[lane % 4] : Lane{};
+    }
+  }
+
+#else
+
+  /// The lane of a place, and up from there as far as nobody else is still to come.
+  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, const Lane& own) {
+    if (j >= tree.count) return;
+    tree.node(0, j / 4).lane[j % 4] = own;
     for (int level = 1; level < tree.levels; level += 2) {
       j /= 16;
       const int children = level_size(tree.count, level - 2) - 16 * j;
@@ -264,16 +337,22 @@ struct RefitTrees {
     }
   }
 
+  OGC_HD static Lane whole(const Quad& quad) {
+    const Box box = quad.whole();
+    return {box.lower, quad.whole_reach(), box.upper, -1};
+  }
+
   /// Given the lanes of level `level` − 1, those of node j of `level` and its own lane of the one above.
   OGC_HD static void refit_node(const TreeView& tree, int level, int j) {
     Quad& quad = tree.node(level, j);
     const int below = level_size(tree.count, level - 1);
     for (int lane = 0; lane < 4 && 4 * j + lane < below; ++lane) {
-      const Quad& child = tree.node(level - 1, 4 * j + lane);
-      quad.set(lane, child.whole(), child.whole_reach());
+      quad.lane[lane] = whole(tree.node(level - 1, 4 * j + lane));
     }
-    if (level + 1 < tree.levels) tree.node(level + 1, j / 4).set(j % 4, quad.whole(), quad.whole_reach());
+    if (level + 1 < tree.levels) tree.node(level + 1, j / 4).lane[j % 4] = whole(quad);
   }
+
+#endif
 };
 
 /// The 20 low bits of n, two zeros between each and the next.

@@ -68,43 +68,34 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// for_each over slots. A detection that failed leaves the old stream, which is whole: the sweeps that follow are not committed.
+/// for_each over slots. `Item`: an incidence of whatever kind; rows may have any order.
+template <class Item>
 struct CopyContactRows {
   const int* incidence_offsets;
-  const Incidence* incidences;
+  const Item* incidences;
+  const int* off;  ///< not 0: the old rows stay; null: never
   const SweepVertex* vertices;
   ContactRow* rows;
-  const StepControl* control;
 
   OGC_HD void operator()(int slot) const {
-    if (control->active == 0) return;
+    if (off != nullptr && *off != 0) return;
     const int v = vertices[slot].vertex, begin = incidence_offsets[v], end = incidence_offsets[v + 1];
-    rows[slot] = {begin, first_edge_edge(begin, end) - begin, end - begin};
-  }
-
- private:
-  /// In a row, codes ascend and those of edge–edge contacts have the highest bit.
-  OGC_HD int first_edge_edge(int low, int high) const {
-    while (low < high) {
-      const int middle = low + (high - low) / 2;
-      if (incidences[middle].code >> 31 != 0) high = middle;
-      else low = middle + 1;
-    }
-    return low;
+    int vertex_facet = 0;
+    for (int k = begin; k < end; ++k) vertex_facet += incidences[k].code >> 31 == 0 ? 1 : 0;
+    rows[slot] = {begin, vertex_facet, end - begin};
   }
 };
 
-/// for_each_counted over all incidences.
+/// An incidence at its place in the stream, for RankIncidences; or for_each_counted over all incidences that have their places already.
 struct ResolveContact {
   ContactView view;
   ContactTables tables;
   const int* colour;
   ContactIncidence* stream;
-  const StepControl* control;
 
-  OGC_HD void operator()(int i) const {
-    if (control->active == 0) return;
-    const std::uint32_t code = view.incidences[i].code;
+  OGC_HD void operator()(int place) const { (*this)(place, view.incidences[place]); }
+  OGC_HD void operator()(int place, Incidence incidence) const {
+    const std::uint32_t code = incidence.code;
     const bool edge_edge = (code >> 31) != 0;
     const std::uint32_t number = (code & 0x7fffffffu) >> 2;
     ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number]) : contact_of(tables, view.vertex_facet[number]);
@@ -113,7 +104,7 @@ struct ResolveContact {
     for (int& index : contact.index) {
       if (colour[index] < own) index = ~index;
     }
-    stream[i] = contact;
+    stream[place] = contact;
   }
 };
 

@@ -34,6 +34,7 @@ OGC_HD inline float float_from_bits(int bits) {
 struct ControlSettings {
   int cut_threshold = 1;       ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
   int redetect_every = 0;
+  int iterations = 1 << 30;    ///< of a step; after the last no detection is made
   int guess_rounds = 16;
   int sort_every = 1;          ///< steps that keep the order of the trees
   float contact_radius = 0;    ///< r [m]
@@ -51,6 +52,7 @@ struct StepControl {
   int sort = 0;       ///< a new order of the trees
   int guess = 0;      ///< another round of the guess loop
   int detect = 0;     ///< detection before the next iteration
+  int turn = 0;       ///< the iteration that is next, from 0; −1 while a detection is due
   float query_radius = 0;  ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;  ///< [m]
@@ -83,7 +85,7 @@ struct BeginStep {
     c.largest_move = c.largest_lag = 0;
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
-    c.rounds = c.detections = c.since_detection = c.iterations = 0;
+    c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;
   }
 };
 
@@ -112,6 +114,7 @@ struct EndDetection {
     ++c.detections;
     c.since_detection = 0;
     c.detect = 0;
+    c.turn = c.iterations;
     stop_if_failed(c);
   }
 };
@@ -130,20 +133,23 @@ struct EndRound {
   }
 };
 
-/// Alg. 3 line 29, and the largest number of iterations between detections.
+/// Alg. 3 line 29, and the largest number of iterations between detections. `number`: of the iteration, which ends only if it was its turn; −1: it was.
 struct EndIteration {
   StepControl* control;
   ControlSettings settings;
+  int number = -1;
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
+    if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
     const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
-    c.detect = c.active != 0 && (due || c.cut >= settings.cut_threshold) ? 1 : 0;
+    c.detect = c.active != 0 && c.iterations < settings.iterations && (due || c.cut >= settings.cut_threshold) ? 1 : 0;
     c.cut_last = c.cut;
     c.cut = 0;
     stop_if_failed(c);
+    c.turn = c.detect != 0 ? -1 : c.iterations;
   }
 };
 

@@ -24,33 +24,33 @@ struct DetectEdgeEdge {
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
   OGC_HD Search begin(int i) const {
-    const Quad& leaf = tree.node(0, i / 4);
+    const Lane lane = tree.node(0, i / 4).lane[i % 4];
     const float margin = skin.search_margin();
-    return {leaf.box(i % 4), tree.order[i], i + 1, larger(gap_limit(add(contact_radius, margin)), leaf.reach[i % 4]), margin};
+    return {lane.box(), lane.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), lane.reach), margin};
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
-  OGC_HD float candidate_limit(const Search& search, int place, float gap) const {
-    const EdgeEnds p = surface.edges[search.owner], q = surface.edges[tree.order[place]];
+  OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
+    const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
     if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
-    const float within = limit(search, place, search.margin);
-    return gap > within ? -1.0F : within;
+    const float within = limit(search, offer, search.margin);
+    return offer.gap > within ? -1.0F : within;
   }
 
-  OGC_HD bool is_pair(const Search& search, int place, float gap) const {
-    const float within = candidate_limit(search, place, gap);
+  OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
+    const float within = candidate_limit(search, offer);
     if (within < 0) return false;
-    const int other = tree.order[place];
+    const int other = offer.primitive;
     const float apart = separation(ends(surface.edges[search.owner]), ends(surface.edges[other]));
     if (is_beyond(apart, within)) return false;
     if (!(search.margin > 0)) return true;
     skin.keep(search.owner < other ? NotedPair{search.owner, other} : NotedPair{other, search.owner});
-    const float without_margin = limit(search, place, 0.0F);
-    return !(gap > without_margin) && !is_beyond(apart, without_margin);
+    const float without_margin = limit(search, offer, 0.0F);
+    return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
-  OGC_HD float meet(const Search& search, int place, float gap) const {
-    const int e = search.owner, other = tree.order[place], low = e < other ? e : other, high = e < other ? other : e;
+  OGC_HD float meet(const Search& search, int other, float gap) const {
+    const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(add(larger(contact_radius, measure(low, high, gap)), search.margin));
   }
 
@@ -62,10 +62,9 @@ struct DetectEdgeEdge {
   }
 
  private:
-  OGC_HD float limit(const Search& search, int place, float margin) const {
-    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[tree.order[place]]);
-    const float reach = tree.node(0, place / 4).reach[place % 4];
-    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
+  OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
+    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[offer.primitive]);
+    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(offer.reach, gap_limit(add(theirs, margin))));
   }
 
   /// Of which no smallest distance of this detection will be above.

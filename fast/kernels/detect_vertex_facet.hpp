@@ -37,29 +37,28 @@ struct DetectVertexFacet {
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
-  OGC_HD float candidate_limit(const Search& search, int place, float gap) const {
+  OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const int v = search.owner;
-    const Facet& facet = surface.facets[tree.order[place]];
+    const Facet& facet = surface.facets[offer.primitive];
     if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet)) return -1.0F;
-    const float within = limit(search, place, search.margin);
-    return gap > within ? -1.0F : within;
+    const float within = limit(search, offer, search.margin);
+    return offer.gap > within ? -1.0F : within;
   }
 
-  OGC_HD bool is_pair(const Search& search, int place, float gap) const {
-    const float within = candidate_limit(search, place, gap);
+  OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
+    const float within = candidate_limit(search, offer);
     if (within < 0) return false;
-    const int t = tree.order[place];
+    const int t = offer.primitive;
     const float apart = separation(search.box.lower, corners(surface.facets[t]));
     if (is_beyond(apart, within)) return false;
     if (!(search.margin > 0)) return true;
     skin.keep({~search.owner, t});
-    const float without_margin = limit(search, place, 0.0F);
-    return !(gap > without_margin) && !is_beyond(apart, without_margin);
+    const float without_margin = limit(search, offer, 0.0F);
+    return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
-  OGC_HD float meet(const Search& search, int place, float gap) const {
-    const int v = search.owner, t = tree.order[place];
-    return gap_limit(add(larger(contact_radius, measure(v, t, gap)), search.margin));
+  OGC_HD float meet(const Search& search, int t, float gap) const {
+    return gap_limit(add(larger(contact_radius, measure(search.owner, t, gap)), search.margin));
   }
 
   /// A pair kept by a search before.
@@ -75,10 +74,9 @@ struct DetectVertexFacet {
   }
 
  private:
-  OGC_HD float limit(const Search& search, int place, float margin) const {
-    const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])), theirs = atomic_load(&d_min_triangle[tree.order[place]]);
-    const float reach = tree.node(0, place / 4).reach[place % 4];
-    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(reach, gap_limit(add(theirs, margin))));
+  OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
+    const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])), theirs = atomic_load(&d_min_triangle[offer.primitive]);
+    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(offer.reach, gap_limit(add(theirs, margin))));
   }
 
   /// The pair's distance for both partners, and the note where it may be a contact.

@@ -27,7 +27,11 @@ struct alignas(16) RawContact {
   }
 };
 
-OGC_HD inline bool operator<(const Incidence& a, const Incidence& b) { return a.code < b.code; }
+/// An incidence that has no order yet, and whose it is.
+struct alignas(8) LooseIncidence {
+  std::uint32_t code;
+  int vertex;
+};
 
 struct ListsView {
   NotedPair* noted = nullptr;
@@ -51,7 +55,8 @@ struct ListsView {
   int* incidence_counts = nullptr;   ///< by vertex
   int* incidence_offsets = nullptr;  ///< vertices + 1
   int* incidence_filled = nullptr;   ///< by vertex
-  Incidence* incidences = nullptr;
+  LooseIncidence* loose = nullptr;   ///< row by row, in any order within one
+  Incidence* incidences = nullptr;   ///< row by row, ascending
 
   /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of a certain one is stored inverted.
   OGC_HD void note(NotedPair pair, bool certain) const {
@@ -102,42 +107,107 @@ struct FillBuckets {
   }
 };
 
-/// Of what stands in a bucket twice, the one with the lowest-numbered edges stays. Index over all contacts in their buckets.
+/// The vertices of a contact by role (contact_view.hpp); −1: nobody has it.
+struct RoleVertices {
+  int role[4] = {-1, -1, -1, -1};
+};
+
+/// What a raw contact stands for.
+struct ContactFaces {
+  SurfaceView surface;
+
+  OGC_HD bool is_vertex_facet(const RawContact& contact) const { return contact.bucket < surface.vertex_count; }
+
+  OGC_HD RoleVertices vertices(const RawContact& contact) const {
+    RoleVertices of;
+    if (is_vertex_facet(contact)) {
+      of.role[0] = contact.bucket;
+      const int e = contact.second - surface.vertex_count, t = e - surface.edge_count;
+      if (t < 0) {
+        write_face(contact.second, of.role + 1);
+      } else {
+        for (int k = 0; k < 3; ++k) of.role[1 + k] = surface.facets[t].corner[k];
+      }
+    } else {
+      write_face(contact.bucket - surface.vertex_count, of.role);
+      write_face(contact.second, of.role + 2);
+    }
+    return of;
+  }
+
+ private:
+  OGC_HD void write_face(int face, int* vertices) const {
+    if (face < surface.vertex_count) {
+      vertices[0] = face;
+    } else {
+      vertices[0] = surface.edges[face - surface.vertex_count].a;
+      vertices[1] = surface.edges[face - surface.vertex_count].b;
+    }
+  }
+};
+
+/// Of what stands in a bucket twice, the one with the lowest-numbered edges stays, and is counted for its bucket and its vertices. Index over all contacts in
+/// their buckets.
 struct DropDuplicates {
   ListsView lists;
+  ContactFaces faces;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     RawContact own = lists.bucketed[i];
+    bool stays = true;  // and no break below: reads that depend on one another are what a device waits for
     for (int k = lists.raw_offsets[own.bucket], end = lists.raw_offsets[own.bucket + 1]; k < end; ++k) {
       const RawContact other = lists.bucketed[k];
-      if (other.second == own.second && (other < own || (!(own < other) && k < i))) {
-        own.bucket = -1;
-        break;
-      }
+      stays &= !(other.second == own.second && (other < own || (!(own < other) && k < i)));
     }
+    if (!stays) own.bucket = -1;
     lists.raw[i] = own;
-    if (own.bucket >= 0) atomic_add(&lists.record_counts[own.bucket], 1);
+    if (own.bucket < 0) return;
+    atomic_add(&lists.record_counts[own.bucket], 1);
+    for (const int v : faces.vertices(own).role) {
+      if (v >= 0) atomic_add(&lists.incidence_counts[v], 1);
+    }
   }
 };
 
-/// Writes the record of each contact that stayed; index over all contacts in their buckets.
+/// Incidences of record `number` of its kind into the rows of its vertices.
+OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& vertices, bool edge_edge, int number) {
+  const std::uint32_t code = (edge_edge ? 0x80000000U : 0U) | static_cast<std::uint32_t>(number) << 2;
+  int place[4] = {0, 0, 0, 0};
+  for (int k = 0; k < 4; ++k) {
+    const int v = vertices.role[k];
+    if (v >= 0) place[k] = lists.incidence_offsets[v] + atomic_add(&lists.incidence_filled[v], 1);
+  }
+  for (int k = 0; k < 4; ++k) {  // after all four answers, in place of each after its own
+    const int v = vertices.role[k];
+    if (v >= 0) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), v};
+  }
+}
+
+/// Writes the record and the incidences of each contact that stayed; index over all contacts in their buckets.
 struct WriteRecords {
   ListsView lists;
-  SurfaceView surface;
+  ContactFaces faces;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
+    const SurfaceView& surface = faces.surface;
     const int edge_edge_start = lists.record_offsets[surface.vertex_count];
     if (i == 0) *lists.edge_edge_count = lists.record_offsets[lists.buckets] - edge_edge_start;
     const RawContact own = lists.raw[i];
     if (own.bucket < 0) return;
-    const int record = lists.record_offsets[own.bucket] + rank(own);
-    if (own.bucket < surface.vertex_count) {
-      write_vertex_facet(own, record);
+    const bool edge_edge = !faces.is_vertex_facet(own);
+    const int record = lists.record_offsets[own.bucket] + rank(own) - (edge_edge ? edge_edge_start : 0);
+    const RoleVertices vertices = faces.vertices(own);
+    const int* v = vertices.role;
+    if (edge_edge) {
+      const bool is_low_first = holds(own.bucket - surface.vertex_count, own.low);
+      lists.edge_edge[record] = {{v[0], v[1]}, {v[2], v[3]}, is_low_first ? own.low : own.high, is_low_first ? own.high : own.low};
     } else {
-      write_edge_edge(own, record - edge_edge_start);
+      lists.vertex_facet[record] = {v[0], {v[1], v[2], v[3]}};
+      lists.vertex_facet_face[record] = own.second;
     }
+    add_incidences(lists, vertices, edge_edge, record);
   }
 
  private:
@@ -149,96 +219,64 @@ struct WriteRecords {
     }
     return before;
   }
-  OGC_HD void count(int vertex) const {
-    if (vertex >= 0) atomic_add(&lists.incidence_counts[vertex], 1);
-  }
-  OGC_HD void write_vertex_facet(const RawContact& contact, int record) const {
-    VertexFacetRecord out{contact.bucket, {-1, -1, -1}};
-    const int e = contact.second - surface.vertex_count, t = e - surface.edge_count;
-    if (e < 0) {
-      out.corner[0] = contact.second;
-    } else if (t < 0) {
-      out.corner[0] = surface.edges[e].a, out.corner[1] = surface.edges[e].b;
-    } else {
-      for (int k = 0; k < 3; ++k) out.corner[k] = surface.facets[t].corner[k];
-    }
-    lists.vertex_facet[record] = out;
-    lists.vertex_facet_face[record] = contact.second;
-    count(out.vertex);
-    for (const int corner : out.corner) count(corner);
-  }
-  /// Of the two generating edges, `first_edge` is the one that holds the first face; the edges share no vertex, so only one does.
-  OGC_HD void write_edge_edge(const RawContact& contact, int record) const {
-    const int first = contact.bucket - surface.vertex_count;
-    EdgeEdgeRecord out{{-1, -1}, {-1, -1}, contact.low, contact.high};
-    write_face(first, out.first);
-    write_face(contact.second, out.second);
-    const EdgeEnds& low = surface.edges[contact.low];
-    const bool is_low_first = first < surface.vertex_count ? (low.a == first || low.b == first) : first == surface.edge_face(contact.low);
-    if (!is_low_first) out.first_edge = contact.high, out.second_edge = contact.low;
-    lists.edge_edge[record] = out;
-    for (int k = 0; k < 2; ++k) count(out.first[k]), count(out.second[k]);
-  }
-  OGC_HD void write_face(int face, int (&vertices)[2]) const {
-    if (face < surface.vertex_count) {
-      vertices[0] = face;
-    } else {
-      vertices[0] = surface.edges[face - surface.vertex_count].a;
-      vertices[1] = surface.edges[face - surface.vertex_count].b;
-    }
+  /// Whether the edge is or ends at the face. Of the two generating edges, `first_edge` is the one that holds the first face; the edges share no vertex, so only
+  /// one does.
+  OGC_HD bool holds(int face, int edge) const {
+    const EdgeEnds& ends = faces.surface.edges[edge];
+    return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face) : face == faces.surface.edge_face(edge);
   }
 };
 
-/// Index over all records: first the vertex–facet, then the edge–edge ones.
+/// Incidences of records that are there already. Index over all records: first the vertex–facet, then the edge–edge ones.
 struct FillIncidences {
   ListsView lists;
-  SurfaceView surface;
+  int vertex_facet_count;
 
   OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
-    const int edge_edge_start = lists.record_offsets[surface.vertex_count];
-    if (i < edge_edge_start) {
+    if (i < vertex_facet_count) {
       const VertexFacetRecord& record = lists.vertex_facet[i];
-      const std::uint32_t code = static_cast<std::uint32_t>(i) << 2;
-      add(record.vertex, code);
-      for (int k = 0; k < 3; ++k) add(record.corner[k], code | static_cast<std::uint32_t>(k + 1));
+      add_incidences(lists, {{record.vertex, record.corner[0], record.corner[1], record.corner[2]}}, false, i);
     } else {
-      const EdgeEdgeRecord& record = lists.edge_edge[i - edge_edge_start];
-      const std::uint32_t code = 0x80000000U | static_cast<std::uint32_t>(i - edge_edge_start) << 2;
-      for (int k = 0; k < 2; ++k) {
-        add(record.first[k], code | static_cast<std::uint32_t>(k));
-        add(record.second[k], code | static_cast<std::uint32_t>(k + 2));
-      }
+      const EdgeEdgeRecord& record = lists.edge_edge[i - vertex_facet_count];
+      add_incidences(lists, {{record.first[0], record.first[1], record.second[0], record.second[1]}}, true, i - vertex_facet_count);
     }
-  }
-
- private:
-  OGC_HD void add(int vertex, std::uint32_t code) const {
-    if (vertex < 0) return;
-    lists.incidences[lists.incidence_offsets[vertex] + atomic_add(&lists.incidence_filled[vertex], 1)] = {code};
   }
 };
 
-/// Each row in ascending order, from rows in another array; index over all incidences. Each counts those of its row that come before it: rows are short, and
-/// no thread waits for the longest of them.
+/// The contacts that nobody resolves as they are found.
+struct Unresolved {
+  OGC_HD void operator()(int, Incidence) const {}
+};
+
+/// Each row in ascending order, from loose incidences; resolve(place, incidence) for each in its place. Index over all incidences. Each counts those of its row
+/// that come before it: rows are short, and no thread waits for the longest of them.
+template <class Resolve>
 struct RankIncidences {
   ListsView lists;
-  const Incidence* unordered;
+  Resolve resolve;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    const Incidence own = unordered[i];
-    const int v = vertex_of(own), begin = lists.incidence_offsets[v], end = lists.incidence_offsets[v + 1];
-    int before = 0;
-    for (int k = begin; k < end; ++k) before += unordered[k] < own ? 1 : 0;
-    lists.incidences[begin + before] = own;
+    const LooseIncidence own = lists.loose[i];
+    const int begin = lists.incidence_offsets[own.vertex], end = lists.incidence_offsets[own.vertex + 1];
+    int place = begin;
+    for (int k = begin; k < end; ++k) place += lists.loose[k].code < own.code ? 1 : 0;
+    lists.incidences[place] = {own.code};
+    resolve(place, Incidence{own.code});
   }
+};
 
- private:
-  OGC_HD int vertex_of(const Incidence& incidence) const {
-    const std::uint32_t record = (incidence.code & 0x7fffffffU) >> 2, role = incidence.code & 3U;
-    if (incidence.code >> 31 != 0) return role < 2 ? lists.edge_edge[record].first[role] : lists.edge_edge[record].second[role - 2];
-    return role == 0 ? lists.vertex_facet[record].vertex : lists.vertex_facet[record].corner[role - 1];
+/// Two loops of which neither reads what the other writes.
+template <class F, class G>
+struct Both {
+  F first;
+  int first_count;
+  G second;
+  int second_count;
+
+  OGC_HD void operator()(int i) const {
+    if (i < first_count) first(i);
+    if (i < second_count) second(i);
   }
 };
 

@@ -4,8 +4,8 @@
 // A Query is what the searches of one kind have in common:
 //   bool is_off() const                                 nothing is to be searched
 //   Search begin(int i) const                           the i-th search
-//   bool is_pair(const Search&, int place, float gap)   whether the primitive at the place needs a closer look; cheap, in single precision
-//   float meet(const Search&, int place, float gap)     that look; returns a limit that it leaves for the search
+//   bool is_pair(const Search&, const Offer&)           whether the primitive needs a closer look; cheap, in single precision
+//   float meet(const Search&, int primitive, float gap) that look; returns a limit that it leaves for the search
 // Which primitives beyond the limit are offered too, and in which order, is open: no answer may depend on it.
 #pragma once
 
@@ -33,8 +33,8 @@ struct Searches {
   OGC_HD void run_alone(int i) const {
     if (query.is_off()) return;
     Search search = query.begin(i);
-    for_each_near(tree, search.box, search.from, search.limit, [&](int place, float gap) {
-      if (query.is_pair(search, place, gap)) search.limit = smaller(search.limit, query.meet(search, place, gap));
+    for_each_near(tree, search.box, search.from, search.limit, [&](const Offer& offer) {
+      if (query.is_pair(search, offer)) search.limit = smaller(search.limit, query.meet(search, offer.primitive, offer.gap));
     });
   }
 };

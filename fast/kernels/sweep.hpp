@@ -84,6 +84,8 @@ struct SweepView {
   int to_fresh = 0;                          ///< from a vertex there to the same one in the fresh buffer
   Vec* position = nullptr;                   ///< as fresh, for all but the sweep, which does not read it
   StepControl* control = nullptr;
+  const int* turn = nullptr;                 ///< null, or: the sweep takes place where this is
+  int iteration = 0;                         ///< this
   float radius = 0;          ///< r [m]
   float friction_limit = 0;  ///< ε_v h [m]
   // Read by GatherEveryModel alone (sweep_models.hpp).
@@ -92,6 +94,10 @@ struct SweepView {
   const SpringRow* spring_rows = nullptr;      ///< by slot; null where there is no spring
   const SpringIncidence* springs = nullptr;
   ContactActivation activation = ContactActivation::ogc;
+
+  OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
+  /// The same for the team of a vertex that has been read: on a device whose turn it is comes beside it, and nobody waits for one after the other.
+  OGC_HD bool is_off(const SweepVertex& vertex) const { return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0)); }
 
   /// Where an encoded index is read.
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
@@ -260,15 +266,17 @@ struct UpdateVertex {
   static constexpr int parts = Gather::parts;  ///< of its sum
   SweepView view;
   int first_slot = 0;
+  bool asks_late;      ///< the launch before decides whether it is off
 
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {
     const SweepVertex vertex = view.vertices[first_slot + i];
+    if (!asks_late && view.is_off(vertex)) return team.leave();
     const int v = vertex.vertex;
     const Vec own = view.old[v], target = view.target[v], previous = view.previous[v];
     const float bound = view.bound[v];
     ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
-    if (!team.leader()) return;
+    if (!team.leader() || (asks_late && view.is_off())) return;
     add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
     write_truncated(view, v, own + change, own, previous, bound);
@@ -281,6 +289,7 @@ struct UpdatePrescribed {
   const int* prescribed = nullptr;
 
   OGC_HD void operator()(int i) const {
+    if (view.is_off()) return;
     const int v = prescribed[i];
     write_truncated(view, v, view.target[v], view.old[v], view.previous[v], view.bound[v]);
   }

@@ -63,6 +63,9 @@ struct SerialTeam {
   /// Has `bytes` from `rows` on brought near, where that helps, as the team is going to read them.
   OGC_HD static void prefetch(const void*, int) {}
 
+  /// In place of `sum`, by all teams of a launch.
+  OGC_HD static void leave() {}
+
   /// Σ over all terms of all parts. The leader of a team gets the total.
   template <class Accumulator, class... Parts>
   OGC_HD Accumulator sum(const Parts&... parts) const {

@@ -12,9 +12,11 @@
 //                                        // writes; on a device it is one launch in place of two
 //   for_each_team<W>(int n, F f, Start start)   // f(i, team): team.sum<Accumulator>(parts...) once, with F::parts parts; the order of its additions
 //                                        // is that of fast/kernels/team.hpp, so only W can change a bit; the lane where team.leader() holds has the total
-//                                        // and writes it. Start::overlapping: all that f reads before a Part's `add` is not written by the launch before
+//                                        // and writes it. Or all teams of a launch leave (team.leave()) in place of the sum. Start::overlapping: all that
+//                                        // f reads before a Part's `add` is not written by the launch before
 //   search(Searches first, Searches second)             // two kinds of searches (fast/kernels/search.hpp) side by side
 //   exclusive_scan(const int* in, int* out, int n)      // n + 1 outputs; out[n] is the total
+//   exclusive_scans(const Scan& first, const Scan& second)   // two of them, neither of which reads what the other writes
 //   sort_pairs(std::uint64_t* keys, int* values, int n) // stable, ascending
 //   when(F decide, const int* flag, Body body)   // decide(0), then what body() enqueues if *flag is not 0 then; not nested
 //   repeat(F decide, const int* flag, Body body, G decide_again)   // decide(0), then while *flag is not 0 what body() enqueues and decide_again(0)
@@ -37,6 +39,13 @@ namespace ogc::fast {
 /// A functor that does nothing: for `when` where the flag is known already, or where nothing has to be done beside something else.
 struct Decided {
   OGC_HD void operator()(int) const {}
+};
+
+/// Arguments of an exclusive_scan.
+struct Scan {
+  const int* in;
+  int* out;
+  int count;
 };
 
 /// Whether a launch begins when the one before it has ended, or may begin before.

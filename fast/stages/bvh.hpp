@@ -35,15 +35,16 @@ class Bvh {
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are rechecked. For for_each over primitive_count().
+  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are rechecked. For for_each over its count().
   RefitTrees refit(const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
-    return {{surface_, positions, query_radius, skin.state}, facets_, edges_, facet_arrivals_.data(), edge_arrivals_.data(), vertex_limit_.data()};
+    return {{surface_, positions, query_radius, skin.state}, facets_, edges_, facet_arrivals_.data(), edge_arrivals_.data(), vertex_limit_.data(),
+            surface_.vertex_count};
   }
-  int primitive_count() const { return facets_.count + edges_.count + surface_.vertex_count; }
 
   /// A new order for `positions`; boxes are stale until the next refit.
   void rebuild(Backend& backend, const Vec* positions) {
-    backend.for_each(primitive_count(), refit(positions, no_radius_.data()));
+    const RefitTrees boxes = refit(positions, no_radius_.data());
+    backend.for_each(boxes.count(), boxes);
     const int total = facets_at() + surface_.triangle_count;
     backend.for_each(total, HilbertKeys{surface_, positions, facets_, edges_, keys_.data(), order_.data()});
     backend.sort_pairs(keys_.data(), order_.data(), total);
@@ -65,9 +66,7 @@ class Bvh {
       tree.start[tree.levels] = total;
       total += level_size(count, tree.levels);
     } while (level_size(count, tree.levels++) > 1 || tree.levels < 2);
-    Quad empty{};
-    for (int lane = 0; lane < 4; ++lane) empty.set(lane, Box{}, 0);
-    const std::vector<Quad> all(static_cast<std::size_t>(total), empty);
+    const std::vector<Quad> all(static_cast<std::size_t>(total));
     nodes.upload(all.data(), all.size());
     tree.nodes = nodes.data();
     arrivals.resize(all.size());

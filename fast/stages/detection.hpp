@@ -58,17 +58,27 @@ struct PrepareDetection {
   }
 };
 
-/// Both at once, where no skin decides in between whether the trees are needed.
+/// Both at once, where no skin decides in between whether the trees are needed; whole warps of 32.
 template <class Before>
 struct PrepareAndRefit {
   PrepareDetection<Before> prepare;
   RefitTrees refit;
-  int primitives;
 
   OGC_HD void operator()(int i) const {
     prepare(i);
-    if (i < primitives) refit(i);
+    refit(i);
   }
+};
+
+/// What a caller has done on the way, to spare launches: before(v) for each vertex, which may read the bounds that end with the detection and write nothing that
+/// it reads; in its last launch after(i) for 0 ≤ i < after_count, when overflow(), the incidences' rows and what stands in each are known (loose_incidences),
+/// and resolve(place, incidence) for each incidence.
+template <class Before = Decided, class After = Decided, class Resolve = Unresolved>
+struct OnTheWay {
+  Before before{};
+  int after_count = 0;
+  After after{};
+  Resolve resolve{};
 };
 
 template <class Backend>
@@ -94,30 +104,29 @@ class Detection {
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q = *query_radius ≥ r [m] (on the backend),
-  /// γ_p = bound_relaxation. A no-op while *overflow() is set. On the way, to spare launches: before(v) for each vertex, which may read the bounds that end
-  /// here and write nothing that a detection reads; after(0) once overflow() is known.
-  template <class Before = Decided, class After = Decided>
-  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation, const Before& before = {},
-              const After& after = {}) {
+  /// γ_p = bound_relaxation. A no-op while *overflow() is set.
+  template <class Before = Decided, class After = Decided, class Resolve = Unresolved>
+  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
+              const OnTheWay<Before, After, Resolve>& on_the_way = {}) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
     const SkinView skin = skin_.view(contact_radius);
     float *d_vertex = d_min_vertex_.data(), *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
-    const PrepareDetection<Before> prepare{before,
+    const PrepareDetection<Before> prepare{on_the_way.before,
                                            positions,
                                            places_.data(),
                                            {lists, surface.vertex_count},
                                            {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex,
                                             d_edge, d_triangle}};
-    const int items = std::max(lists.buckets, surface.triangle_count), primitives = bvh_.primitive_count();
+    const int items = std::max(lists.buckets, surface.triangle_count);
     const RefitTrees refit = bvh_.refit(positions, query_radius, skin);
     if (skin_.is_used()) {
       backend_.for_each(items, prepare);
       backend_.for_each(surface.vertex_count, MeasureDrift{skin, positions, lists.overflow});
       backend_.for_each(1, ChooseSkinMode{skin, query_radius, lists.overflow});
-      backend_.for_each(primitives, refit);
+      backend_.for_each(refit.count(), refit);
     } else {
-      backend_.for_each(std::max(items, primitives), PrepareAndRefit<Before>{prepare, refit, primitives});
+      backend_.for_each((std::max(items, refit.count()) + 31) / 32 * 32, PrepareAndRefit<Before>{prepare, refit});
     }
     const Places places{places_.data()};
     const DetectVertexFacet vertex_facet{surface, places, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
@@ -131,7 +140,7 @@ class Detection {
     }
     const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow,
                                    bound_.data()};
-    lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, after);
+    lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, on_the_way.after_count, on_the_way.after, on_the_way.resolve);
   }
 
   /// Of the last complete detection; valid until grow() returns true.
@@ -140,6 +149,9 @@ class Detection {
     return {lists.vertex_facet,      lists.edge_edge,   lists_.vertex_facet_count(), lists_.edge_edge_count(),
             lists.incidence_offsets, lists.incidences, bound_.data(),               d_min_vertex_.data()};
   }
+
+  /// Incidences in the rows of ContactView::incidence_offsets, in any order within one.
+  const LooseIncidence* loose_incidences() { return lists_.view().loose; }
 
   /// On the backend, not 0 once a list was too small. Work that must not run on incomplete sets asks this first; only grow() clears it.
   const int* overflow() const { return lists_.overflow(); }

@@ -31,7 +31,7 @@ class Lists {
             buckets_,              raw_counts_.data(),     raw_offsets_.data(),       raw_filled_.data(),
             record_counts_.data(), record_offsets_.data(), status + 2,                vertex_facet_.data(),
             vertex_facet_face_.data(), edge_edge_.data(),  incidence_counts_.data(),  incidence_offsets_.data(),
-            incidence_filled_.data(), incidences_.data()};
+            incidence_filled_.data(), loose_.data(),         incidences_.data()};
   }
 
   const int* vertex_facet_count() const { return record_offsets_.data() + surface_.vertex_count; }
@@ -41,22 +41,20 @@ class Lists {
   int noted_capacity() const { return noted_capacity_; }
 
   /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other: beside(i) for 0 ≤ i < beside_count with the
-  /// first launch, and after(0) with the last, when overflow() is known.
-  template <class Beside, class After>
-  void assemble(Backend& backend, Places positions, float contact_radius, int beside_count, const Beside& beside, const After& after) {
+  /// first launch, and after(i) for 0 ≤ i < after_count with the last, when overflow(), the incidences' rows and what stands in each are known, but not the
+  /// order in them; resolve as in RankIncidences.
+  template <class Beside, class After, class Resolve>
+  void assemble(Backend& backend, Places positions, float contact_radius, int beside_count, const Beside& beside, int after_count, const After& after,
+                const Resolve& resolve) {
     const ListsView lists = view();
     backend.for_both(beside_count, beside, lists.noted_count, noted_capacity_,
                      CollectContacts{{surface_, positions, lists, contact_radius}, {surface_, positions, lists, contact_radius}});
     backend.exclusive_scan(lists.raw_counts, lists.raw_offsets, buckets_);
     backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists});
-    backend.for_each_counted(lists.cursor, capacity_, DropDuplicates{lists});
-    backend.exclusive_scan(lists.record_counts, lists.record_offsets, buckets_);
-    backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, surface_});
-    backend.exclusive_scan(lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count);
-    ListsView unordered = lists;
-    unordered.incidences = unordered_incidences_.data();
-    backend.for_each_counted(lists.record_offsets + buckets_, capacity_, FillIncidences{unordered, surface_});
-    backend.for_both(1, after, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences{lists, unordered.incidences});
+    backend.for_each_counted(lists.cursor, capacity_, DropDuplicates{lists, {surface_}});
+    backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_}, {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
+    backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, {surface_}});
+    backend.for_both(after_count, after, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences<Resolve>{lists, resolve});
   }
 
   /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again, clears the flag and returns true.
@@ -86,7 +84,7 @@ class Lists {
     const auto n = static_cast<std::size_t>(capacity);
     noted_.resize(static_cast<std::size_t>(noted_capacity));
     raw_.resize(n), bucketed_.resize(n), vertex_facet_.resize(n), vertex_facet_face_.resize(n), edge_edge_.resize(n);
-    unordered_incidences_.resize(4 * n), incidences_.resize(4 * n);
+    loose_.resize(4 * n), incidences_.resize(4 * n);
     for (Buffer<int>* counts : {&raw_counts_, &raw_offsets_, &raw_filled_, &record_counts_, &record_offsets_, &incidence_counts_, &incidence_offsets_,
                                 &incidence_filled_}) {
       counts->fill_zero();
@@ -102,7 +100,8 @@ class Lists {
   Buffer<int> incidence_counts_, incidence_offsets_, incidence_filled_;
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
-  Buffer<Incidence> unordered_incidences_, incidences_;
+  Buffer<LooseIncidence> loose_;
+  Buffer<Incidence> incidences_;
 };
 
 }  // namespace ogc::fast

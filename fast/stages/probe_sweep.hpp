@@ -33,17 +33,15 @@ class ProbeContacts {
   ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count) : backend_(backend), vertex_count_(vertex_count) {
     const auto facets = static_cast<int>(records.vertex_facet.size()), edges = static_cast<int>(records.edge_edge.size());
     const std::vector<int> numbers{0, facets, edges};
-    const std::vector<int> starts(static_cast<std::size_t>(vertex_count) + 1, facets);
     numbers_.upload(numbers.data(), numbers.size());
-    starts_.upload(starts.data(), starts.size());
     vertex_facet_.upload(records.vertex_facet.data(), records.vertex_facet.size());
     edge_edge_.upload(records.edge_edge.data(), records.edge_edge.size());
     offsets_.upload(records.offsets.data(), records.offsets.size());
     filled_.resize(static_cast<std::size_t>(vertex_count));
     filled_.fill_zero();
     count_ = records.offsets.back();
-    for (Buffer<Incidence>* all : {&unordered_, &incidences_}) all->resize(static_cast<std::size_t>(count_));
-    fill(facets + edges);
+    loose_.resize(static_cast<std::size_t>(count_)), incidences_.resize(static_cast<std::size_t>(count_));
+    fill(facets, edges);
   }
 
   int incidences() const { return count_; }
@@ -64,29 +62,27 @@ class ProbeContacts {
   using Buffer = typename Backend::template Buffer<T>;
 
   /// Of the lists of a detection, what its last two kernels read.
-  void fill(int records) {
+  void fill(int facets, int edges) {
     ListsView lists;
     lists.overflow = numbers_.data();
-    lists.record_offsets = starts_.data();
     lists.vertex_facet = vertex_facet_.data();
     lists.edge_edge = edge_edge_.data();
     lists.incidence_offsets = offsets_.data();
     lists.incidence_filled = filled_.data();
-    lists.incidences = unordered_.data();
-    SurfaceView surface;
-    surface.vertex_count = vertex_count_;
-    backend_.for_each(records, FillIncidences{lists, surface});
+    lists.loose = loose_.data();
     lists.incidences = incidences_.data();
-    backend_.for_each(count_, RankIncidences{lists, unordered_.data()});
+    backend_.for_each(facets + edges, FillIncidences{lists, facets});
+    backend_.for_each(count_, RankIncidences<Unresolved>{lists, {}});
   }
 
   Backend& backend_;
   int vertex_count_, count_ = 0;
   Buffer<int> numbers_;  ///< overflow (none), records of both sorts
-  Buffer<int> starts_, offsets_, filled_;
+  Buffer<int> offsets_, filled_;
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
-  Buffer<Incidence> unordered_, incidences_;
+  Buffer<LooseIncidence> loose_;
+  Buffer<Incidence> incidences_;
 };
 
 /// Gᵗ and θᵗ as the start of a step leaves them.
@@ -142,7 +138,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   view.angle_start = start.angle();
   const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
   sweep.reserve_contacts(contacts.incidences());
-  sweep.resolve_contacts(contacts.view(), view.previous, view.control);
+  sweep.resolve_contacts(contacts.view(), view.previous);
   sweep.complete(view);
   sweep.iterate(view);
 

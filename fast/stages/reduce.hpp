@@ -1,6 +1,6 @@
 // Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the size of the mesh alone: item i goes to chunk
 // i mod C, C = 1024 or, for large meshes, 32768; chunks are added in runs of 32 until 32 rows are left, then those; no backend and no number of threads can
-// change a bit. A chunk is one thread's work, and 1024 threads are a twentieth of what a large device holds.
+// change a bit. A chunk is one thread's work. All kinds of items are added in one launch: a launch of its own for each would take as long as that.
 #pragma once
 
 #include <utility>
@@ -11,27 +11,54 @@ namespace ogc::fast {
 
 inline constexpr int reduce_run = 32;
 
-/// C for a mesh of so many vertices.
-inline int reduce_chunks(int vertices) { return vertices <= 32768 ? 1024 : 32768; }
+/// C for a mesh of so many vertices: an item or two a chunk, where there are enough of them to pay for the rows.
+inline int reduce_chunks(int vertices) { return vertices <= 2048 ? 1024 : 32768; }
 
-/// for_each over chunks: adds the chunk's items to its row of `columns` partial sums.
-template <class Term>
-struct AddChunk {
+struct NoItems {
+  OGC_HD void add(int, int, double*) const {}
+};
+
+/// Items of one kind, and those of others: term(i, sums) adds item i to its columns.
+template <class Term, class Rest>
+struct Items {
   Term term;
   int count;
   const int* counted;  ///< on the device; null: `count` holds
-  int chunks, columns;
+  Rest rest;
+
+  OGC_HD void add(int chunk, int chunks, double* sums) const {
+    const int n = counted == nullptr ? count : *counted;
+    for (int i = chunk; i < n; i += chunks) term(i, sums);
+    rest.add(chunk, chunks, sums);
+  }
+};
+
+template <class Term, class Rest = NoItems>
+Items<Term, Rest> items(int count, const Term& term, const Rest& rest = {}) {
+  return {term, count, nullptr, rest};
+}
+template <class Term, class Rest = NoItems>
+Items<Term, Rest> items(const int* counted, const Term& term, const Rest& rest = {}) {
+  return {term, 0, counted, rest};
+}
+
+/// for_each over chunks: a row of partial sums each, of the chunk's items kind by kind.
+template <int columns, class All>
+struct AddChunk {
+  All all;
+  int chunks;
   double* partial;
 
   OGC_HD void operator()(int chunk) const {
-    const int n = counted == nullptr ? count : *counted;
-    for (int i = chunk; i < n; i += chunks) term(i, partial + chunk * columns);
+    double sums[columns] = {};
+    all.add(chunk, chunks, sums);
+    for (int k = 0; k < columns; ++k) partial[chunk * columns + k] = sums[k];
   }
 };
 
 /// for_each over runs and columns: a row of `to` is the sum of 32 rows of `from`.
+template <int columns>
 struct AddRun {
-  int columns;
   const double* from;
   double* to;
 
@@ -43,43 +70,29 @@ struct AddRun {
   }
 };
 
-struct ClearPartial {
-  double* partial;
-
-  OGC_HD void operator()(int i) const { partial[i] = 0; }
-};
-
-/// A set of sums: `begin`, any number of `add`s of different kinds of items, then `end` writes the totals, `columns` of them.
-template <class Backend>
+template <class Backend, int columns>
 class Reduction {
  public:
   /// For a mesh of `vertices`.
-  Reduction(Backend& backend, int columns, int vertices) : backend_(backend), columns_(columns), chunks_(reduce_chunks(vertices)) {
+  Reduction(Backend& backend, int vertices) : backend_(backend), chunks_(reduce_chunks(vertices)) {
     partial_.resize(static_cast<std::size_t>(chunks_ * columns));
     runs_.resize(static_cast<std::size_t>(chunks_ / reduce_run * columns));
   }
-  void begin() { backend_.for_each(chunks_ * columns_, ClearPartial{partial_.data()}); }
-  /// term(i, sums) adds item i to its columns.
-  template <class Term>
-  void add(int count, Term term) {
-    backend_.for_each(chunks_, AddChunk<Term>{term, count, nullptr, chunks_, columns_, partial_.data()});
-  }
-  template <class Term>
-  void add_counted(const int* count, Term term) {
-    backend_.for_each(chunks_, AddChunk<Term>{term, 0, count, chunks_, columns_, partial_.data()});
-  }
-  void end(double* total) {
+  /// The totals of all items, `columns` of them.
+  template <class All>
+  void sum(double* total, const All& all) {
+    backend_.for_each(chunks_, AddChunk<columns, All>{all, chunks_, partial_.data()});
     double *from = partial_.data(), *to = runs_.data();
     for (int rows = chunks_ / reduce_run; rows > 1; rows /= reduce_run) {
-      backend_.for_each(rows * columns_, AddRun{columns_, from, to});
+      backend_.for_each(rows * columns, AddRun<columns>{from, to});
       std::swap(from, to);
     }
-    backend_.for_each(columns_, AddRun{columns_, from, total});
+    backend_.for_each(columns, AddRun<columns>{from, total});
   }
 
  private:
   Backend& backend_;
-  int columns_, chunks_;
+  int chunks_;
   typename Backend::template Buffer<double> partial_, runs_;
 };
 

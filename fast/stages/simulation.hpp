@@ -197,6 +197,9 @@ class ResidentSimulation : public compare::Simulation {
       if (row.repeats > 0) row.status |= compare::step_list_grew;
       rows.push_back(std::move(row));
     }
+    std::int64_t redetections = 0;
+    for (int k = 0; k < control.steps_done; ++k) redetections += device_rows[static_cast<std::size_t>(k)].detections - device_rows[static_cast<std::size_t>(k)].rounds;
+    if (control.steps_done > 0) group_ = iterations_in_group(redetections, control.steps_done, static_cast<int>(scene_.settings.iterations));
     step_number_ += control.steps_done;
     query_radius_ = control.query_radius;
     return control;
@@ -205,7 +208,7 @@ class ResidentSimulation : public compare::Simulation {
   /// Each step is timed by the backend; where stages are timed too nothing is recorded, so that the clock can stand between them.
   void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
     if (!clock_.on()) {
-      backend_.replay(recording_, count, [this] { step_.enqueue(); });
+      backend_.replay(recordings_[group_ > 1 ? 1 : 0], count, [this] { step_.enqueue(group_); });
       backend_.synchronize();
       wall_ms = backend_.replay_milliseconds();
       return;
@@ -213,7 +216,7 @@ class ResidentSimulation : public compare::Simulation {
     using Clock = std::chrono::steady_clock;
     for (int k = 0; k < count; ++k) {
       const Clock::time_point start = Clock::now();
-      step_.enqueue();
+      step_.enqueue(1);
       wall_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
       stage_ms.push_back(clock_.take());
     }
@@ -252,7 +255,7 @@ class ResidentSimulation : public compare::Simulation {
 
   void lists_moved() {
     sweep_.reserve_contacts(4 * detection_.capacity());
-    recording_.clear();
+    for (auto& recording : recordings_) recording.clear();
   }
 
   std::vector<float> last_bounds() {
@@ -278,11 +281,12 @@ class ResidentSimulation : public compare::Simulation {
   std::size_t moving_;
   Step<Backend> step_;
   bool energies_;
-  typename Backend::Recording recording_;
+  typename Backend::Recording recordings_[2];  ///< of steps with and without groups of iterations
   typename Backend::template Buffer<float> bounds_;
   std::int64_t step_number_ = 0;
   float query_radius_ = 0;
   int since_sort_ = StepControl{}.since_sort;
+  int group_ = iterations_in_group(0, 1, 1);
 };
 
 }  // namespace ogc::fast

@@ -3,14 +3,17 @@
 //
 //   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then xᵗ and x as places, for the sweep
-//   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; when(detect): X_prev ← x, detect
+//   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due, X_prev ← x, detect before the next
 //   finish      certificate; commit and sums only if clean; one row
 //
 // A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or is thrown away, and xᵗ, vᵗ stay.
-// Only detections and sorts stand inside `when` and `repeat`, which cost a device as much as ten kernels; all else works on arrays that are whole even then.
+// Only detections, sorts and iterations after a detection stand inside `when` and `repeat`, which cost a device as much as ten kernels; all else works on arrays
+// that are whole even then.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -36,6 +39,10 @@ struct StepSettings {
 /// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order ages slowly (fast/PERFORMANCE.md).
 inline constexpr int steps_between_sorts = 16;
 
+/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in four iterations (measured:
+/// fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
+inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) { return 4 * redetections < steps * iterations ? 5 : 1; }
+
 /// `moving`: K, the number of free and prescribed vertices.
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
@@ -53,6 +60,7 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.control.redetect_every = static_cast<int>(from.redetect_every);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;
+  to.control.iterations = to.iterations;
   return to;
 }
 
@@ -97,17 +105,21 @@ class Step {
   /// For a mesh of `vertices`; `state` is filled later.
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings,
        int vertices)
-      : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, sum_columns, vertices) {}
+      : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, vertices) {}
 
   /// Null: nobody.
   void observe(StepObserver* observer) { observer_ = observer; }
 
-  /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows.
-  void enqueue() {
+  /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`: iterations that are asked together whether a
+  /// detection is due; it changes the time alone.
+  void enqueue(int group) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(); });
     guess_loop();
-    for (int i = 0; i < settings_.iterations; ++i) iterate(i);
+    for (int i = 0; i < settings_.iterations; i += clock_.on() ? 1 : group) {
+      if (clock_.on()) timed_iteration(i);
+      else iterate(i, std::min(group, settings_.iterations - i));
+    }
     clock_.time(StepStage::metrics, [&] { finish(); });
   }
 
@@ -130,16 +142,15 @@ class Step {
     }
   }
 
-  /// Bounds that end here are certified, then X_prev ← x and everything is found anew.
+  /// Bounds that end here are certified, then X_prev ← x and everything is found anew, the stream of contacts included.
   void detect() {
     const Vec* position = state_.position.data();
+    const ContactView view = detection_.view();
+    const BeginBounds before{position, view.bound, state_.previous.data(), control()};
+    const Both after{EndDetection{control(), detection_.overflow()}, 1,
+                     sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), detection_.overflow()), sweep_.slots()};
     detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
-                      BeginBounds{position, detection_.view().bound, state_.previous.data(), control()}, EndDetection{control(), detection_.overflow()});
-  }
-
-  void detect_again() {
-    detect();
-    sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
+                      OnTheWay{before, std::max(1, sweep_.slots()), after, sweep_.resolve_contact(view, state_.previous.data())});
   }
 
   void guess() {
@@ -159,9 +170,7 @@ class Step {
       for (int round = 0; round < settings_.control.guess_rounds; ++round) timed_round(again, end);
     }
     clock_.time(StepStage::initial_guess, [&] {
-      sweep_.resolve_contacts(detection_.view(), state_.previous.data(), control());
-      add_vertices();
-      reduction_.end(state_.sums_guess.data());
+      reduction_.sum(state_.sums_guess.data(), vertices());
       const StepState<Backend>& s = state_;
       backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), state_.start_places.data(), state_.places.data(), s.vertex_count});
     });
@@ -175,24 +184,38 @@ class Step {
     observe(compare::StepEventKind::guess);
   }
 
-  /// Iteration i, and before the next one a detection where it is due.
-  void iterate(int i) {
-    const bool last = i + 1 == settings_.iterations;
-    const EndIteration end{control(), settings_.control};
-    const int* due = flag(&StepControl::detect);
-    const auto find = [&] { detect_again(); };
+  /// Iterations `first` to `first` + `count` − 1, each followed by a detection where one is due. A question costs a device ten launches (`when`), an iteration
+  /// that is not its turn a tenth of one. So all of them are enqueued, and those after one that asked for a detection do nothing; then, as long as one is due, it is
+  /// made and they are enqueued again.
+  void iterate(int first, int count) {
+    const int last = first + count - 1, *due = flag(&StepControl::detect);
+    const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
+    const auto up_to_last = [&](int from, Start start) {
+      for (int i = from; i <= last; start = Start::overlapping, ++i) {
+        sweep(i, i > first ? flag(&StepControl::turn) : nullptr, start);
+        if (i < last) backend_.for_each(1, end(i));
+      }
+    };
+    up_to_last(first, Start::after_previous);
+    if (count > 1) backend_.repeat(end(last), due, [&] { detect(), up_to_last(first + 1, Start::after_previous); }, end(last));
+    else if (first + 1 < settings_.iterations) backend_.when(end(first), due, [&] { detect(); });
+    else backend_.for_each(1, end(first));
+  }
+
+  /// Iteration i for a clock and an observer.
+  void timed_iteration(int i) {
     clock_.time(StepStage::sweep, [&] {
-      sweep(i);
-      if (last || clock_.on()) backend_.for_each(1, end);
+      sweep(i, nullptr, Start::after_previous);
+      backend_.for_each(1, EndIteration{control(), settings_.control});
     });
     observe(compare::StepEventKind::sweep);
-    if (last) return;
-    if (!clock_.on()) return backend_.when(end, due, find);
-    clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, due, find); });
+    if (i + 1 == settings_.iterations) return;
+    clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, flag(&StepControl::detect), [&] { detect(); }); });
     observe(compare::StepEventKind::detection);
   }
 
-  void sweep(int iteration) {
+  /// `turn`: says whether it is this iteration's; null: it is. `start`: as in Sweep::iterate.
+  void sweep(int iteration, const int* turn, Start start) {
     StepState<Backend>& s = state_;
     SweepView view;
     sweep_.complete(view);
@@ -207,9 +230,11 @@ class Step {
     view.to_fresh = swapped ? -s.vertex_count : s.vertex_count;
     view.position = s.position.data();
     view.control = control();
+    view.turn = turn;
+    view.iteration = iteration;
     view.radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
-    sweep_.iterate(view);
+    sweep_.iterate(view, start);
   }
 
   void finish() {
@@ -218,31 +243,31 @@ class Step {
     backend_.for_each(s.vertex_count,
                       CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(), s.prescribed_number.data(), control()});
     backend_.for_each(1, EndCheck{control()});
-    add_vertices();
-    if (settings_.energies) add_energies();
-    reduction_.end(s.sums_end.data());
+    if (settings_.energies) reduction_.sum(s.sums_end.data(), vertices(energies()));
+    else reduction_.sum(s.sums_end.data(), vertices());
     backend_.for_each(s.vertex_count, CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
     backend_.for_each(1, FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
   }
 
-  void add_vertices() {
-    StepState<Backend>& s = state_;
-    const Vec* position = s.position.data();
-    reduction_.begin();
-    reduction_.add(s.vertex_count, VertexTerm{position, s.start.data(), s.target.data(), s.mass.data(), s.prescribed_number.data(), settings_.acceleration,
-                                              static_cast<double>(settings_.step)});
+  // What is summed up for reports.
+
+  template <class Rest = NoItems>
+  auto vertices(const Rest& rest = {}) {
+    const StepState<Backend>& s = state_;
+    return items(s.vertex_count, VertexTerm{s.position.data(), s.start.data(), s.target.data(), s.mass.data(), s.prescribed_number.data(), settings_.acceleration,
+                                            static_cast<double>(settings_.step)}, rest);
   }
 
-  void add_energies() {
-    StepState<Backend>& s = state_;
+  auto energies() {
+    const StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
     const ContactView view = detection_.view();
     const ContactTables tables = sweep_.tables(s.previous.data());
-    reduction_.add(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position});
-    reduction_.add(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position});
-    if (s.spring_count > 0) reduction_.add(s.spring_count, SpringTerm{s.springs.data(), position});
-    reduction_.add_counted(view.vertex_facet_count, VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
-    reduction_.add_counted(view.edge_edge_count, EdgeEdgeTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
+    const auto edge_edge = items(view.edge_edge_count, EdgeEdgeTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
+    const auto contacts = items(view.vertex_facet_count, VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius}, edge_edge);
+    const auto springs = items(s.spring_count, SpringTerm{s.springs.data(), position}, contacts);
+    const auto hinges = items(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position}, springs);
+    return items(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position}, hinges);
   }
 
   Backend& backend_;
@@ -251,7 +276,7 @@ class Step {
   Sweep<Backend>& sweep_;
   StageClock<Backend>& clock_;
   StepSettings settings_;
-  Reduction<Backend> reduction_;
+  Reduction<Backend, sum_columns> reduction_;
   StepObserver* observer_ = nullptr;
 };
 

@@ -175,12 +175,19 @@ class Sweep {
   /// Room for the incidences of a detection; host only, outside a step.
   void reserve_contacts(int incidences) { contacts_.resize(static_cast<std::size_t>(incidences)); }
 
-  /// The contact stream of a detection at `detected`.
-  void resolve_contacts(const ContactView& view, const Vec* detected, const StepControl* control) {
-    backend_.for_both(static_cast<int>(vertices_.size()),
-                      CopyContactRows{view.incidence_offsets, view.incidences, vertices_.data(), contact_rows_.data(), control},
-                      view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
-                      ResolveContact{view, tables(detected), colour_.data(), contacts_.data(), control});
+  /// Free vertices: items of a launch over contact_rows.
+  int slots() const { return static_cast<int>(vertices_.size()); }
+  /// What makes the stream of a detection at `detected`: the rows, and the incidences as they get their places. Where *off is not 0 the old stream stays, which is whole.
+  template <class Item>
+  CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* off) {
+    return {incidence_offsets, incidences, off, vertices_.data(), contact_rows_.data()};
+  }
+  ResolveContact resolve_contact(const ContactView& view, const Vec* detected) { return {view, tables(detected), colour_.data(), contacts_.data()}; }
+
+  /// The stream of contacts that are there already.
+  void resolve_contacts(const ContactView& view, const Vec* detected) {
+    backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr), view.incidence_offsets + vertex_count_,
+                      static_cast<int>(contacts_.size()), resolve_contact(view, detected));
   }
 
   /// The streams of this sweep in a view; positions, targets and control are the caller's.
@@ -198,16 +205,18 @@ class Sweep {
     view.activation = activation_;
   }
 
-  /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each cut counted.
-  void iterate(const SweepView& view) {
+  /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each cut counted. `start`: overlapping after a
+  /// launch that writes nothing of what a sweep reads but whose turn it is.
+  void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});  // writes what a colour reads after its wait alone
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const int count = colour_begin_[k + 1] - colour_begin_[k];
-      const Start start = c == 0 && prescribed == 0 ? Start::after_previous : Start::overlapping;
-      if (every_model_) update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k]}, start);
-      else update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k]}, start);
+      const bool is_first = c == 0 && prescribed == 0, asks_late = is_first && start == Start::overlapping;
+      const Start own_start = is_first ? start : Start::overlapping;
+      if (every_model_) update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k], asks_late}, own_start);
+      else update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k], asks_late}, own_start);
     }
   }
 

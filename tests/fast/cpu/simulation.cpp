@@ -175,6 +175,37 @@ TEST_CASE("the same scene gives the same bits twice, with other numbers of threa
   CHECK(same_bits(simulation->snapshot().positions, first.end.positions));
 }
 
+TEST_CASE("whether iterations are asked one by one or in groups whether a detection is due changes no bit", "[property]") {
+  for (const std::int64_t every : {0, 1, 2, 3}) {
+    INFO("redetect_every " << every);
+    compare::Scene scene = drop_scene();
+    scene.settings.iterations = 13;  // two groups and a shorter one
+    scene.settings.redetect_fraction = every == 0 ? 1e-3 : 1;
+    scene.settings.redetect_every = every;
+    const Outcome grouped = run(scene, 12);  // the first frame has groups, whatever it will find
+    compare::SimulationOptions options;
+    options.profile = true;  // one by one
+    const Outcome profiled = run(scene, 12, options);
+    const auto simulation = start_cpu(scene, {});
+    std::int64_t redetections = 0;
+    for (std::size_t k = 0; k < 12; ++k) {  // as the frame before says
+      const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k), &profiled_row = profiled.rows.at(k);
+      for (const compare::StepMetrics* other : {&expected, &profiled_row}) {
+        CHECK(row.discrete_detections == other->discrete_detections);
+        CHECK(row.vertices_at_bound == other->vertices_at_bound);
+        CHECK(row.iterations == other->iterations);
+        CHECK(row.kinetic_energy == other->kinetic_energy);
+      }
+      CHECK(row.iterations == 13);
+      redetections += row.discrete_detections - row.guess_rounds;
+    }
+    CHECK(redetections == (every == 0 ? redetections : 12 * (12 / every)));  // none after the last iteration
+    CHECK(redetections > 0);
+    CHECK(same_bits(simulation->snapshot().positions, grouped.end.positions));
+    CHECK(same_bits(profiled.end.positions, grouped.end.positions));
+  }
+}
+
 TEST_CASE("lists that start with room for one contact give the same bits, and the repeats are counted", "[property]") {
   const compare::Scene scene = drop_scene();
   const Outcome roomy = run(scene, 12), tight = run(scene, 12, {}, 1);

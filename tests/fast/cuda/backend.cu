@@ -174,6 +174,27 @@ TEST_CASE("exclusive_scan gives n + 1 sums, in place too", "[gpu]") {
   }
 }
 
+TEST_CASE("two scans at once give the sums of each", "[gpu]") {
+  CudaBackend backend;
+  for (const std::size_t n : {0u, 5u, 2048u, 70'000u}) {
+    for (const std::size_t m : {0u, 3000u, 100'000u}) {
+      std::vector<int> items[2] = {std::vector<int>(n + 1, 0), std::vector<int>(m + 1, 0)}, expected[2];
+      for (std::vector<int>& all : items) {
+        for (std::size_t i = 0; i + 1 < all.size(); ++i) all[i] = static_cast<int>((i + all.size()) * 7919 % 13);
+      }
+      for (int k = 0; k < 2; ++k) {
+        expected[k].assign(items[k].size(), 0);
+        for (std::size_t i = 0; i + 1 < items[k].size(); ++i) expected[k][i + 1] = expected[k][i] + items[k][i];
+      }
+      CudaBuffer<int> in[2] = {on_device(items[0]), on_device(items[1])}, out[2];
+      out[0].resize(n + 1), out[1].resize(m + 1);
+      backend.exclusive_scans({in[0].data(), out[0].data(), static_cast<int>(n)}, {in[1].data(), out[1].data(), static_cast<int>(m)});
+      CHECK((on_host(out[0]) == expected[0]));
+      CHECK((on_host(out[1]) == expected[1]));
+    }
+  }
+}
+
 TEST_CASE("sort_pairs is stable and ascending over all 64 bits", "[gpu]") {
   CudaBackend backend;
   std::mt19937_64 random(3);

@@ -77,11 +77,10 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   SurfaceView surface{};
   surface.vertex_count = 4, surface.edge_count = 2, surface.triangle_count = 1;
   surface.edges = edges.data(), surface.facets = facets.data();
-  Quad root{};
-  for (int lane = 0; lane < 4; ++lane) root.set(lane, {}, 0);
+  Quad root;
   Box whole;
   for (const Vec& p : positions) whole.include(p);
-  root.set(0, whole, 0);
+  root.lane[0] = {whole.lower, 0, whole.upper, -1};
   TreeView tree;
   tree.nodes = &root, tree.levels = 1;
   std::vector<std::uint64_t> keys(7);
@@ -93,11 +92,10 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0), key_of(0, last, last, last),
                                            key_of(1, half, 0, 0), key_of(1, half, half, half), key_of(2, half, half, 0)});
   // A mesh without extent lies in the first cell.
-  Quad point{};
-  for (int lane = 0; lane < 4; ++lane) point.set(lane, {}, 0);
+  Quad point;
   Box one;
   one.include(positions[3]);
-  point.set(0, one, 0);
+  point.lane[0] = {one.lower, 0, one.upper, -1};
   tree.nodes = &point;
   HilbertKeys{surface, positions.data(), tree, tree, keys.data(), values.data()}(3);
   CHECK(keys[3] == 0);

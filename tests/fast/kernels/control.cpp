@@ -1,4 +1,5 @@
 #include "fast/kernels/control.hpp"
+#include "fast/stages/step.hpp"
 
 #include <cmath>
 #include <vector>
@@ -59,6 +60,40 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
   CHECK(iterate(0) == 1);
   CHECK(c.detections == 2);
   CHECK(c.iterations == 4);
+}
+
+TEST_CASE("iterations take turns, none while a detection is due, and after the last no detection is", "[unit]") {
+  ControlSettings settings;
+  settings.cut_threshold = 5;
+  settings.iterations = 3;
+  StepControl c = running();
+  const int overflow = 0;
+  CHECK(c.turn == 0);
+  EndIteration{&c, settings, 1}(0);  // not its turn
+  CHECK(c.iterations == 0);
+  EndIteration{&c, settings, 0}(0);
+  CHECK(c.turn == 1);
+  c.cut = 5;
+  EndIteration{&c, settings, 1}(0);
+  CHECK(c.detect == 1);
+  CHECK(c.turn == -1);
+  c.cut = 2;
+  EndIteration{&c, settings, 2}(0);
+  CHECK(c.iterations == 2);
+  CHECK(c.cut == 2);
+  EndDetection{&c, &overflow}(0);
+  CHECK(c.turn == 2);
+  c.cut = 7;
+  EndIteration{&c, settings, 2}(0);
+  CHECK(c.iterations == 3);
+  CHECK(c.cut_last == 7);
+  CHECK(c.detect == 0);
+}
+
+TEST_CASE("iterations are grouped where fewer than one in four asks for a detection", "[unit]") {
+  CHECK(iterations_in_group(0, 1, 10) == 5);
+  CHECK(iterations_in_group(24, 10, 10) == 5);
+  CHECK(iterations_in_group(25, 10, 10) == 1);
 }
 
 TEST_CASE("a list that was too small, a violation or a number that is not finite stops the step and all that follow", "[unit]") {

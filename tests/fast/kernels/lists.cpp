@@ -40,10 +40,25 @@ TEST_CASE("records stand in canonical order, each once with its lowest-numbered 
     lists.raw_offsets = raw_offsets.data(), lists.raw_filled = filled.data(), lists.edge_edge = records.data();
     lists.record_counts = record_counts.data(), lists.record_offsets = record_offsets.data(), lists.incidence_counts = incidence_counts.data();
     for (int i = 0; i < n; ++i) FillBuckets{lists}(i);
-    for (int i = 0; i < n; ++i) DropDuplicates{lists}(i);
+    for (int i = 0; i < n; ++i) DropDuplicates{lists, {surface}}(i);
     scan(record_counts, record_offsets);
-    for (int i = 0; i < n; ++i) WriteRecords{lists, surface}(i);
+    std::vector<int> incidence_offsets(vertices + 1), incidence_filled(vertices);
+    std::vector<LooseIncidence> loose(4 * raw.size());
+    std::vector<Incidence> incidences(loose.size());
+    scan(incidence_counts, incidence_offsets);
+    lists.incidence_offsets = incidence_offsets.data(), lists.incidence_filled = incidence_filled.data();
+    lists.loose = loose.data(), lists.incidences = incidences.data();
+    for (int i = 0; i < n; ++i) WriteRecords{lists, {surface}}(i);
     REQUIRE(edge_edge_count == static_cast<int>(kept.size()));
+    std::vector<std::uint32_t> resolved(loose.size());
+    const auto resolve = [&resolved](int place, Incidence incidence) { resolved[static_cast<std::size_t>(place)] = incidence.code; };
+    const int total = incidence_offsets.back();
+    for (int i = 0; i < total; ++i) RankIncidences<decltype(resolve)>{lists, resolve}(i);
+    for (int v = 0; v < vertices; ++v) {
+      const auto begin = incidences.begin() + incidence_offsets[static_cast<std::size_t>(v)], end = incidences.begin() + incidence_offsets[static_cast<std::size_t>(v) + 1];
+      REQUIRE(std::is_sorted(begin, end, [](Incidence a, Incidence b) { return a.code < b.code; }));
+    }
+    for (int i = 0; i < total; ++i) REQUIRE(resolved[static_cast<std::size_t>(i)] == incidences[static_cast<std::size_t>(i)].code);
     std::size_t next = 0;
     for (const auto& [place, edges_of] : kept) {
       const EdgeEdgeRecord& record = records[next++];

@@ -18,14 +18,11 @@ struct Term {
 
 TEST_CASE("sums hold every item once, in its column, whatever their number", "[property]") {
   CpuBackend backend;
-  for (const int n : {0, 1, 31, 1023, 1024, 1025, 5000, 32767, 32768, 32769, 70000}) {
-    Reduction<CpuBackend> reduction(backend, 3, n);
+  for (const int n : {0, 1, 31, 1023, 1024, 1025, 2048, 2049, 5000, 32767, 32768, 32769, 70000}) {
+    Reduction<CpuBackend, 3> reduction(backend, n);
     std::vector<double> total(3, -1);
     for (int repeat = 0; repeat < 2; ++repeat) {
-      reduction.begin();
-      reduction.add(n, Term{0});
-      reduction.add_counted(&n, Term{2});
-      reduction.end(total.data());
+      reduction.sum(total.data(), items(n, Term{0}, items(&n, Term{2})));
     }
     const double expected = n * (n + 1.0) / 2;
     CHECK(total[0] == expected);
