@@ -68,7 +68,7 @@ def parts(scale, backend):
     on_device = tuple(job for job in single if "cpu" not in job.name or backend == "cpu")
     wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
               "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
-              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot"),
+              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot", frames=17),
               "dress": row("dress", frames=20), "robot_shirt": row("robot_shirt", frames=20)}
     groups = (("ipc", "newton"), ("vbd",), *([("vbd_cuda",)] if backend == "cuda" else []))
     on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
