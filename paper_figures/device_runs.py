@@ -31,6 +31,7 @@ from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit
 TABLE1 = Path(__file__).parent.parent / "experiments/table1"
 ROWS = {"twist": "fig12", "fifty_layers_1m": "", "cloth_on_sphere": "fig18", "fifty_layers": "fig10", "knot": "fig11", "dress": "fig13", "robot_shirt": "fig14"}  # and the figures of their whole runs
 PIECE, TOTAL = 15 * 2**20, 60 * 2**20  # bytes of a packed piece, and of all together
+LEFT_OUT = "did not fit"
 LEFT_FOR_THE_NEXT = 75  # exit status of experiments/table1 at its limit
 
 
@@ -234,7 +235,7 @@ def pack(out, book, folder, before=None):
                 continue
             size = sizes[name]
             if archive.fileobj.fileobj.tell() + size > TOTAL:  # as if nothing were compressed
-                lines.append(f"{name}: {size / 2**20:.1f} MiB did not fit; pack again")
+                lines.append(f"{name}: {size / 2**20:.1f} MiB {LEFT_OUT}; take these pieces away, then --pack another folder")
                 continue
             for path in dict.fromkeys(files):
                 archive.add(path, path.relative_to(out).as_posix())
@@ -306,12 +307,14 @@ def main():
         if unknown:
             parser.error(f"no part {', '.join(unknown)}; there are: {', '.join(machine.book)}")
         wanted = {name: machine.book[name] for name in options.parts or machine.book}
-        before, failed = packed_before(machine.out), False
+        before, failed, lines = packed_before(machine.out), False, []
         for name in wanted:
             failed |= machine.do(name)
             if options.keep:
-                pack(machine.out, wanted, options.keep, before)
-        sys.exit(1 if failed else 0)
+                lines = pack(machine.out, wanted, options.keep, before)
+        for line in lines:
+            print(line)
+        sys.exit(1 if failed or any(LEFT_OUT in line for line in lines) else 0)
 
 
 if __name__ == "__main__":

@@ -118,6 +118,11 @@ class Parts(Scratch):
         done = self.say(there, *self.OPTIONS, "--keep", pieces, "cloth_on_sphere")  # of this call alone
         self.assertEqual(done[0].split()[3], "finished")
         self.assertTrue(all("table1" in line or "fig18" in line for line in self.say(self.folder / "other", "--unpack", pieces)))
+        code = "from paper_figures import device_runs\ndevice_runs.TOTAL = 1000\ndevice_runs.main()"
+        command = [sys.executable, "-c", code, "--out", there, "--program", OGC, *self.OPTIONS, "--keep", self.folder / "small", "cloth_on_sphere"]
+        (there / "packed.json").unlink()
+        said = subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True, check=False)
+        self.assertEqual((said.returncode, "cloth_on_sphere: " in said.stdout and "did not fit" in said.stdout), (1, True), said.stdout)
         last = sorted(pieces.glob("runs_*"))[-1]
         last.write_bytes(last.read_bytes()[:-2000])
         command = [sys.executable, "-m", "paper_figures.device_runs", "--program", OGC, "--out", self.folder / "cut", "--unpack", pieces]
