@@ -2,6 +2,7 @@
 // these are the same bounds (tests/fast/cpu/pack.cpp).
 #pragma once
 
+#include "fast/cpu/packed_gaps.hpp"
 #include "fast/cpu/packed_items.hpp"
 #include "fast/kernels/detect_edge_edge.hpp"
 #include "fast/kernels/detect_vertex_facet.hpp"
