@@ -46,6 +46,7 @@ struct Pack {
   friend Pack operator-(Pack a) { return -a.value; }
   friend PackMask operator>(Pack a, Pack b) { return {a.value > b.value}; }
   friend PackMask operator<(Pack a, Pack b) { return {a.value < b.value}; }
+  friend PackMask operator<=(Pack a, Pack b) { return {a.value <= b.value}; }
 };
 
 template <>
@@ -61,24 +62,39 @@ inline Pack add(Pack a, Pack b) { return a + b; }
 inline Pack root(Pack a) { return _mm_sqrt_ps(a.value); }
 inline Pack smaller(Pack a, Pack b) { return _mm_min_ps(b.value, a.value); }
 inline Pack larger(Pack a, Pack b) { return _mm_max_ps(b.value, a.value); }
-inline bool is_false(PackMask condition) { return _mm_movemask_epi8(std::bit_cast<__m128i>(condition.bits)) == 0; }
+/// A bit for each place that is true, the first one's lowest.
+inline unsigned places(PackMask condition) { return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(condition.bits))); }
 #else
 inline Pack root(Pack a) { return {sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3])}; }
 inline Pack smaller(Pack a, Pack b) { return select(b < a, b, a); }
 inline Pack larger(Pack a, Pack b) { return select(a < b, b, a); }
-inline bool is_false(PackMask condition) { return (condition.bits[0] | condition.bits[1] | condition.bits[2] | condition.bits[3]) == 0; }
+inline unsigned places(PackMask condition) {
+  const PackMask::Bits bits = condition.bits & PackMask::Bits{1, 2, 4, 8};
+  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+}
 #endif
+
+inline bool is_false(PackMask condition) { return places(condition) == 0; }
 
 inline Pack rough_quotient(Pack a, Pack b) { return a / b; }
 inline Pack rough_inverse_root(Pack a) { return 1.0F / root(a); }
 
+/// The first numbers of four packs, their second ones, and so on.
+struct Columns {
+  Pack x, y, z, w;
+};
+inline Columns transposed(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
+  using Bits = PackMask::Bits;
+  const auto xy_ab = __builtin_shuffle(a.value, b.value, Bits{0, 4, 1, 5}), xy_cd = __builtin_shuffle(c.value, d.value, Bits{0, 4, 1, 5});
+  const auto zw_ab = __builtin_shuffle(a.value, b.value, Bits{2, 6, 3, 7}), zw_cd = __builtin_shuffle(c.value, d.value, Bits{2, 6, 3, 7});
+  return {__builtin_shuffle(xy_ab, xy_cd, Bits{0, 1, 4, 5}), __builtin_shuffle(xy_ab, xy_cd, Bits{2, 3, 6, 7}),
+          __builtin_shuffle(zw_ab, zw_cd, Bits{0, 1, 4, 5}), __builtin_shuffle(zw_ab, zw_cd, Bits{2, 3, 6, 7})};
+}
+
 /// The x, the y and the z of four places, each of which is read whole.
 inline Vector<Pack> transposed(const Place& a, const Place& b, const Place& c, const Place& d) {
-  using Bits = PackMask::Bits;
-  const auto p = Pack(a).value, q = Pack(b).value, r = Pack(c).value, s = Pack(d).value;
-  const auto ab = __builtin_shuffle(p, q, Bits{0, 4, 1, 5}), cd = __builtin_shuffle(r, s, Bits{0, 4, 1, 5});
-  const auto z_ab = __builtin_shuffle(p, q, Bits{2, 6, 3, 7}), z_cd = __builtin_shuffle(r, s, Bits{2, 6, 3, 7});
-  return {__builtin_shuffle(ab, cd, Bits{0, 1, 4, 5}), __builtin_shuffle(ab, cd, Bits{2, 3, 6, 7}), __builtin_shuffle(z_ab, z_cd, Bits{0, 1, 4, 5})};
+  const Columns all = transposed(Pack(a), Pack(b), Pack(c), Pack(d));
+  return {all.x, all.y, all.z};
 }
 
 /// True in the first `count` places.

@@ -35,7 +35,8 @@ inline constexpr int cuda_block_size = 128;
 /// What a multiprocessor can hold at once, twice: enough to keep it busy, few enough that a long count-limited loop costs little.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md); the bits are the same.
+/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the order of their sums are the same;
+/// a build that contracts may contract the two kernels differently.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
 /// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come one after the other anyway, neighbours in one

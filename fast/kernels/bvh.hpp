@@ -223,37 +223,32 @@ struct RefitTrees {
     if (!needs_trees(reach.skin)) return;
     const int edge_place = i - filled_up(facets.count), v = edge_place - filled_up(edges.count);
     if (edge_place < 0) {
-      Lane own;
-      if (i < facets.count) {
-        const int t = facets.order[i];
-        const Box box = facet_box(t);
-        own = {box.lower, gap_limit(reach.of_facet(t)), box.upper, t};
-      }
-      place(facets, facet_arrivals, i, own);
+      place(facets, facet_arrivals, i, [this](int t) { return facet_lane(t); });
     } else if (v < 0) {
-      Lane own;
-      if (edge_place < edges.count) {
-        const int e = edges.order[edge_place];
-        const Box box = edge_box(e);
-        own = {box.lower, gap_limit(reach.of_edge(e)), box.upper, e};
-      }
-      place(edges, edge_arrivals, edge_place, own);
+      place(edges, edge_arrivals, edge_place, [this](int e) { return edge_lane(e); });
     } else if (v < vertex_count) {
       vertex_limit[v] = gap_limit(reach.of_vertex(v));
     }
   }
 
  private:
-  OGC_HD Box facet_box(int t) const {
+  /// A place of a tree; beyond its primitives the lane is empty.
+  template <class Of>
+  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Of lane_of) {
+    Lane own;
+    if (j < tree.count) own = lane_of(tree.order[j]);
+    climb(tree, arrivals, j, own);
+  }
+  OGC_HD Lane facet_lane(int t) const {
     Box box;
     for (const int corner : reach.surface.facets[t].corner) box.include(reach.positions[corner]);
-    return box;
+    return {box.lower, gap_limit(reach.of_facet(t)), box.upper, t};
   }
-  OGC_HD Box edge_box(int e) const {
+  OGC_HD Lane edge_lane(int e) const {
     Box box;
     box.include(reach.positions[reach.surface.edges[e].a]);
     box.include(reach.positions[reach.surface.edges[e].b]);
-    return box;
+    return {box.lower, gap_limit(reach.of_edge(e)), box.upper, e};
   }
 
 #if defined(__CUDA_ARCH__)
@@ -272,7 +267,7 @@ struct RefitTrees {
   }
 
   /// The lanes of a place, and up from there. 16 neighbours go on together, as long as they complete what two levels stand on: each reads one lane of it.
-  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Lane own) {
+  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Lane own) {
     const int lane = static_cast<int>(threadIdx.x % 16);
     int node = j / 16;  // of level 1, and so on
     bool goes_on = j - lane < tree.count;
@@ -296,7 +291,7 @@ struct RefitTrees {
 #else
 
   /// The lane of a place, and up from there as far as nobody else is still to come.
-  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, const Lane& own) {
+  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, const Lane& own) {
     if (j >= tree.count) return;
     tree.node(0, j / 4).lane[j % 4] = own;
     for (int level = 1; level < tree.levels; level += 2) {

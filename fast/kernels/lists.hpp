@@ -266,18 +266,4 @@ struct RankIncidences {
   }
 };
 
-/// Two loops of which neither reads what the other writes.
-template <class F, class G>
-struct Both {
-  F first;
-  int first_count;
-  G second;
-  int second_count;
-
-  OGC_HD void operator()(int i) const {
-    if (i < first_count) first(i);
-    if (i < second_count) second(i);
-  }
-};
-
 }  // namespace ogc::fast

@@ -41,6 +41,20 @@ struct Decided {
   OGC_HD void operator()(int) const {}
 };
 
+/// Two functors as one, for loops of which neither reads what the other writes.
+template <class F, class G>
+struct Both {
+  F first;
+  int first_count;
+  G second;
+  int second_count;
+
+  OGC_HD void operator()(int i) const {
+    if (i < first_count) first(i);
+    if (i < second_count) second(i);
+  }
+};
+
 /// Arguments of an exclusive_scan.
 struct Scan {
   const int* in;

@@ -126,7 +126,7 @@ class Detection {
       backend_.for_each(1, ChooseSkinMode{skin, query_radius, lists.overflow});
       backend_.for_each(refit.count(), refit);
     } else {
-      backend_.for_each((std::max(items, refit.count()) + 31) / 32 * 32, PrepareAndRefit<Before>{prepare, refit});
+      backend_.for_each(RefitTrees::filled_up(std::max(items, refit.count())), PrepareAndRefit<Before>{prepare, refit});
     }
     const Places places{places_.data()};
     const DetectVertexFacet vertex_facet{surface, places, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,

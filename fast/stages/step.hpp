@@ -39,7 +39,7 @@ struct StepSettings {
 /// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order ages slowly (fast/PERFORMANCE.md).
 inline constexpr int steps_between_sorts = 16;
 
-/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in four iterations (measured:
+/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in four iterations (counted in
 /// fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
 inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) { return 4 * redetections < steps * iterations ? 5 : 1; }
 
