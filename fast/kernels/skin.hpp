@@ -25,6 +25,7 @@ struct SkinState {
   int drift = 0, extent = 0;  ///< bits of δ and X of this detection [m]
   float margin = 0;           ///< m of the list [m]
   float listed_radius = 0;    ///< r_q of the anchor [m]
+  float contact_radius = 0;   ///< r of the list [m]
   float bound = 0;            ///< 2δ + m/16: with it D is above the smallest distance now [m]
   int count = 0, most = 0;    ///< pairs kept, also those that found no room; the most of any list before this one
   int searches = 0, listings = 0, rechecks = 0;  ///< detections of each sort so far
@@ -34,6 +35,7 @@ struct SkinState {
 struct SkinView {
   SkinState* state = nullptr;
   float largest_margin = 0;  ///< of m [m]; 0: no list is ever made
+  float contact_radius = 0;  ///< r [m]: pairs that were kept for another one are of no use
   NotedPair* pairs = nullptr;
   int capacity = 0;
   Vec* anchor = nullptr;
@@ -89,7 +91,7 @@ struct ChooseSkinMode {
     SkinState& s = *skin.state;
     const float drift = float_from_bits(s.drift), extent = float_from_bits(s.extent);
     s.drift = s.extent = 0;
-    const bool is_listed = s.has_list != 0 && s.count <= skin.capacity && *query_radius <= add(s.listed_radius, mul(0.5F, s.margin));
+    const bool is_listed = s.has_list != 0 && s.contact_radius == skin.contact_radius && s.count <= skin.capacity && *query_radius <= add(s.listed_radius, mul(0.5F, s.margin));
     if (is_listed && drift <= mul(drift_of_margin, s.margin) && is_wide_enough(s.margin, extent)) {
       s.mode = SkinMode::recheck;
       s.bound = add(mul(2.0F, drift), mul(s.margin, 0x1p-4F));
@@ -108,6 +110,7 @@ struct ChooseSkinMode {
     s.has_anchor = 1;
     s.has_list = lists ? 1 : 0;
     s.listed_radius = *query_radius;
+    s.contact_radius = skin.contact_radius;
     s.count = 0;
     ++(lists ? s.listings : s.searches);
   }

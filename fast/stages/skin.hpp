@@ -27,7 +27,7 @@ class Skin {
   }
 
   SkinView view(float contact_radius) {
-    return {state_.data(), share_ * contact_radius, pairs_.data(), capacity_, anchor_.data(), vertex_.data(), edge_.data(), triangle_.data()};
+    return {state_.data(), share_ * contact_radius, contact_radius, pairs_.data(), capacity_, anchor_.data(), vertex_.data(), edge_.data(), triangle_.data()};
   }
 
   /// Whether a detection may ever do anything but search.

@@ -40,9 +40,9 @@ Positions moved(Positions positions, float length, std::mt19937& random) {
   return positions;
 }
 
-ContactSets afresh(const compare::Topology& topology, const Positions& positions, float r_q) {
+ContactSets afresh(const compare::Topology& topology, const Positions& positions, float r_q, float r = radius) {
   CpuBackend backend;
-  return BackendContactEngine<CpuBackend>(backend, topology, {}).find(positions, {.contact_radius = radius, .query_radius = r_q});
+  return BackendContactEngine<CpuBackend>(backend, topology, {}).find(positions, {.contact_radius = r, .query_radius = r_q});
 }
 
 }  // namespace
@@ -112,6 +112,18 @@ TEST_CASE("skin: nothing is looked at again beyond the drift, for a larger r_q, 
   constexpr float largest = 4096 * usual_skin * radius;
   CHECK(looks_again_after({0, 0.97F * largest, 0}, 0.8F));
   CHECK_FALSE(looks_again_after({0, 1.03F * largest, 0}, 0.8F));
+}
+
+TEST_CASE("skin: pairs kept for one radius are of no use for another", "[unit]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  for (const float r : {0.5F * radius, 1.5F * radius, 3 * radius}) {
+    CpuBackend backend;
+    BackendContactEngine<CpuBackend> engine(backend, topology, {});
+    for (int k = 0; k < 4; ++k) engine.find(mesh.positions, {.contact_radius = radius, .query_radius = 1});
+    REQUIRE(engine.detection().skin_state().mode == SkinMode::recheck);
+    CHECK(engine.find(mesh.positions, {.contact_radius = r, .query_radius = 1}) == afresh(topology, mesh.positions, 1, r));
+  }
 }
 
 TEST_CASE("skin: a list without room for its pairs is not used, and is given room", "[unit]") {
