@@ -133,8 +133,11 @@ def run_files(path, stem):
 
 def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
     """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
-    says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's."""
+    says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes
+    the picture alone: they keep what was said of them."""
     folder, kept, rows = Path(results) / machine, [], []
+    before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
+    shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
     for recipe in chosen:
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
         if missing:
@@ -144,9 +147,12 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
             if len(data) > LARGEST:
                 raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
-            redo = by_hand or f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
+            redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
+            digest = hashlib.sha256(data).hexdigest()[:16]
+            if by_hand:
+                redo = by_hand if recipe.name not in shown else before.get((name, digest), redo)
             rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "redo": redo, **words,
-                         "sha256": hashlib.sha256(data).hexdigest()[:16]})
+                         "sha256": digest})
             kept.append((folder / name, data))
     twice = {path.name for path, _ in kept if sum(other == path for other, _ in kept) > 1}
     if twice:
@@ -170,21 +176,23 @@ def composed(recipe, chosen, scale, backend, runs, ogc):
     return max(found, key=lambda words: words["ended"])
 
 
+def rows_of(table):
+    """The rows of a table, none where there is no such file."""
+    if not table.is_file():
+        return []
+    with table.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def earlier_files(provenance, rows):
     """The files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that have no successor there."""
-    if not provenance.is_file():
-        return []
     about, names = {tuple(row[key] for key in ("figure", "scale", "backend")) for row in rows}, {row["file"] for row in rows}
-    with provenance.open(newline="") as file:
-        return [row["file"] for row in csv.DictReader(file) if (row["figure"], row["scale"], row["backend"]) in about and row["file"] not in names]
+    return [row["file"] for row in rows_of(provenance) if (row["figure"], row["scale"], row["backend"]) in about and row["file"] not in names]
 
 
 def merge(path, columns, rows, key, gone=()):
     """Rows of a table replaced by those of the same key, without those `gone`; sorted, so that a new acceptance changes its own lines alone."""
-    old = {}
-    if path.is_file():
-        with path.open(newline="") as file:
-            old = {tuple(row[name] for name in key): row for row in csv.DictReader(file)}
+    old = {tuple(row[name] for name in key): row for row in rows_of(path)}
     old = {name: row for name, row in old.items() if name not in gone}
     old.update({tuple(row[name] for name in key): row for row in rows})
     with path.open("w", newline="") as file:

@@ -4,6 +4,7 @@ Usage: accepted.py SOURCE_DIR. Exit status 77: skipped, PyYAML is missing.
 """
 
 import csv
+import dataclasses
 import gzip
 import hashlib
 import json
@@ -256,6 +257,24 @@ class Accepting(Scratch):
         accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True, by_hand="script --without")
         self.assertTrue((self.results / "machine/fig18_paper.csv").is_file())
         self.assertIn(",script --without,", (self.results / "machine/provenance.csv").read_text())
+
+    def test_a_picture_of_other_figures_runs_leaves_how_these_are_made_as_it_was(self):
+        teaser = dataclasses.replace(self.BOOK["fig01"], body={**self.BOOK["fig01"].body, "of": ["fig18"]})
+        (self.runs / "fig01-paper-cuda").mkdir(parents=True)
+        (self.runs / "fig01-paper-cuda/fig01.png").write_bytes(b"both")
+
+        def redo_after(*recipes, by_hand):
+            accept.accept(recipes, "paper", "cuda", self.runs, "machine", "no program", self.results, by_hand=by_hand)
+            return {row["file"]: row["redo"] for row in accept.rows_of(self.results / "machine/provenance.csv")}
+
+        self.finished()
+        redo_after(self.BOOK["fig18"], by_hand="on the device")
+        found = redo_after(teaser, self.BOOK["fig18"], by_hand="the teaser")
+        self.assertEqual((found["fig01_paper.png"], found["fig18_paper.png"], found["fig18_paper_run.json"]), ("the teaser", "on the device", "on the device"))
+        shutil.rmtree(self.runs / "fig18-paper-cuda")
+        self.finished(final_hash="another")  # what was said is of another run
+        found = redo_after(teaser, self.BOOK["fig18"], by_hand="the teaser")
+        self.assertEqual(found["fig18_paper_run.json"], "experiments/reproduce fig18 --scale paper --backend cuda")
 
     def test_runs_of_the_same_name_in_different_folders_stay_apart(self):
         for name in ("twist/whole", "knot/whole"):
