@@ -77,14 +77,7 @@ class CpuBackend {
 
   template <class F>
   void for_each(int n, F f) {
-    constexpr int grain = 64;
-    if (n <= grain) {
-      for (int i = 0; i < n; ++i) f(i);
-      return;
-    }
-    tbb::parallel_for(tbb::blocked_range<int>(0, n, grain), [&f](const tbb::blocked_range<int>& range) {
-      for (int i = range.begin(); i < range.end(); ++i) f(i);
-    });
+    for_each_range(n, [&f](int begin, int end) { run_range(f, begin, end); });
   }
 
   template <class F>
@@ -105,9 +98,10 @@ class CpuBackend {
 
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
-    for_each(first.count + second.count, [first, second](int i) {
-      if (i < first.count) packed::run_search(first, i);
-      else packed::run_search(second, i - first.count);
+    for_each_range(first.count + second.count, [&first, &second](int begin, int end) {
+      const int middle = std::clamp(first.count, begin, end);
+      packed::run_searches(first, begin, middle);
+      packed::run_searches(second, middle - first.count, end - first.count);
     });
   }
 
@@ -171,6 +165,15 @@ class CpuBackend {
     std::uint64_t key;
     int place, value;
   };
+
+  /// run(begin, end) for parts of 0 … n.
+  template <class Run>
+  static void for_each_range(int n, const Run& run) {
+    constexpr int grain = 64;
+    if (n <= grain) return run(0, n);
+    tbb::parallel_for(tbb::blocked_range<int>(0, n, grain), [&run](const tbb::blocked_range<int>& range) { run(range.begin(), range.end()); });
+  }
+
   std::vector<double> replay_milliseconds_;
 };
 

@@ -2,6 +2,7 @@
 // these are the same bounds (tests/fast/cpu/pack.cpp).
 #pragma once
 
+#include "fast/cpu/local_lists.hpp"
 #include "fast/cpu/packed_gaps.hpp"
 #include "fast/cpu/packed_items.hpp"
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -34,6 +35,7 @@ inline Pack separations(const DetectVertexFacet& query, const Search& search, co
 template <class Query>
 struct Waiting {
   const Query& query;
+  LocalNotes& notes;
   Search& search;
   int primitive[Pack::width], count = 0;
   float gap[Pack::width], within[Pack::width];
@@ -47,6 +49,7 @@ struct Waiting {
 
   void look() {
     if (count == 0) return;
+    notes.expect(count);
     for (int k = count; k < Pack::width; ++k) primitive[k] = primitive[0];
     float apart[Pack::width];
     separations(query, search, primitive).store(apart);
@@ -57,15 +60,23 @@ struct Waiting {
   }
 };
 
-/// The i-th search. One that keeps pairs within a margin looks at them one by one.
+/// Those from begin to end, by one thread. One that keeps pairs within a margin looks at them one by one.
 template <class Query>
-void run_search(const Searches<Query>& searches, int i) {
+void run_searches(const Searches<Query>& searches, int begin, int end) {
   if (searches.query.is_off()) return;
-  Search search = searches.query.begin(i);
-  if (search.margin > 0) return searches.run_alone(i);
-  Waiting<Query> waiting{searches.query, search, {}, 0, {}, {}};
-  for_each_near(searches.tree, search.box, search.from, search.limit, [&](const Offer& offer) { waiting.take(offer); });
-  waiting.look();
+  LocalNotes notes(searches.query.lists);
+  Query query = searches.query;
+  query.lists = notes.view();
+  for (int i = begin; i < end; ++i) {
+    Search search = query.begin(i);
+    if (search.margin > 0) {
+      searches.run_alone(i);
+      continue;
+    }
+    Waiting<Query> waiting{query, notes, search, {}, 0, {}, {}};
+    for_each_near(searches.tree, search.box, search.from, search.limit, [&](const Offer& offer) { waiting.take(offer); });
+    waiting.look();
+  }
 }
 
 }  // namespace ogc::fast::packed
