@@ -44,7 +44,7 @@ FOREIGN = {
     "mpfr": ("compare/oracle", "reference"),
     "Eigen/": ("reference",),
     "cholmod": ("reference",),
-    "immintrin.h": ("reference",),
+    "immintrin.h": ("reference", "fast/cpu"),
     "emmintrin.h": ("fast/cpu",),
     "suitesparse/": ("reference",),
     "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),

@@ -1,103 +1,196 @@
-// Four floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same order as on one float, each rounded alike, so that the
-// same bits come out. g++'s vector types, which every processor has; a few operations have better instructions where there is SSE2.
+// Several floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same order as on one float, each rounded alike, so that
+// the same bits come out. g++'s vector types; a few operations have better instructions where there is SSE2 or AVX2.
+//
+// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker never merges code for a larger one into a program that
+// runs on a smaller one.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#define OGC_PACKS packs_avx2
+#define OGC_FOR_PACKS(name) name##_avx2
+#else
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#endif
+#define OGC_PACKS packs_baseline
+#define OGC_FOR_PACKS(name) name##_baseline
 #endif
 
 #include "fast/kernels/scalar.hpp"
 
 namespace ogc::fast {
+inline namespace OGC_PACKS {
 
-/// True or false four times.
-struct PackMask {
-  using Bits __attribute__((vector_size(16))) = std::int32_t;  ///< all ones or none
-  Bits bits{};
-
-  friend PackMask operator!(PackMask a) { return {~a.bits}; }
-  friend PackMask operator&&(PackMask a, PackMask b) { return {a.bits & b.bits}; }
-  friend PackMask operator||(PackMask a, PackMask b) { return {a.bits | b.bits}; }
+template <int N>
+struct Register;
+template <>
+struct Register<4> {
+  using Numbers __attribute__((vector_size(16))) = float;
+  using Bits __attribute__((vector_size(16))) = std::int32_t;
+};
+template <>
+struct Register<8> {
+  using Numbers __attribute__((vector_size(32))) = float;
+  using Bits __attribute__((vector_size(32))) = std::int32_t;
 };
 
-struct Pack {
-  static constexpr int width = 4;
-  using Numbers __attribute__((vector_size(16))) = float;
+/// True or false N times.
+template <int N>
+struct PackMaskOf {
+  using Bits = typename Register<N>::Bits;  ///< all ones or none
+  Bits bits{};
+
+  friend PackMaskOf operator!(PackMaskOf a) { return {~a.bits}; }
+  friend PackMaskOf operator&&(PackMaskOf a, PackMaskOf b) { return {a.bits & b.bits}; }
+  friend PackMaskOf operator||(PackMaskOf a, PackMaskOf b) { return {a.bits | b.bits}; }
+
+  /// A bit for each place that is true, the first one's lowest.
+  friend unsigned places(PackMaskOf condition) {
+#if defined(__AVX2__)
+    if constexpr (N == 8) return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(condition.bits)));
+#endif
+#if defined(__SSE2__)
+    if constexpr (N == 4) return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(condition.bits)));
+#endif
+    unsigned all = 0;
+    for (int k = 0; k < N; ++k) all |= condition.bits[k] != 0 ? 1U << k : 0U;
+    return all;
+  }
+  friend bool is_false(PackMaskOf condition) { return places(condition) == 0; }
+};
+
+template <int N>
+struct PackOf {
+  static constexpr int width = N;
+  using Numbers = typename Register<N>::Numbers;
+  using Mask = PackMaskOf<N>;
   Numbers value{};
 
-  Pack() = default;
-  Pack(Numbers packed) : value(packed) {}  // NOLINT: formulas mix packs with constants
-  Pack(float everywhere) : value{everywhere, everywhere, everywhere, everywhere} {}
-  Pack(float a, float b, float c, float d) : value{a, b, c, d} {}
-  explicit Pack(const float* from) { std::memcpy(&value, from, sizeof value); }
-  explicit Pack(const Place& whole) : value(std::bit_cast<Numbers>(whole)) {}
+  PackOf() = default;
+  PackOf(Numbers packed) : value(packed) {}                        // NOLINT: formulas mix packs with constants
+  PackOf(float everywhere) : value(everywhere - Numbers{}) {}      // NOLINT: less +0 keeps even a zero's sign
+  explicit PackOf(const float* from) { std::memcpy(&value, from, sizeof value); }
+  /// number(k) at place k.
+  template <class F>
+  static PackOf of_each(F number) {
+    return [&]<int... k>(std::integer_sequence<int, k...>) { return PackOf(Numbers{number(k)...}); }(std::make_integer_sequence<int, N>());
+  }
 
   void store(float* to) const { std::memcpy(to, &value, sizeof value); }
   float operator[](int k) const { return value[k]; }
 
-  friend Pack operator+(Pack a, Pack b) { return a.value + b.value; }
-  friend Pack operator-(Pack a, Pack b) { return a.value - b.value; }
-  friend Pack operator*(Pack a, Pack b) { return a.value * b.value; }
-  friend Pack operator/(Pack a, Pack b) { return a.value / b.value; }
-  friend Pack operator-(Pack a) { return -a.value; }
-  friend PackMask operator>(Pack a, Pack b) { return {a.value > b.value}; }
-  friend PackMask operator<(Pack a, Pack b) { return {a.value < b.value}; }
-  friend PackMask operator<=(Pack a, Pack b) { return {a.value <= b.value}; }
-};
+  friend PackOf operator+(PackOf a, PackOf b) { return a.value + b.value; }
+  friend PackOf operator-(PackOf a, PackOf b) { return a.value - b.value; }
+  friend PackOf operator*(PackOf a, PackOf b) { return a.value * b.value; }
+  friend PackOf operator/(PackOf a, PackOf b) { return a.value / b.value; }
+  friend PackOf operator-(PackOf a) { return -a.value; }
+  friend Mask operator>(PackOf a, PackOf b) { return {a.value > b.value}; }
+  friend Mask operator<(PackOf a, PackOf b) { return {a.value < b.value}; }
+  friend Mask operator<=(PackOf a, PackOf b) { return {a.value <= b.value}; }
 
-template <>
-struct MaskOf<Pack> {
-  using type = PackMask;
-};
+  friend PackOf select(Mask condition, PackOf a, PackOf b) { return condition.bits ? a.value : b.value; }
+  friend PackOf absolute(PackOf a) { return std::bit_cast<Numbers>(std::bit_cast<typename Mask::Bits>(a.value) & 0x7fffffff); }
+  friend PackOf add(PackOf a, PackOf b) { return a + b; }
+  friend PackOf rough_quotient(PackOf a, PackOf b) { return a / b; }
+  friend PackOf rough_inverse_root(PackOf a) { return 1.0F / root(a); }
 
-inline Pack select(PackMask condition, Pack a, Pack b) { return condition.bits ? a.value : b.value; }
-inline Pack absolute(Pack a) { return std::bit_cast<Pack::Numbers>(std::bit_cast<PackMask::Bits>(a.value) & 0x7fffffff); }
-inline Pack add(Pack a, Pack b) { return a + b; }
-
+  friend PackOf root(PackOf a) {
+#if defined(__AVX2__)
+    if constexpr (N == 8) return Numbers(_mm256_sqrt_ps(a.value));
+#endif
 #if defined(__SSE2__)
-inline Pack root(Pack a) { return _mm_sqrt_ps(a.value); }
-inline Pack smaller(Pack a, Pack b) { return _mm_min_ps(b.value, a.value); }
-inline Pack larger(Pack a, Pack b) { return _mm_max_ps(b.value, a.value); }
-/// A bit for each place that is true, the first one's lowest.
-inline unsigned places(PackMask condition) { return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(condition.bits))); }
+    if constexpr (N == 4) return Numbers(_mm_sqrt_ps(a.value));
+#endif
+    return of_each([&a](int k) { return sqrtf(a[k]); });
+  }
+  friend PackOf smaller(PackOf a, PackOf b) {
+#if defined(__AVX2__)
+    if constexpr (N == 8) return Numbers(_mm256_min_ps(b.value, a.value));
+#endif
+#if defined(__SSE2__)
+    if constexpr (N == 4) return Numbers(_mm_min_ps(b.value, a.value));
+#endif
+    return select(b < a, b, a);
+  }
+  friend PackOf larger(PackOf a, PackOf b) {
+#if defined(__AVX2__)
+    if constexpr (N == 8) return Numbers(_mm256_max_ps(b.value, a.value));
+#endif
+#if defined(__SSE2__)
+    if constexpr (N == 4) return Numbers(_mm_max_ps(b.value, a.value));
+#endif
+    return select(a < b, b, a);
+  }
+};
+
+/// What nodes and searches take.
+using Pack = PackOf<4>;
+using PackMask = PackMaskOf<4>;
+
+/// As wide as registers are.
+#if defined(__AVX2__)
+using WidePack = PackOf<8>;
 #else
-inline Pack root(Pack a) { return {sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3])}; }
-inline Pack smaller(Pack a, Pack b) { return select(b < a, b, a); }
-inline Pack larger(Pack a, Pack b) { return select(a < b, b, a); }
-inline unsigned places(PackMask condition) {
-  const PackMask::Bits bits = condition.bits & PackMask::Bits{1, 2, 4, 8};
-  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
-}
+using WidePack = PackOf<4>;
 #endif
 
-inline bool is_false(PackMask condition) { return places(condition) == 0; }
-
-inline Pack rough_quotient(Pack a, Pack b) { return a / b; }
-inline Pack rough_inverse_root(Pack a) { return 1.0F / root(a); }
-
-/// The first numbers of four packs, their second ones, and so on.
-struct Columns {
-  Pack x, y, z, w;
-};
-inline Columns transposed(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
-  using Bits = PackMask::Bits;
-  const auto xy_ab = __builtin_shuffle(a.value, b.value, Bits{0, 4, 1, 5}), xy_cd = __builtin_shuffle(c.value, d.value, Bits{0, 4, 1, 5});
-  const auto zw_ab = __builtin_shuffle(a.value, b.value, Bits{2, 6, 3, 7}), zw_cd = __builtin_shuffle(c.value, d.value, Bits{2, 6, 3, 7});
-  return {__builtin_shuffle(xy_ab, xy_cd, Bits{0, 1, 4, 5}), __builtin_shuffle(xy_ab, xy_cd, Bits{2, 3, 6, 7}),
-          __builtin_shuffle(zw_ab, zw_cd, Bits{0, 1, 4, 5}), __builtin_shuffle(zw_ab, zw_cd, Bits{2, 3, 6, 7})};
+/// True in the first `count` places.
+template <class P>
+typename P::Mask first_of(int count) {
+  using Bits = typename P::Mask::Bits;
+  return [count]<int... k>(std::integer_sequence<int, k...>) { return typename P::Mask{Bits{k...} < count}; }(std::make_integer_sequence<int, P::width>());
 }
 
-/// The x, the y and the z of four places, each of which is read whole.
-inline Vector<Pack> transposed(const Place& a, const Place& b, const Place& c, const Place& d) {
-  const Columns all = transposed(Pack(a), Pack(b), Pack(c), Pack(d));
+/// In each 16 B of the result places p, q, r and s of those 16 B of a; from N on, of b.
+template <int p, int q, int r, int s, int N>
+PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) {
+    constexpr int from[4] = {p, q, r, s};
+    return PackOf<N>(__builtin_shuffle(a.value, b.value, typename PackMaskOf<N>::Bits{k / 4 * 4 + from[k % 4]...}));
+  }(std::make_integer_sequence<int, N>());
+}
+
+/// Of the four numbers of each 16 B: the first ones of a, b, c and d, then their second ones, and so on.
+template <int N>
+struct ColumnsOf {
+  PackOf<N> x, y, z, w;
+};
+template <int N>
+ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>& c, const PackOf<N>& d) {
+  const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d), zw_ab = mixed<2, N + 2, 3, N + 3>(a, b), zw_cd = mixed<2, N + 2, 3, N + 3>(c, d);
+  return {mixed<0, 1, N, N + 1>(xy_ab, xy_cd), mixed<2, 3, N + 2, N + 3>(xy_ab, xy_cd), mixed<0, 1, N, N + 1>(zw_ab, zw_cd), mixed<2, 3, N + 2, N + 3>(zw_ab, zw_cd)};
+}
+using Columns = ColumnsOf<4>;
+
+/// Two halves as one; registers all the way, as a pack that is read back from two halves in memory waits for both to arrive there.
+#if defined(__AVX2__)
+inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
+#endif
+
+/// The x, the y and the z of as many places as P is wide, each of which is read whole.
+template <class P>
+[[gnu::always_inline]] inline Vector<P> transposed(const Place* const* place) {
+  const auto whole = [place](int k) { return Pack(std::bit_cast<Pack::Numbers>(*place[k])); };
+  const auto column = [&whole](int k) {  // places k, k + 4, …
+    if constexpr (P::width == 4) return whole(k);
+    else return halves(whole(k), whole(k + 4));
+  };
+  const auto all = transposed(column(0), column(1), column(2), column(3));
   return {all.x, all.y, all.z};
 }
 
-/// True in the first `count` places.
-inline PackMask first_of(int count) { return {PackMask::Bits{0, 1, 2, 3} < count}; }
+}  // namespace OGC_PACKS
+
+template <int N>
+struct MaskOf<PackOf<N>> {
+  using type = PackMaskOf<N>;
+};
 
 }  // namespace ogc::fast

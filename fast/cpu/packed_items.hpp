@@ -1,38 +1,48 @@
-// Items of a part of a vertex' sum, four at a time, and sums of packs.
+// Items of a part of a vertex' sum, a pack of them at a time, and sums of packs.
 #pragma once
 
 #include "fast/cpu/pack.hpp"
 #include "fast/kernels/accumulator.hpp"
 
-namespace ogc::fast::packed {
+namespace ogc::fast {
+inline namespace OGC_PACKS {
+namespace packed {
 
-/// The four items of a part that four lanes begin with; places beyond the part repeat its last item, and are not counted.
-template <class Item>
+/// The items of a part that as many lanes begin with; places beyond the part repeat its last item, and are not counted.
+template <class Item, class P>
 struct Items {
-  const Item* at[Pack::width];
-  PackMask counted;
+  const Item* at[P::width];
+  typename P::Mask counted;
 
-  Items(const Item* first, int count) : counted(first_of(count)) {
-    for (int k = 0; k < Pack::width; ++k) at[k] = first + (k < count ? k : count - 1);
+  Items(const Item* first, int count) : counted(first_of<P>(count)) {
+    for (int k = 0; k < P::width; ++k) at[k] = first + (k < count ? k : count - 1);
   }
   template <class F>
-  Pack each(F number) const {
-    return {number(*at[0]), number(*at[1]), number(*at[2]), number(*at[3])};
+  P each(F number) const {
+    return P::of_each([&](int k) { return number(*at[k]); });
   }
   /// place(item): where it is.
   template <class F>
-  Vector<Pack> each_place(F place) const {
-    return transposed(place(*at[0]), place(*at[1]), place(*at[2]), place(*at[3]));
+  Vector<P> each_place(F place) const {
+    const Place* places[P::width];
+    for (int k = 0; k < P::width; ++k) places[k] = &place(*at[k]);
+    return transposed<P>(places);
   }
 };
 
-inline Vector<Pack> everywhere(const Vec& a) { return {a.x, a.y, a.z}; }
-
-inline ForceAndBlockOf<Pack> select(PackMask condition, const ForceAndBlockOf<Pack>& a, const ForceAndBlockOf<Pack>& b) {
-  const Symmetric3Of<Pack>&p = a.block, &q = b.block;
-  return {fast::select(condition, a.force, b.force),
-          {fast::select(condition, p.xx, q.xx), fast::select(condition, p.xy, q.xy), fast::select(condition, p.xz, q.xz), fast::select(condition, p.yy, q.yy),
-           fast::select(condition, p.yz, q.yz), fast::select(condition, p.zz, q.zz)}};
+template <class P>
+Vector<P> everywhere(const Vec& a) {
+  return {a.x, a.y, a.z};
 }
 
-}  // namespace ogc::fast::packed
+template <class P>
+ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a, const ForceAndBlockOf<P>& b) {
+  const Symmetric3Of<P>&p = a.block, &q = b.block;
+  return {select(condition, a.force, b.force),
+          {select(condition, p.xx, q.xx), select(condition, p.xy, q.xy), select(condition, p.xz, q.xz), select(condition, p.yy, q.yy), select(condition, p.yz, q.yz),
+           select(condition, p.zz, q.zz)}};
+}
+
+}  // namespace packed
+}  // namespace OGC_PACKS
+}  // namespace ogc::fast

@@ -12,7 +12,8 @@ namespace ogc::fast::packed {
 
 /// Vertices of four primitives, one of each.
 inline Vector<Pack> gathered(Places positions, int a, int b, int c, int d) {
-  return transposed(positions.at[a], positions.at[b], positions.at[c], positions.at[d]);
+  const Place* const place[4] = {&positions.at[a], &positions.at[b], &positions.at[c], &positions.at[d]};
+  return transposed<Pack>(place);
 }
 
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
@@ -20,7 +21,7 @@ inline Pack separations(const DetectEdgeEdge& query, const Search& search, const
   EdgeEnds other[Pack::width];
   for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[primitive[k]];
   const Places x = query.positions;
-  return separation(EndsOf<Pack>{everywhere(x[own.a]), everywhere(x[own.b])},
+  return separation(EndsOf<Pack>{everywhere<Pack>(x[own.a]), everywhere<Pack>(x[own.b])},
                     EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a), gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
@@ -28,7 +29,7 @@ inline Pack separations(const DetectVertexFacet& query, const Search& search, co
   const int* corner[Pack::width];
   for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
   const auto at = [&](int i) { return gathered(query.positions, corner[0][i], corner[1][i], corner[2][i], corner[3][i]); };
-  return separation(everywhere(search.box.lower), CornersOf<Pack>{at(0), at(1), at(2)});
+  return separation(everywhere<Pack>(search.box.lower), CornersOf<Pack>{at(0), at(1), at(2)});
 }
 
 /// Candidates that wait for three others.
