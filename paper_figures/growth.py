@@ -117,17 +117,18 @@ def draw(rows, out):
             density.plot(x, [row["contacts a vertex"] for row in line], "o-", color=colour, label=backend)
         if len(line) > 1:
             slope, factor = exponent(line)
-            time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1, label=f"∝ vertices^{slope:.2f}")
+            time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1, label=f"∝ vertices^{slope:.3f}")
     time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]", title="Time a step at one contact density")
     density.set(xscale="log", xlabel="free vertices", ylabel="contacts a vertex", title="The density, measured")
     density.set_ylim(0, 1.1 * density.get_ylim()[1])
     if alone:
         cores = panels[2]
         cores.set(xlabel="threads", ylabel="median time a step [ms]", title=f"CPU, {alone[0]['vertices']:,} vertices")
-        numbers, best = [row["threads"] for row in alone], alone[0]["median [ms]"] * alone[0]["threads"]
-        cores.plot(numbers, [row["median [ms]"] for row in alone], "o-", label="measured")
+        numbers, times = [row["threads"] for row in alone], [row["median [ms]"] for row in alone]
+        best = times[0] * numbers[0]
+        cores.plot(numbers, times, "o-", label="measured")
         cores.plot(numbers, [best / n for n in numbers], ":", color="black", label="shared out perfectly")
-        cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers)
+        cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers, yticks=times, yticklabels=[f"{t:.3g}" for t in times])
         cores.minorticks_off()
     for axes in panels:
         if axes.has_data():
