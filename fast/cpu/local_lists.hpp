@@ -1,5 +1,5 @@
-// What a thread finds goes to a list of its own first and from there to the common one, many at a time: one counter that all threads raise for each thing found is
-// what they would wait for, and beside it lie flags that all of them read.
+// What a thread finds goes to a list of its own first and from there to the common one, many at a time: one counter that all threads raise for each thing
+// found is what they would wait for, and beside it lie flags that all of them read.
 #pragma once
 
 #include <algorithm>

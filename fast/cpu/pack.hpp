@@ -1,8 +1,8 @@
-// Several floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same order as on one float, each rounded alike, so that
-// the same bits come out. g++'s vector types; a few operations have better instructions where there is SSE2 or AVX2.
+// Several floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same order as on one float, each rounded
+// alike, so that the same bits come out. g++'s vector types; a few operations have better instructions where there is SSE2 or AVX2.
 //
-// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker never merges code for a larger one into a program that
-// runs on a smaller one.
+// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker never merges code for a larger one into
+// a program that runs on a smaller one.
 #pragma once
 
 #include <array>
@@ -164,8 +164,10 @@ struct ColumnsOf {
 };
 template <int N>
 ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>& c, const PackOf<N>& d) {
-  const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d), zw_ab = mixed<2, N + 2, 3, N + 3>(a, b), zw_cd = mixed<2, N + 2, 3, N + 3>(c, d);
-  return {mixed<0, 1, N, N + 1>(xy_ab, xy_cd), mixed<2, 3, N + 2, N + 3>(xy_ab, xy_cd), mixed<0, 1, N, N + 1>(zw_ab, zw_cd), mixed<2, 3, N + 2, N + 3>(zw_ab, zw_cd)};
+  const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d);
+  const PackOf<N> zw_ab = mixed<2, N + 2, 3, N + 3>(a, b), zw_cd = mixed<2, N + 2, 3, N + 3>(c, d);
+  return {mixed<0, 1, N, N + 1>(xy_ab, xy_cd), mixed<2, 3, N + 2, N + 3>(xy_ab, xy_cd), mixed<0, 1, N, N + 1>(zw_ab, zw_cd),
+          mixed<2, 3, N + 2, N + 3>(zw_ab, zw_cd)};
 }
 using Columns = ColumnsOf<4>;
 

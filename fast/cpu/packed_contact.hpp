@@ -1,6 +1,6 @@
-// A pack of contacts at a time, with the default activation: where contact_force.hpp, activation.hpp and friction_force.hpp branch, the same formulas with both sides computed
-// and one selected, so that the same bits come out (tests/fast/stages/sweep.cpp). Closest points of two proper segments and of a point over a triangle are computed together, those of
-// anything else one by one.
+// A pack of contacts at a time, with the default activation: where contact_force.hpp, activation.hpp and friction_force.hpp branch, the same formulas with
+// both sides computed and one selected, so that the same bits come out (tests/fast/stages/sweep.cpp). Closest points of two proper segments and of a point
+// over a triangle are computed together, those of anything else one by one.
 #pragma once
 
 #include <bit>
@@ -98,8 +98,8 @@ P own_weight(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>&
 
 /// add_friction at items with friction.
 template <class P>
-void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights, const Vector<P>* x, const Vector<P>& normal, P weight,
-              P normal_force, ForceAndBlockOf<P>& sum) {
+void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights, const Vector<P>* x,
+              const Vector<P>& normal, P weight, P normal_force, ForceAndBlockOf<P>& sum) {
   const P friction = items.each([](const ContactIncidence& i) { return i.friction; });
   const typename P::Mask slips = friction > 0.0F;
   if (is_false(slips)) return;

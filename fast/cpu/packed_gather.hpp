@@ -1,5 +1,5 @@
-// The sum over the stencils of a vertex, a pack of a team's lanes at a time. Lanes, their items and the order of every addition are those of SerialTeam, so the bits are, too
-// (tests/fast/stages/sweep.cpp).
+// The sum over the stencils of a vertex, a pack of a team's lanes at a time. Lanes, their items and the order of every addition are those of SerialTeam, so
+// the bits are, too (tests/fast/stages/sweep.cpp).
 #pragma once
 
 #include "fast/cpu/pack_kernels.hpp"

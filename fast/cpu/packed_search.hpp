@@ -1,5 +1,5 @@
-// Searches of one thread that collect candidates and compute the lower bounds of their distances four at a time. Which pairs a search rejects changes no answer, and
-// these are the same bounds (tests/fast/cpu/pack.cpp).
+// Searches of one thread that collect candidates and compute the lower bounds of their distances four at a time. Which pairs a search rejects changes no
+// answer, and these are the same bounds (tests/fast/cpu/pack.cpp).
 #pragma once
 
 #include "fast/cpu/local_lists.hpp"

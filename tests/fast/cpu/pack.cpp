@@ -113,7 +113,8 @@ TEST_CASE("the lower bounds of distances of four pairs at a time have the bits o
   std::normal_distribution<float> normal;
   const auto point = [&](float size) { return Vec{size * normal(random), size * normal(random), size * normal(random)}; };
   const auto packed = [](const Vec* p) {
-    return Vector<Pack>{Pack::of_each([p](int k) { return p[k].x; }), Pack::of_each([p](int k) { return p[k].y; }), Pack::of_each([p](int k) { return p[k].z; })};
+    const auto each = [p](float Vec::*axis) { return Pack::of_each([&](int k) { return p[k].*axis; }); };
+    return Vector<Pack>{each(&Vec::x), each(&Vec::y), each(&Vec::z)};
   };
   int wrong = 0;
   for (int k = 0; k < 20000; ++k) {
