@@ -11,8 +11,14 @@ struct LaneSums {
   int count = 0;
 };
 
-/// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, the springs.
-using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const LaneSums& springs);
+/// Parts that are not computed in packs.
+struct OtherParts {
+  bool has_triangles = false;  ///< in place of those of GatherDefault
+  LaneSums triangles, springs;
+};
+
+/// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs.
+using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const OtherParts& other);
 struct PackKernels {
   GatherInPacks gather_4, gather_8, gather_16, gather_32;
 
@@ -42,7 +48,8 @@ struct GatherPacked {
   }
 };
 
-/// As GatherEveryModel: in packs for vertices of bodies with default models, springs one by one; as there for all others.
+/// As GatherEveryModel: in packs but for springs and stable Neo-Hookean triangles, which are computed one by one; as there for vertices of bodies with isometric bending
+/// or damping by vertex, and for other activations.
 struct GatherPackedEveryModel {
   static constexpr int parts = GatherEveryModel::parts;
   const PackKernels& kernels = pack_kernels();
@@ -50,15 +57,32 @@ struct GatherPackedEveryModel {
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const SerialTeam<W>& team) const {
     const SurfaceModels models = view.models[vertex.body];
+    const bool in_packs = view.activation == ContactActivation::ogc && models.damping == compare::DampingForm::strain &&
+                          models.bending != compare::BendingModel::isometric_quadratic;
     if constexpr (W >= 4) {
-      if (are_default(models) && view.activation == ContactActivation::ogc) {
-        const auto springs = spring_part(view, slot, models, {own, own - view.start[vertex.vertex]});
-        ForceAndBlock lane[W];
-        for (int k = 0; k < springs.count; ++k) add_item(springs, load_item(springs, k), lane[k % W]);
-        return kernels.template gather<W>()(view, slot, vertex, own, {lane, springs.count});
+      if (in_packs) {
+        const OwnVertex at{own, own - view.start[vertex.vertex]};
+        OtherParts other;
+        ForceAndBlock triangles[W], springs[W];
+        other.springs = one_by_one(spring_part(view, slot, models, at), springs);
+        if (models.membrane == compare::MembraneModel::stable_neo_hookean) {
+          const SurfaceMaterial material = view.materials[vertex.body];
+          other.has_triangles = true;
+          other.triangles = one_by_one(part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
+                                            [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
+                                       triangles);
+        }
+        return kernels.template gather<W>()(view, slot, vertex, own, other);
       }
     }
     return GatherEveryModel{}(view, slot, vertex, own, team);
+  }
+
+ private:
+  template <class Part, int W>
+  static LaneSums one_by_one(const Part& part, ForceAndBlock (&lane)[W]) {
+    for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), lane[k % W]);
+    return {lane, part.count};
   }
 };
 

@@ -97,16 +97,20 @@ struct Lanes {
 };
 
 template <int W>
-[[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const LaneSums& springs) {
+[[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const OtherParts& other) {
   using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
   const SurfaceMaterial material = view.materials[vertex.body];
   const Vector<P> here = everywhere<P>(own);
   Lanes<W, P> lanes;
-  lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
-                 [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_triangles(view, items, material, here, sum); });
+  if (other.has_triangles) {
+    lanes.add_part(other.triangles);
+  } else {
+    lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
+                   [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_triangles(view, items, material, here, sum); });
+  }
   lanes.add_part(view.hinges + vertex.hinge_begin, vertex.hinge_count,
                  [&](const Items<HingeIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_hinges(view, items, material, here, sum); });
-  lanes.add_part(springs);
+  lanes.add_part(other.springs);
   const ContactRow row = view.contact_rows[slot];
   const ContactIncidence* contacts = view.contacts + row.begin;
   const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_contacts(view, items, sum); };
