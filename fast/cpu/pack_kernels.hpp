@@ -5,16 +5,15 @@
 
 namespace ogc::fast {
 
-/// Of a part that was computed one by one the sums of the first `count` lanes; those behind up to a whole pack are zero.
+/// Of a part of so many items that was computed one by one the sums of the lanes; null: of none.
 struct LaneSums {
   const ForceAndBlock* lane = nullptr;
   int count = 0;
 };
 
-/// Parts that are not computed in packs.
+/// Parts that are not computed in packs: triangles and hinges where they have sums here, and springs.
 struct OtherParts {
-  bool has_triangles = false;  ///< in place of those of GatherDefault
-  LaneSums triangles, springs;
+  LaneSums triangles, hinges, springs;
 };
 
 /// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs.
@@ -48,30 +47,33 @@ struct GatherPacked {
   }
 };
 
-/// As GatherEveryModel: in packs but for springs and stable Neo-Hookean triangles, which are computed one by one; as there for vertices of bodies with isometric bending
-/// or damping by vertex, and for other activations.
+/// As GatherEveryModel: in packs but for springs and for triangles and hinges of bodies with other models than the default ones, which are computed one by one; as there
+/// with other activations.
 struct GatherPackedEveryModel {
   static constexpr int parts = GatherEveryModel::parts;
   const PackKernels& kernels = pack_kernels();
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const SerialTeam<W>& team) const {
-    const SurfaceModels models = view.models[vertex.body];
-    const bool in_packs = view.activation == ContactActivation::ogc && models.damping == compare::DampingForm::strain &&
-                          models.bending != compare::BendingModel::isometric_quadratic;
     if constexpr (W >= 4) {
-      if (in_packs) {
+      if (view.activation == ContactActivation::ogc) {
+        const SurfaceModels models = view.models[vertex.body];
+        const SurfaceMaterial material = view.materials[vertex.body];
+        const bool by_vertex = models.damping == compare::DampingForm::per_vertex;
         const OwnVertex at{own, own - view.start[vertex.vertex]};
+        ForceAndBlock triangles[W], hinges[W], springs[W];
         OtherParts other;
-        ForceAndBlock triangles[W], springs[W];
-        other.springs = one_by_one(spring_part(view, slot, models, at), springs);
-        if (models.membrane == compare::MembraneModel::stable_neo_hookean) {
-          const SurfaceMaterial material = view.materials[vertex.body];
-          other.has_triangles = true;
-          other.triangles = one_by_one(part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
-                                            [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
-                                       triangles);
+        if (by_vertex || models.membrane == compare::MembraneModel::stable_neo_hookean) {
+          const auto add = [&](int i, ForceAndBlock& sum) { add_any_membrane(view, view.membrane[i], material, models, at, sum); };
+          other.triangles = one_by_one(part(vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add), triangles);
         }
+        if (by_vertex || models.bending == compare::BendingModel::isometric_quadratic) {
+          const auto add = [&](int i, ForceAndBlock& sum) {
+            add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{}, material, models, at, sum);
+          };
+          other.hinges = one_by_one(part(vertex.hinge_count, [&](int k) { return vertex.hinge_begin + k; }, add), hinges);
+        }
+        other.springs = one_by_one(spring_part(view, slot, models, at), springs);
         return kernels.template gather<W>()(view, slot, vertex, own, other);
       }
     }

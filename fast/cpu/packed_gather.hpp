@@ -102,14 +102,18 @@ template <int W>
   const SurfaceMaterial material = view.materials[vertex.body];
   const Vector<P> here = everywhere<P>(own);
   Lanes<W, P> lanes;
-  if (other.has_triangles) {
+  if (other.triangles.lane != nullptr) {
     lanes.add_part(other.triangles);
   } else {
     lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
                    [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_triangles(view, items, material, here, sum); });
   }
-  lanes.add_part(view.hinges + vertex.hinge_begin, vertex.hinge_count,
-                 [&](const Items<HingeIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_hinges(view, items, material, here, sum); });
+  if (other.hinges.lane != nullptr) {
+    lanes.add_part(other.hinges);
+  } else {
+    lanes.add_part(view.hinges + vertex.hinge_begin, vertex.hinge_count,
+                   [&](const Items<HingeIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_hinges(view, items, material, here, sum); });
+  }
   lanes.add_part(other.springs);
   const ContactRow row = view.contact_rows[slot];
   const ContactIncidence* contacts = view.contacts + row.begin;

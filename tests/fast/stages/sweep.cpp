@@ -319,10 +319,14 @@ TEST_CASE("that holds without damping, and where triangles and edges have collap
   CHECK(other_bits(f) == 0);
 }
 
-TEST_CASE("the sum of a vertex with springs, or of a Neo-Hookean body, in packs has the bits of the lanes in turn, for every width", "[property]") {
+TEST_CASE("the sum of a vertex with springs and of bodies with any models in packs has the bits of the lanes in turn, for every width", "[property]") {
+  const auto membrane = GENERATE(compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean);
+  const auto bending = GENERATE(compare::BendingModel::discrete_hinge, compare::BendingModel::isometric_quadratic);
+  const auto damping = GENERATE(compare::DampingForm::strain, compare::DampingForm::per_vertex);
   Fixture f(false, 4);
   compare::Scene scene = f.scene;
-  scene.bodies[0].material.membrane = compare::MembraneModel::stable_neo_hookean;
+  scene.bodies[0].material.membrane = membrane, scene.bodies[0].material.bending = bending;
+  scene.settings.damping = damping;
   scene.springs = {{3, 140, 0.5, 0, 1e-3}, {3, 80, 0.5, 1e-3, 0}, {4, 90, 0.25, 0, 0}};
   for (compare::Index v = 91; v < 100; ++v) scene.springs.push_back({3, v, 0.1 * static_cast<double>(v), 0, 1e-4});
   const RestState rest = build_rest_state(scene, f.topology);
