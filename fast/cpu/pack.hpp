@@ -5,7 +5,6 @@
 // a program that runs on a smaller one.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>

@@ -5,7 +5,7 @@
 
 namespace ogc::fast {
 
-/// Of a part of so many items that was computed one by one the sums of the lanes; null: of none.
+/// Of a part of so many items that was computed one by one the sums of all lanes; null: of none.
 struct LaneSums {
   const ForceAndBlock* lane = nullptr;
   int count = 0;
@@ -47,8 +47,8 @@ struct GatherPacked {
   }
 };
 
-/// As GatherEveryModel: in packs but for springs and for triangles and hinges of bodies with other models than the default ones, which are computed one by one; as there
-/// with other activations.
+/// As GatherEveryModel: in packs but for springs and for triangles and hinges of bodies with other models than the default ones, which are computed one by
+/// one; as there with other activations.
 struct GatherPackedEveryModel {
   static constexpr int parts = GatherEveryModel::parts;
   const PackKernels& kernels = pack_kernels();

@@ -1,10 +1,16 @@
 #include "fast/cpu/local_lists.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
+#include "fast/cpu/backend.hpp"
+#include "fast/stages/lists.hpp"
+#include "fast/stages/surface.hpp"
 #include "tests/catch.hpp"
+#include "tests/fast/meshes.hpp"
 
+using namespace ogc;
 using namespace ogc::fast;
 
 TEST_CASE("a list of one thread moves to the common one in order, and what finds no room there is counted and handed back", "[unit]") {
@@ -46,4 +52,28 @@ TEST_CASE("pairs that a thread notes reach the common list, however many they ar
     }
     CHECK(wrong == 0);
   }
+}
+
+TEST_CASE("contacts that find no room are counted, but not in their buckets", "[unit]") {
+  constexpr int room = 7;
+  tests::TestMesh mesh;
+  for (const float height : {0.0F, 0.1F}) mesh.add(tests::sheet(9, 1.0F, height));
+  const compare::Topology topology = mesh.topology();
+  std::vector<Place> places;
+  for (const compare::Vec3f& x : mesh.positions) places.emplace_back(Vec{x.x, x.y, x.z});
+  CpuBackend backend;
+  Surface<CpuBackend> surface(topology, {});
+  const SurfaceView view = surface.view();
+  Lists<CpuBackend> all(view, room);
+  const ListsView lists = all.view();
+  for (int t = 0; t < view.triangle_count; ++t) {
+    const int* corner = view.facets[t].corner;
+    for (int v = 0; v < view.vertex_count; ++v) {
+      if (std::count(corner, corner + 3, v) == 0) lists.note({~v, t}, false);
+    }
+  }
+  REQUIRE(*lists.noted_count <= lists.noted_capacity);
+  backend.for_each_counted(lists.noted_count, lists.noted_capacity, CollectContacts{{view, {places.data()}, lists, 0.3F}, {view, {places.data()}, lists, 0.3F}});
+  CHECK(*lists.cursor > 100 * room);
+  CHECK(std::accumulate(lists.raw_counts, lists.raw_counts + lists.buckets, 0) == room);
 }
