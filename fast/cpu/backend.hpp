@@ -123,19 +123,9 @@ class CpuBackend {
     });
   }
 
-  void exclusive_scan(const int* in, int* out, int n) {
-    int total = 0;
-    for (int i = 0; i < n; ++i) {
-      const int item = in[i];
-      out[i] = total;
-      total += item;
-    }
-    out[n] = total;
-  }
-
   void exclusive_scans(const Scan& first, const Scan& second) {
-    exclusive_scan(first.in, first.out, first.count);
-    exclusive_scan(second.in, second.out, second.count);
+    exclusive_scan(first);
+    exclusive_scan(second);
   }
 
   /// The original place breaks ties: that makes an unstable parallel sort stable.
@@ -183,6 +173,16 @@ class CpuBackend {
     std::uint64_t key;
     int place, value;
   };
+
+  static void exclusive_scan(const Scan& scan) {
+    int total = 0;
+    for (int i = 0; i < scan.count; ++i) {
+      const int item = scan.in[i];
+      scan.out[i] = total;
+      total += item;
+    }
+    scan.out[scan.count] = total;
+  }
 
   /// run(begin, end) for parts of 0 … n.
   template <class Run>

@@ -66,16 +66,18 @@ void run_range(const F& f, int begin, int end) {
   for (int i = begin; i < end; ++i) f(i);
 }
 
-/// Each pair is one contact at most. A contact without room is not counted for its bucket, as FillBuckets would look for it there.
+/// Each pair is one contact at most. A contact without room is not counted for its bucket and its vertices, as FillBuckets would look for it there.
 inline void run_range(const CollectContacts& f, int begin, int end) {
   constexpr int room = 256;  // 4 KiB
-  const ListsView common = f.vertex_facet.lists;
-  LocalList<RawContact, room> list;
+  const ListsView& common = f.lists;
+  LocalList<EnteredContact, room> list;
   CollectContacts local = f;
-  for (ListsView* lists : {&local.vertex_facet.lists, &local.edge_edge.lists}) lists->raw = list.items(), lists->cursor = list.count(), lists->capacity = room;
+  local.lists.entered = list.items(), local.lists.cursor = list.count(), local.lists.capacity = room;
+  const ContactFaces faces{f.edge_edge.surface};
   for (int first = begin; first < end; first += room) {
     for (int i = first; i < std::min(first + room, end); ++i) local(i);
-    list.flush(common.raw, common.capacity, common.cursor, [&common](const RawContact& contact) { atomic_add(&common.raw_counts[contact.bucket], -1); });
+    list.flush(common.entered, common.capacity, common.cursor,
+               [&](const EnteredContact& contact) { common.count(contact.bucket, faces.vertices(contact.bucket, contact.second), -1); });
   }
 }
 

@@ -175,10 +175,6 @@ class CudaBackend {
     follow(typeid(Searches<First>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks, second, second_groups);
   }
 
-  void exclusive_scan(const int* in, int* out, int n) {
-    fast::exclusive_scan(current_, scratch_, recording_ && follows_, in, out, n);
-    follows_ = true;
-  }
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;

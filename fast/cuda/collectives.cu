@@ -30,7 +30,7 @@ constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * sca
 /// The last block of a short scan reads them all: 2 µs of what a multiprocessor gets from the second-level cache (64 B a cycle).
 constexpr int longest_short_scan = 1 << 16;
 
-// A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two launches, and a detection has three
+// A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two launches, and a detection has two
 // scans.
 // The first blocks scan the one, the others the other.
 __global__ void __launch_bounds__(scan_threads) scan_short(Scan first_scan, int first_blocks, Scan second_scan) {
@@ -71,6 +71,15 @@ void launch_short(cudaStream_t stream, bool early, const Scan& first, const Scan
   OGC_CUDA_CHECK(cudaGetLastError());
 }
 
+void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const Scan& scan) {
+  if (is_short(scan)) return launch_short(stream, early, scan, {nullptr, nullptr, -1});
+  const auto padded = thrust::make_transform_iterator(thrust::counting_iterator<int>(0), PaddedItems{scan.in, scan.count});
+  std::size_t bytes = 0;
+  OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(nullptr, bytes, padded, scan.out, scan.count + 1, stream));
+  void* temporary = scratch.request(std::max<std::size_t>(bytes, 1));
+  OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(temporary, bytes, padded, scan.out, scan.count + 1, stream));
+}
+
 }  // namespace
 
 Scratch::~Scratch() {
@@ -86,19 +95,10 @@ void* Scratch::request(std::size_t bytes) {
   return blocks_.empty() ? nullptr : blocks_.back();
 }
 
-void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const int* in, int* out, int n) {
-  if (is_short({in, out, n})) return launch_short(stream, early, {in, out, n}, {nullptr, nullptr, -1});
-  const auto padded = thrust::make_transform_iterator(thrust::counting_iterator<int>(0), PaddedItems{in, n});
-  std::size_t bytes = 0;
-  OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(nullptr, bytes, padded, out, n + 1, stream));
-  void* temporary = scratch.request(std::max<std::size_t>(bytes, 1));
-  OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(temporary, bytes, padded, out, n + 1, stream));
-}
-
 void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second) {
   if (is_short(first) && is_short(second)) return launch_short(stream, early, first, second);
-  exclusive_scan(stream, scratch, early, first.in, first.out, first.count);
-  exclusive_scan(stream, scratch, true, second.in, second.out, second.count);
+  exclusive_scan(stream, scratch, early, first);
+  exclusive_scan(stream, scratch, true, second);
 }
 
 void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n) {

@@ -28,10 +28,7 @@ class Scratch {
   std::size_t largest_ = 0;
 };
 
-/// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ n; `out` may be `in`. `early`: see launch_kernel.
-void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const int* in, int* out, int n);
-
-/// Two of them, neither of which reads what the other writes; one launch where both are short.
+/// Neither reads what the other writes; one launch where both are short. `early`: see launch_kernel.
 void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second);
 
 /// Stable, ascending, in place.

@@ -1,5 +1,8 @@
-// Atomics whose result no order of execution can change: integer sums, and minima of non-negative floats, whose order is that of their bits.
+// Atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative floats, whose order is that of their bits.
+// Who is the first in a compare-and-exchange does depend on the order: it may decide who does a piece of work, not what comes of it.
 #pragma once
+
+#include <cstdint>
 
 #include "fast/kernels/qualifiers.hpp"
 
@@ -29,6 +32,27 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #endif
 }
 
+OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+  atomicMax(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
+#else
+  std::atomic_ref<std::uint64_t> shared(*target);
+  std::uint64_t seen = shared.load(std::memory_order_relaxed);
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+#endif
+}
+
+/// Writes `value` where `expected` stands, and returns the value before.
+OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected, std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+  return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected), static_cast<unsigned long long>(value));
+#else
+  std::atomic_ref<std::uint64_t>(*target).compare_exchange_strong(expected, value, std::memory_order_relaxed);
+  return expected;
+#endif
+}
+
 /// Whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the last. It then sees what the others wrote before
 /// they came. Only the last acquires: an acquire, as in __threadfence, empties the first-level cache.
 OGC_HD inline bool arrives_last(int* counter, int count) {
@@ -44,6 +68,15 @@ OGC_HD inline bool arrives_last(int* counter, int count) {
   shared.store(0, std::memory_order_relaxed);
 #endif
   return true;
+}
+
+/// A value that other threads may be writing.
+OGC_HD inline std::uint64_t atomic_load(const std::uint64_t* source) {
+#if defined(__CUDA_ARCH__)
+  return *const_cast<const volatile std::uint64_t*>(source);
+#else
+  return std::atomic_ref<std::uint64_t>(*const_cast<std::uint64_t*>(source)).load(std::memory_order_relaxed);
+#endif
 }
 
 /// A value that other threads may be lowering.

@@ -11,18 +11,15 @@ struct CollectContacts {
   static constexpr int resident_blocks = 4;  ///< 128 registers; 6 spill more than more warps win (fast/PERFORMANCE.md)
   CollectVertexFacet vertex_facet;
   CollectEdgeEdge edge_edge;
+  ListsView lists;
 
   OGC_HD void operator()(int i) const {
-    const ListsView& lists = vertex_facet.lists;
     if (*lists.overflow != 0) return;
     const NotedPair pair = lists.noted[i];
     const bool certain = pair.second < 0;
     const int second = certain ? ~pair.second : pair.second;
-    if (pair.first < 0) {
-      vertex_facet(~pair.first, second, certain);
-    } else {
-      edge_edge(pair.first, second, certain);
-    }
+    const RawContact contact = pair.first < 0 ? vertex_facet(~pair.first, second, certain) : edge_edge(pair.first, second, certain);
+    if (contact.bucket >= 0) lists.enter(contact, {edge_edge.surface});  // in one place, where lanes that decided different sorts of pairs meet again
   }
 };
 

@@ -89,28 +89,25 @@ struct DetectEdgeEdge {
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 
-/// The contact of two edges, low < high, if there is one. `certain`: nearer than r without a doubt.
+/// The contact of two edges, low < high; its bucket is −1 where there is none. `certain`: nearer than r without a doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
   Places positions;
-  ListsView lists;
   float contact_radius;
 
-  OGC_HD void operator()(int low, int high, bool certain) const {
+  OGC_HD RawContact operator()(int low, int high, bool certain) const {
+    constexpr RawContact none{-1, -1, -1, -1};
     const EdgeEnds p = surface.edges[low], q = surface.edges[high];
     const Ends first{positions[p.a], positions[p.b]}, second{positions[q.a], positions[q.b]};
     const EdgePairFeatures on = closest_edge_features(first, second);
     const auto is_near = [first, second, on, r = contact_radius] { return is_within(first, second, on, edge_edge_distance(first, second), r); };
-    if (!certain && !called(is_near)) return;
-    if (is_overlapping_parallel(first, second)) {
-      append(surface.edge_face(low), surface.edge_face(high), low, high);
-      return;
-    }
+    if (!certain && !called(is_near)) return none;
+    if (is_overlapping_parallel(first, second)) return contact(surface.edge_face(low), surface.edge_face(high), low, high);
     const bool is_first_inside = on.first == EdgeFeature::interior, is_second_inside = on.second == EdgeFeature::interior;
     const int v = on.first == EdgeFeature::end_0 ? p.a : p.b, w = on.second == EdgeFeature::end_0 ? q.a : q.b;
-    if (!is_first_inside && !is_end_hit(v, is_second_inside, w, q)) return;
-    if (!is_second_inside && !is_end_hit(w, is_first_inside, v, p)) return;
-    append(is_first_inside ? surface.edge_face(low) : v, is_second_inside ? surface.edge_face(high) : w, low, high);
+    if (!is_first_inside && !is_end_hit(v, is_second_inside, w, q)) return none;
+    if (!is_second_inside && !is_end_hit(w, is_first_inside, v, p)) return none;
+    return contact(is_first_inside ? surface.edge_face(low) : v, is_second_inside ? surface.edge_face(high) : w, low, high);
   }
 
  private:
@@ -119,9 +116,9 @@ struct CollectEdgeEdge {
     return is_other_inside ? in_vertex_block(other, v, surface, positions) : in_vertex_block(positions[w], v, surface, positions);
   }
 
-  OGC_HD void append(int p, int q, int low, int high) const {
+  OGC_HD RawContact contact(int p, int q, int low, int high) const {
     const int first = p < q ? p : q, second = p < q ? q : p;
-    lists.append({surface.vertex_count + first, second, low, high});
+    return {surface.vertex_count + first, second, low, high};
   }
 };
 

@@ -92,29 +92,28 @@ struct DetectVertexFacet {
   OGC_HD Corners corners(const Facet& t) const { return {positions[t.corner[0]], positions[t.corner[1]], positions[t.corner[2]]}; }
 };
 
-/// The contact of a vertex and a facet, if there is one. `certain`: nearer than r without a doubt. Each triangle around a shared face reports it; the lists keep one.
+/// The contact of a vertex and a facet; its bucket is −1 where there is none. `certain`: nearer than r without a doubt. Each triangle around a shared face
+/// reports it; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
   Places positions;
-  ListsView lists;
   float contact_radius;
 
-  OGC_HD void operator()(int v, int t, bool certain) const {
+  OGC_HD RawContact operator()(int v, int t, bool certain) const {
+    constexpr RawContact none{-1, -1, -1, -1};
     const Facet facet = surface.facets[t];
     const Vec x = positions[v];
     const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
     const TriangleFeature feature = closest_feature(x, corners, facet.descending);
     const auto is_near = [x, corners, feature, r = contact_radius] { return is_within(x, corners, feature, point_triangle_distance(x, corners), r); };
-    if (!certain && !called(is_near)) return;
-    if (feature == TriangleFeature::interior) {
-      lists.append({v, surface.triangle_face(t), 0, 0});
-    } else if (feature <= TriangleFeature::corner_2) {
+    if (!certain && !called(is_near)) return none;
+    if (feature == TriangleFeature::interior) return {v, surface.triangle_face(t), -1, -1};
+    if (feature <= TriangleFeature::corner_2) {
       const int a = facet.corner[static_cast<int>(feature)];
-      if (in_vertex_block(x, a, surface, positions)) lists.append({v, surface.vertex_face(a), 0, 0});
-    } else {
-      const int e = facet.edge[static_cast<int>(feature) - static_cast<int>(TriangleFeature::edge_01)];
-      if (in_edge_block(x, e, surface, positions)) lists.append({v, surface.edge_face(e), 0, 0});
+      return in_vertex_block(x, a, surface, positions) ? RawContact{v, surface.vertex_face(a), -1, -1} : none;
     }
+    const int e = facet.edge[static_cast<int>(feature) - static_cast<int>(TriangleFeature::edge_01)];
+    return in_edge_block(x, e, surface, positions) ? RawContact{v, surface.edge_face(e), -1, -1} : none;
   }
 };
 

@@ -1,5 +1,6 @@
-// From raw contacts, appended in any order and more than once, to records in canonical order and to each vertex's incidences. A contact's bucket is its
-// first face; inside a bucket each contact counts those before it, which costs far less than sorting all, and no thread waits for the longest bucket.
+// From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's bucket is its first face. Several pairs
+// may generate the same contact: who decides a pair enters its contact in a hash table, and only the first to do so takes a place in the list and counts
+// it. Inside a bucket each contact then counts those before it, which costs far less than sorting all, and no thread waits for the longest bucket.
 //
 // Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order buckets, and in a bucket the
 // sorted seconds, have the canonical order of compare/stages. The searches note pairs that may be contacts: half as many again as the contacts where r is
@@ -18,13 +19,21 @@ struct alignas(8) NotedPair {
   int first, second;
 };
 
-/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, 0 for vertex–facet.
+/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, −1 for vertex–facet.
 struct alignas(16) RawContact {
   int bucket, second, low, high;
+};
 
-  friend OGC_HD bool operator<(const RawContact& a, const RawContact& b) {
-    return a.second != b.second ? a.second < b.second : (a.low != b.low ? a.low < b.low : a.high < b.high);
-  }
+/// What the table has of a contact. All zeros where there is none, so that an empty table needs no values of its own.
+struct alignas(16) ContactSlot {
+  std::uint64_t key;    ///< bucket + 1, above, and second
+  std::uint64_t edges;  ///< low, above, and high, inverted: the largest is that of the lowest-numbered edges, and −1 is 0
+};
+
+/// A contact at its place in the list, and where the table has it.
+struct alignas(16) EnteredContact {
+  int bucket, second;
+  std::uint32_t slot;
 };
 
 /// An incidence that has no order yet, and whose it is.
@@ -33,104 +42,30 @@ struct alignas(8) LooseIncidence {
   int vertex;
 };
 
-struct ListsView {
-  NotedPair* noted = nullptr;
-  int noted_capacity = 0;
-  int* noted_count = nullptr;       ///< also those that found no room
-  RawContact* raw = nullptr;        ///< as appended; later those of `bucketed` at the same places, `bucket` -1 for what stands in its bucket twice
-  RawContact* bucketed = nullptr;   ///< bucket by bucket
-  int capacity = 0;                 ///< of raw, bucketed and both record arrays; incidences have four times as much
-  int* cursor = nullptr;            ///< contacts appended, also those that found no room
-  int* overflow = nullptr;          ///< sticky
-  int buckets = 0;
-  int* raw_counts = nullptr;        ///< by bucket
-  int* raw_offsets = nullptr;       ///< buckets + 1
-  int* raw_filled = nullptr;        ///< by bucket
-  int* record_counts = nullptr;     ///< by bucket, without duplicates
-  int* record_offsets = nullptr;    ///< buckets + 1
-  int* edge_edge_count = nullptr;
-  VertexFacetRecord* vertex_facet = nullptr;
-  int* vertex_facet_face = nullptr;  ///< the second face of each record
-  EdgeEdgeRecord* edge_edge = nullptr;
-  int* incidence_counts = nullptr;   ///< by vertex
-  int* incidence_offsets = nullptr;  ///< vertices + 1
-  int* incidence_filled = nullptr;   ///< by vertex
-  LooseIncidence* loose = nullptr;   ///< row by row, in any order within one
-  Incidence* incidences = nullptr;   ///< row by row, ascending
-
-  /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of a certain one is stored inverted.
-  OGC_HD void note(NotedPair pair, bool certain) const {
-    if (certain) pair.second = ~pair.second;
-    const int place = atomic_add(noted_count, 1);
-    if (place < noted_capacity) noted[place] = pair;
-  }
-
-  OGC_HD void append(const RawContact& contact) const {
-    const int place = atomic_add(cursor, 1);
-    if (place >= capacity) return;
-    raw[place] = contact;
-    atomic_add(&raw_counts[contact.bucket], 1);
-  }
-};
-
-/// Start of a detection: index over the largest of buckets, vertices and primitives.
-struct PrepareLists {
-  ListsView lists;
-  int vertices;
-
-  OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
-    if (i == 0) *lists.noted_count = *lists.cursor = *lists.edge_edge_count = 0;
-    if (i < lists.buckets) lists.raw_counts[i] = lists.raw_filled[i] = lists.record_counts[i] = 0;
-    if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
-  }
-};
-
-/// After the contacts are collected. Of pairs that found no room nobody knows which are contacts, so the contacts may want more in a second try.
-struct CheckCapacity {
-  ListsView lists;
-
-  OGC_HD void operator()(int) const {
-    if (*lists.overflow != 0 || (*lists.noted_count <= lists.noted_capacity && *lists.cursor <= lists.capacity)) return;
-    *lists.overflow = 1;
-  }
-};
-
-/// Beside CheckCapacity, so it may or may not see that there was no room: what it does then nobody reads, and it stays within the buckets as counted.
-struct FillBuckets {
-  ListsView lists;
-
-  OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
-    const RawContact contact = lists.raw[i];
-    lists.bucketed[lists.raw_offsets[contact.bucket] + atomic_add(&lists.raw_filled[contact.bucket], 1)] = contact;
-  }
-};
-
 /// The vertices of a contact by role (contact_view.hpp); −1: nobody has it.
 struct RoleVertices {
   int role[4] = {-1, -1, -1, -1};
 };
 
-/// What a raw contact stands for.
+/// What a contact stands for.
 struct ContactFaces {
   SurfaceView surface;
 
-  OGC_HD bool is_vertex_facet(const RawContact& contact) const { return contact.bucket < surface.vertex_count; }
+  OGC_HD bool is_vertex_facet(int bucket) const { return bucket < surface.vertex_count; }
 
-  OGC_HD RoleVertices vertices(const RawContact& contact) const {
+  OGC_HD RoleVertices vertices(int bucket, int second) const {
     RoleVertices of;
-    if (is_vertex_facet(contact)) {
-      of.role[0] = contact.bucket;
-      const int e = contact.second - surface.vertex_count, t = e - surface.edge_count;
+    if (is_vertex_facet(bucket)) {
+      of.role[0] = bucket;
+      const int e = second - surface.vertex_count, t = e - surface.edge_count;
       if (t < 0) {
-        write_face(contact.second, of.role + 1);
+        write_face(second, of.role + 1);
       } else {
         for (int k = 0; k < 3; ++k) of.role[1 + k] = surface.facets[t].corner[k];
       }
     } else {
-      write_face(contact.bucket - surface.vertex_count, of.role);
-      write_face(contact.second, of.role + 2);
+      write_face(bucket - surface.vertex_count, of.role);
+      write_face(second, of.role + 2);
     }
     return of;
   }
@@ -146,27 +81,125 @@ struct ContactFaces {
   }
 };
 
-/// Of what stands in a bucket twice, the one with the lowest-numbered edges stays, and is counted for its bucket and its vertices. Index over all contacts in
-/// their buckets.
-struct DropDuplicates {
+struct ListsView {
+  /// Slots that the search for a contact looks at, at most. A table that is half full at most, as one whose contacts all have room, has a row of so many taken
+  /// ones with less than one chance in 10¹⁰; where there is one all the same, the lists grow.
+  static constexpr int longest_search = 256;
+
+  NotedPair* noted = nullptr;
+  int noted_capacity = 0;
+  int* noted_count = nullptr;         ///< also those that found no room
+  ContactSlot* table = nullptr;       ///< empty before and after a detection that does not overflow
+  std::uint32_t slot_mask = 0;        ///< slots − 1: a power of two, at least 2 · capacity
+  EnteredContact* entered = nullptr;  ///< in any order, each once
+  RawContact* bucketed = nullptr;     ///< bucket by bucket
+  int capacity = 0;                   ///< of entered, bucketed and both record arrays; incidences have four times as much
+  int* cursor = nullptr;              ///< contacts entered, also those that found no room
+  int* without_slot = nullptr;        ///< contacts that found no slot either, as often as they were generated
+  int* overflow = nullptr;            ///< sticky
+  int buckets = 0;
+  int* record_counts = nullptr;   ///< by bucket, of the contacts that found room
+  int* record_offsets = nullptr;  ///< buckets + 1
+  int* record_filled = nullptr;   ///< by bucket
+  int* edge_edge_count = nullptr;
+  VertexFacetRecord* vertex_facet = nullptr;
+  int* vertex_facet_face = nullptr;  ///< the second face of each record
+  EdgeEdgeRecord* edge_edge = nullptr;
+  int* incidence_counts = nullptr;   ///< by vertex, of the contacts that found room
+  int* incidence_offsets = nullptr;  ///< vertices + 1
+  int* incidence_filled = nullptr;   ///< by vertex
+  LooseIncidence* loose = nullptr;   ///< row by row, in any order within one
+  Incidence* incidences = nullptr;   ///< row by row, ascending
+
+  /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of a certain one is stored inverted.
+  OGC_HD void note(NotedPair pair, bool certain) const {
+    if (certain) pair.second = ~pair.second;
+    const int place = atomic_add(noted_count, 1);
+    if (place < noted_capacity) noted[place] = pair;
+  }
+
+  /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges.
+  OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
+    const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
+    std::uint32_t at = home(key);
+    for (int looks = 0; looks < longest_search; ++looks, at = (at + 1) & slot_mask) {
+      ContactSlot& slot = table[at];
+      std::uint64_t found = atomic_load(&slot.key);
+      const std::uint64_t found_edges = atomic_load(&slot.edges);  // beside the key: who reads one after the other waits twice
+      if (found == 0) found = atomic_compare_exchange(&slot.key, 0, key);
+      if (found != 0 && found != key) continue;
+      if (edges > found_edges) atomic_max(&slot.edges, edges);
+      if (found == 0) place(contact, at, faces);
+      return;
+    }
+    atomic_add(without_slot, 1);
+  }
+
+  /// The record of a contact and its incidences for one more or less.
+  OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
+    atomic_add(&record_counts[bucket], amount);
+    for (const int v : vertices.role) {
+      if (v >= 0) atomic_add(&incidence_counts[v], amount);
+    }
+  }
+
+ private:
+  OGC_HD static std::uint64_t pack(int above, int below) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(above)) << 32 | static_cast<std::uint32_t>(below);
+  }
+
+  /// Where the search for a key begins: faces and buckets near each other on the surface have keys in rows, and their slots shall not stand in rows.
+  OGC_HD std::uint32_t home(std::uint64_t key) const {
+    constexpr std::uint64_t spread = 0x9e3779b97f4a7c15U;  // 2⁶⁴ times the golden ratio
+    key *= spread;
+    return static_cast<std::uint32_t>((key ^ key >> 32) * spread >> 32) & slot_mask;
+  }
+
+  OGC_HD void place(const RawContact& contact, std::uint32_t slot, const ContactFaces& faces) const {
+    const RoleVertices vertices = faces.vertices(contact.bucket, contact.second);  // read while the cursor is asked
+    const int place = atomic_add(cursor, 1);
+    if (place >= capacity) return;
+    entered[place] = {contact.bucket, contact.second, slot};
+    count(contact.bucket, vertices, 1);
+  }
+};
+
+/// Start of a detection: index over the largest of buckets, vertices and primitives.
+struct PrepareLists {
   ListsView lists;
-  ContactFaces faces;
+  int vertices;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    RawContact own = lists.bucketed[i];
-    bool stays = true;  // and no break below: reads that depend on one another are what a device waits for
-    for (int k = lists.raw_offsets[own.bucket], end = lists.raw_offsets[own.bucket + 1]; k < end; ++k) {
-      const RawContact other = lists.bucketed[k];
-      stays &= !(other.second == own.second && (other < own || (!(own < other) && k < i)));
-    }
-    if (!stays) own.bucket = -1;
-    lists.raw[i] = own;
-    if (own.bucket < 0) return;
-    atomic_add(&lists.record_counts[own.bucket], 1);
-    for (const int v : faces.vertices(own).role) {
-      if (v >= 0) atomic_add(&lists.incidence_counts[v], 1);
-    }
+    if (i == 0) *lists.noted_count = *lists.cursor = *lists.without_slot = *lists.edge_edge_count = 0;
+    if (i < lists.buckets) lists.record_counts[i] = lists.record_filled[i] = 0;
+    if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
+  }
+};
+
+/// After the contacts are collected. Of pairs that found no room nobody knows which are contacts, so the contacts may want more in a second try.
+struct CheckCapacity {
+  ListsView lists;
+
+  OGC_HD void operator()(int) const {
+    const bool fits = *lists.noted_count <= lists.noted_capacity && *lists.cursor <= lists.capacity && *lists.without_slot == 0;
+    if (*lists.overflow == 0 && !fits) *lists.overflow = 1;
+  }
+};
+
+/// Each contact to its bucket, with the edges that the table has by now, and out of the table. Beside CheckCapacity, so it may or may not see that there was no
+/// room: what it does then nobody reads, and it stays within the buckets as counted. Index over all contacts.
+struct FillBuckets {
+  ListsView lists;
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    const EnteredContact contact = lists.entered[i];
+    ContactSlot& slot = lists.table[contact.slot];
+    const std::uint64_t edges = ~slot.edges;
+    const int place = lists.record_offsets[contact.bucket] + atomic_add(&lists.record_filled[contact.bucket], 1);
+    slot = {0, 0};
+    lists.bucketed[place] = {contact.bucket, contact.second, static_cast<int>(edges >> 32), static_cast<int>(edges & 0xffffffffU)};
   }
 };
 
@@ -184,7 +217,7 @@ OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& ve
   }
 }
 
-/// Writes the record and the incidences of each contact that stayed; index over all contacts in their buckets.
+/// Writes the record and the incidences of each contact; index over all contacts in their buckets.
 struct WriteRecords {
   ListsView lists;
   ContactFaces faces;
@@ -194,11 +227,10 @@ struct WriteRecords {
     const SurfaceView& surface = faces.surface;
     const int edge_edge_start = lists.record_offsets[surface.vertex_count];
     if (i == 0) *lists.edge_edge_count = lists.record_offsets[lists.buckets] - edge_edge_start;
-    const RawContact own = lists.raw[i];
-    if (own.bucket < 0) return;
-    const bool edge_edge = !faces.is_vertex_facet(own);
-    const int record = lists.record_offsets[own.bucket] + rank(own) - (edge_edge ? edge_edge_start : 0);
-    const RoleVertices vertices = faces.vertices(own);
+    const RawContact own = lists.bucketed[i];
+    const bool edge_edge = !faces.is_vertex_facet(own.bucket);
+    const int record = rank(own) - (edge_edge ? edge_edge_start : 0);
+    const RoleVertices vertices = faces.vertices(own.bucket, own.second);
     const int* v = vertices.role;
     if (edge_edge) {
       const bool is_low_first = holds(own.bucket - surface.vertex_count, own.low);
@@ -211,12 +243,11 @@ struct WriteRecords {
   }
 
  private:
-  /// Those of the bucket that stayed and come before it.
+  /// All contacts before it.
   OGC_HD int rank(const RawContact& own) const {
-    int before = 0;
-    for (int k = lists.raw_offsets[own.bucket], end = lists.raw_offsets[own.bucket + 1]; k < end; ++k) {
-      before += lists.raw[k].bucket >= 0 && lists.raw[k].second < own.second ? 1 : 0;
-    }
+    const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
+    int before = begin;
+    for (int k = begin; k < end; ++k) before += lists.bucketed[k].second < own.second ? 1 : 0;
     return before;
   }
   /// Whether the edge is or ends at the face. Of the two generating edges, `first_edge` is the one that holds the first face; the edges share no vertex, so only

@@ -15,8 +15,7 @@
 //                                        // and writes it. Or all teams of a launch leave (team.leave()) in place of the sum. Start::overlapping: all that
 //                                        // f reads before a Part's `add` is not written by the launch before
 //   search(Searches first, Searches second)             // two kinds of searches (fast/kernels/search.hpp) side by side
-//   exclusive_scan(const int* in, int* out, int n)      // n + 1 outputs; out[n] is the total
-//   exclusive_scans(const Scan& first, const Scan& second)   // two of them, neither of which reads what the other writes
+//   exclusive_scans(const Scan& first, const Scan& second)   // of n numbers n + 1 sums each, the last is the total; neither reads what the other writes
 //   sort_pairs(std::uint64_t* keys, int* values, int n) // stable, ascending
 //   when(F decide, const int* flag, Body body)   // decide(0), then what body() enqueues if *flag is not 0 then; not nested
 //   repeat(F decide, const int* flag, Body body, G decide_again)   // decide(0), then while *flag is not 0 what body() enqueues and decide_again(0)
@@ -29,7 +28,7 @@
 //   static constexpr bool is_device
 //
 // Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies waits. Functors get raw pointers and
-// values, never a Buffer. Atomics: fast/kernels/atomic.hpp, integers and minima of non-negative floats only, whose result no order can change.
+// values, never a Buffer. Atomics: fast/kernels/atomic.hpp, whose result no order can change.
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"
@@ -55,7 +54,7 @@ struct Both {
   }
 };
 
-/// Arguments of an exclusive_scan.
+/// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ count; `out` may be `in`.
 struct Scan {
   const int* in;
   int* out;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include "fast/kernels/collect_contacts.hpp"
 #include "fast/kernels/lists.hpp"
@@ -15,23 +17,23 @@ class Lists {
  public:
   Lists(const SurfaceView& surface, int capacity) : surface_(surface), buckets_(2 * surface.vertex_count + surface.edge_count) {
     const auto buckets = static_cast<std::size_t>(buckets_), vertices = static_cast<std::size_t>(surface.vertex_count);
-    status_.resize(4);
+    status_.resize(status_count);
     status_.fill_zero();
-    for (Buffer<int>* counts : {&raw_counts_, &raw_filled_, &record_counts_}) counts->resize(buckets);
-    for (Buffer<int>* offsets : {&raw_offsets_, &record_offsets_}) offsets->resize(buckets + 1);
+    for (Buffer<int>* counts : {&record_counts_, &record_filled_}) counts->resize(buckets);
     for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(vertices);
-    incidence_offsets_.resize(vertices + 1);
+    record_offsets_.resize(buckets + 1), incidence_offsets_.resize(vertices + 1);
     resize(std::max(1, capacity), least_noted + 4 * capacity);
   }
 
   ListsView view() {
     int* status = status_.data();
-    return {noted_.data(),         noted_capacity_,        status + 3,                raw_.data(),
-            bucketed_.data(),        capacity_,              status,                    status + 1,
-            buckets_,              raw_counts_.data(),     raw_offsets_.data(),       raw_filled_.data(),
-            record_counts_.data(), record_offsets_.data(), status + 2,                vertex_facet_.data(),
-            vertex_facet_face_.data(), edge_edge_.data(),  incidence_counts_.data(),  incidence_offsets_.data(),
-            incidence_filled_.data(), loose_.data(),         incidences_.data()};
+    const auto slot_mask = static_cast<std::uint32_t>(table_.size() - 1);
+    return {noted_.data(),              noted_capacity_,          status + 3,              table_.data(),
+            slot_mask,                  entered_.data(),          bucketed_.data(),        capacity_,
+            status,                     status + 4,               status + 1,              buckets_,
+            record_counts_.data(),      record_offsets_.data(),   record_filled_.data(),   status + 2,
+            vertex_facet_.data(),       vertex_facet_face_.data(), edge_edge_.data(),      incidence_counts_.data(),
+            incidence_offsets_.data(),  incidence_filled_.data(), loose_.data(),           incidences_.data()};
   }
 
   const int* vertex_facet_count() const { return record_offsets_.data() + surface_.vertex_count; }
@@ -48,11 +50,9 @@ class Lists {
                 const Resolve& resolve) {
     const ListsView lists = view();
     backend.for_both(beside_count, beside, lists.noted_count, noted_capacity_,
-                     CollectContacts{{surface_, positions, lists, contact_radius}, {surface_, positions, lists, contact_radius}});
-    backend.exclusive_scan(lists.raw_counts, lists.raw_offsets, buckets_);
-    backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists});
-    backend.for_each_counted(lists.cursor, capacity_, DropDuplicates{lists, {surface_}});
+                     CollectContacts{{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, lists});
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_}, {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
+    backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists});
     backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, {surface_}});
     backend.for_both(after_count, after, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences<Resolve>{lists, resolve});
   }
@@ -60,11 +60,12 @@ class Lists {
   /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again, clears the flag and returns true.
   /// Sets are empty until the next detection.
   bool grow() {
-    int status[4];
-    status_.download(status, 4);
+    int status[status_count];
+    status_.download(status, status_count);
     if (status[1] == 0) return false;
+    const int without_slot = status[4], contacts = status[0] + without_slot;
     const auto grown = [](int capacity, int count) { return count > capacity ? count + count / 2 : capacity; };
-    resize(grown(capacity_, status[0]), grown(noted_capacity_, status[3]));
+    resize(grown(capacity_, without_slot > 0 ? std::max(contacts, capacity_ + 1) : contacts), grown(noted_capacity_, status[3]));
     status_.fill_zero();
     return true;
   }
@@ -77,26 +78,30 @@ class Lists {
   using Buffer = typename Backend::template Buffer<T>;
 
   static constexpr int least_noted = 1 << 16;  // half a mebibyte
+  static constexpr int status_count = 5;
 
   void resize(int capacity, int noted_capacity) {
     capacity_ = capacity;
     noted_capacity_ = noted_capacity;
     const auto n = static_cast<std::size_t>(capacity);
     noted_.resize(static_cast<std::size_t>(noted_capacity));
-    raw_.resize(n), bucketed_.resize(n), vertex_facet_.resize(n), vertex_facet_face_.resize(n), edge_edge_.resize(n);
+    entered_.resize(n), bucketed_.resize(n), vertex_facet_.resize(n), vertex_facet_face_.resize(n), edge_edge_.resize(n);
     loose_.resize(4 * n), incidences_.resize(4 * n);
-    for (Buffer<int>* counts : {&raw_counts_, &raw_offsets_, &raw_filled_, &record_counts_, &record_offsets_, &incidence_counts_, &incidence_offsets_,
-                                &incidence_filled_}) {
+    table_.resize(std::bit_ceil(2 * n));
+    table_.fill_zero();  // a detection that overflowed left contacts in it
+    for (Buffer<int>* counts : {&record_counts_, &record_offsets_, &record_filled_, &incidence_counts_, &incidence_offsets_, &incidence_filled_}) {
       counts->fill_zero();
     }
   }
 
   SurfaceView surface_;
   int buckets_, capacity_ = 0, noted_capacity_ = 0;
-  Buffer<int> status_;  ///< contacts appended, overflow, edge–edge records, noted pairs
+  Buffer<int> status_;  ///< contacts entered, overflow, edge–edge records, noted pairs, contacts without a slot
   Buffer<NotedPair> noted_;
-  Buffer<RawContact> raw_, bucketed_;
-  Buffer<int> raw_counts_, raw_offsets_, raw_filled_, record_counts_, record_offsets_, vertex_facet_face_;
+  Buffer<ContactSlot> table_;
+  Buffer<EnteredContact> entered_;
+  Buffer<RawContact> bucketed_;
+  Buffer<int> record_counts_, record_offsets_, record_filled_, vertex_facet_face_;
   Buffer<int> incidence_counts_, incidence_offsets_, incidence_filled_;
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;

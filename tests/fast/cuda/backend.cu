@@ -159,18 +159,17 @@ TEST_CASE("a team of lanes gives the bits of SerialTeam for every width, in laun
   }
 }
 
-TEST_CASE("exclusive_scan gives n + 1 sums, in place too", "[gpu]") {
+TEST_CASE("a scan gives n + 1 sums, in place too", "[gpu]") {
   CudaBackend backend;
   for (const std::size_t n : {0u, 1u, 2u, 1000u, 1'000'003u}) {
     std::vector<int> items(n + 1, 0), expected(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i) items[i] = static_cast<int>(i * 7919 % 13);
     for (std::size_t i = 0; i < n; ++i) expected[i + 1] = expected[i] + items[i];
-    CudaBuffer<int> in = on_device(items), out;
+    CudaBuffer<int> in = on_device(items), in_place = on_device(items), out;
     out.resize(n + 1);
-    backend.exclusive_scan(in.data(), out.data(), static_cast<int>(n));
+    backend.exclusive_scans({in.data(), out.data(), static_cast<int>(n)}, {in_place.data(), in_place.data(), static_cast<int>(n)});
     CHECK((on_host(out) == expected));
-    backend.exclusive_scan(in.data(), in.data(), static_cast<int>(n));
-    CHECK((on_host(in) == expected));
+    CHECK((on_host(in_place) == expected));
   }
 }
 
@@ -222,14 +221,14 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
   // 0: nothing; 1: counts; then a body that scans and sorts inside the condition; then the flag falls again.
   std::vector<std::uint64_t> keys{3, 1, 2};
   CudaBuffer<std::uint64_t> device_keys;
-  CudaBuffer<int> values, sums;
-  sums.resize(4);
+  CudaBuffer<int> values, sums, sums_again;
+  sums.resize(4), sums_again.resize(4);
   const auto body = [&] {
     backend.when(Assign{flag.data(), 0}, flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
     backend.when(Assign{flag.data(), 1}, flag.data(), [&] {
       backend.for_each(1, AddOne{count.data()});
       backend.sort_pairs(device_keys.data(), values.data(), 3);
-      backend.exclusive_scan(values.data(), sums.data(), 3);
+      backend.exclusive_scans({values.data(), sums.data(), 3}, {values.data(), sums_again.data(), 3});
       backend.for_each(1, Assign{flag.data(), 0});
     });
     backend.when(Decided{}, flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });

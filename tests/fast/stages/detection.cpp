@@ -118,6 +118,55 @@ TEST_CASE("detection: lists that start with room for one contact grow to the sam
   CHECK(find(topology, surface.positions, 0.3F, 1.0F, {}, 1) == find(topology, surface.positions, 0.3F, 1.0F, {}, 100000));
 }
 
+TEST_CASE("detection: one set of lists serves positions after positions, grown on the way or not, as fresh lists would", "[property]") {
+  const TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  std::vector<std::vector<compare::Vec3f>> states{surface.positions, layers(15).positions, tests::scaled(surface.positions, 0.5F), surface.positions};
+  for (const int capacity : {1, 30, 100, 300, 1000, 100000}) {
+    CpuBackend backend;
+    BackendContactEngine<CpuBackend> engine(backend, topology, {}, capacity);
+    for (const auto& positions : states) {
+      CHECK(engine.find(positions, {.contact_radius = 0.3F, .query_radius = 1.0F}) == find(topology, positions, 0.3F, 1.0F, {}, 100000));
+    }
+  }
+}
+
+TEST_CASE("detection: there is room for as many contacts as the capacity says, and for one less a growth by the count of them", "[unit]") {
+  const TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  const auto* x = reinterpret_cast<const Vec*>(surface.positions.data());
+  const ContactSets sets = find(surface, 0.3F, 1.0F);
+  const int contacts = static_cast<int>(sets.vertex_facet.size() + sets.edge_edge.size());
+  for (const int missing : {0, 1, contacts / 3}) {
+    CpuBackend backend;
+    Detection<CpuBackend> detection(backend, topology, {}, contacts - missing);
+    const float r_q = 1;
+    detection.detect(x, 0.3F, &r_q, 0.45F);
+    CHECK((*detection.overflow() != 0) == (missing > 0));
+    CHECK(detection.grow() == (missing > 0));
+    CHECK(detection.capacity() == (missing > 0 ? contacts + contacts / 2 : contacts));
+  }
+}
+
+TEST_CASE("detection: lists grow wherever a contact found no slot", "[unit]") {
+  const TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  CpuBackend backend;
+  Surface<CpuBackend> mesh(topology, {});
+  Lists<CpuBackend> lists(mesh.view(), 10);
+  const ListsView view = lists.view();
+  view.table[3] = {1, 2};
+  *view.cursor = 2, *view.without_slot = 1, *view.overflow = 1;
+  CHECK(lists.grow());
+  CHECK(lists.capacity() == 16);
+  const ListsView grown = lists.view();
+  CHECK(grown.slot_mask == 31);
+  for (std::uint32_t i = 0; i <= grown.slot_mask; ++i) CHECK(grown.table[i].key == 0);
+  *grown.without_slot = 20, *grown.overflow = 1;
+  CHECK(lists.grow());
+  CHECK(lists.capacity() == 30);
+}
+
 TEST_CASE("detection: after an overflow nothing runs until the lists have grown, and one growth is enough", "[unit]") {
   const TestMesh surface = layers(6);
   const compare::Topology topology = surface.topology();
