@@ -1,6 +1,7 @@
-// From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's bucket is its first face. Several pairs
-// may generate the same contact: who decides a pair enters its contact in a hash table, and only the first to do so takes a place in the list and counts
-// it. Inside a bucket each contact then counts those before it, which costs far less than sorting all, and no thread waits for the longest bucket.
+// From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's bucket is its first face. A contact of two
+// interiors is of one pair, and whoever decides that pair gives it a place in the list and counts it. Others several pairs may generate: those are entered
+// in a hash table, and only the first to do so takes a place. Inside a bucket each contact then counts those before it, which costs far less than sorting
+// all, and no thread waits for the longest bucket.
 //
 // Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order buckets, and in a bucket the
 // sorted seconds, have the canonical order of compare/stages. The searches note pairs that may be contacts: half as many again as the contacts where r is
@@ -32,6 +33,7 @@ struct alignas(16) ContactSlot {
 
 /// A contact at its place in the list, and where the table has it.
 struct alignas(16) EnteredContact {
+  static constexpr std::uint32_t nowhere = 0xffffffffU;  ///< of one that a single pair generates
   int bucket, second;
   std::uint32_t slot;
 };
@@ -52,6 +54,11 @@ struct ContactFaces {
   SurfaceView surface;
 
   OGC_HD bool is_vertex_facet(int bucket) const { return bucket < surface.vertex_count; }
+
+  /// Whether only one pair generates it: the pair of its two interiors, which a search notes once.
+  OGC_HD bool is_of_one_pair(int bucket, int second) const {
+    return is_vertex_facet(bucket) ? second >= surface.vertex_count + surface.edge_count : bucket >= 2 * surface.vertex_count;
+  }
 
   OGC_HD RoleVertices vertices(int bucket, int second) const {
     RoleVertices of;
@@ -120,6 +127,7 @@ struct ListsView {
 
   /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges.
   OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
+    if (faces.is_of_one_pair(contact.bucket, contact.second)) return place(contact, EnteredContact::nowhere, faces);
     const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
     std::uint32_t at = home(key);
     for (int looks = 0; looks < longest_search; ++looks, at = (at + 1) & slot_mask) {
@@ -187,19 +195,25 @@ struct CheckCapacity {
   }
 };
 
-/// Each contact to its bucket, with the edges that the table has by now, and out of the table. Beside CheckCapacity, so it may or may not see that there was no
-/// room: what it does then nobody reads, and it stays within the buckets as counted. Index over all contacts.
+/// Each contact to its bucket, with the edges that the table has by now, and out of the table; those of one pair have the edges that their faces are. Beside
+/// CheckCapacity, so it may or may not see that there was no room: what it does then nobody reads, and it stays within the buckets as counted. Index over all
+/// contacts.
 struct FillBuckets {
   ListsView lists;
+  int vertex_count;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     const EnteredContact contact = lists.entered[i];
-    ContactSlot& slot = lists.table[contact.slot];
-    const std::uint64_t edges = ~slot.edges;
+    RawContact to{contact.bucket, contact.second, contact.bucket - 2 * vertex_count, contact.second - vertex_count};
     const int place = lists.record_offsets[contact.bucket] + atomic_add(&lists.record_filled[contact.bucket], 1);
-    slot = {0, 0};
-    lists.bucketed[place] = {contact.bucket, contact.second, static_cast<int>(edges >> 32), static_cast<int>(edges & 0xffffffffU)};
+    if (contact.slot != EnteredContact::nowhere) {
+      ContactSlot& slot = lists.table[contact.slot];
+      const std::uint64_t edges = ~slot.edges;
+      slot = {0, 0};
+      to.low = static_cast<int>(edges >> 32), to.high = static_cast<int>(edges & 0xffffffffU);
+    }
+    lists.bucketed[place] = to;
   }
 };
 

@@ -52,7 +52,7 @@ class Lists {
     backend.for_both(beside_count, beside, lists.noted_count, noted_capacity_,
                      CollectContacts{{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, lists});
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_}, {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
-    backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists});
+    backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists, surface_.vertex_count});
     backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, {surface_}});
     backend.for_both(after_count, after, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_, RankIncidences<Resolve>{lists, resolve});
   }
