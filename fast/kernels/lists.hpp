@@ -20,7 +20,8 @@ struct alignas(8) NotedPair {
   int first, second;
 };
 
-/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, −1 for vertex–facet.
+/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, of no meaning
+/// for vertex–facet.
 struct alignas(16) RawContact {
   int bucket, second, low, high;
 };
@@ -89,8 +90,9 @@ struct ContactFaces {
 };
 
 struct ListsView {
-  /// Slots that the search for a contact looks at, at most. A table that is half full at most, as one whose contacts all have room, has a row of so many taken
-  /// ones with less than one chance in 10¹⁰; where there is one all the same, the lists grow.
+  /// Slots that the search for a contact looks at, at most. Of a table that is half full at most, as one whose contacts all have room, k slots in a row are
+  /// the homes of k keys or more with a chance of at most (√e / 2)ᵏ (Chernoff's bound of a Poisson number of mean k / 2), 4·10⁻²² for these; where there is such
+  /// a row all the same, the lists grow.
   static constexpr int longest_search = 256;
 
   NotedPair* noted = nullptr;
@@ -125,7 +127,7 @@ struct ListsView {
     if (place < noted_capacity) noted[place] = pair;
   }
 
-  /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges.
+  /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges. What one pair alone generates needs no table.
   OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
     if (faces.is_of_one_pair(contact.bucket, contact.second)) return place(contact, EnteredContact::nowhere, faces);
     const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
