@@ -2,8 +2,9 @@
 
   bits     a run of the commit, device and compiler of the accepted one ends with its bits, and an illustration of the exact reference is the same data
   bands    otherwise it has as many steps, keeps the guarantee, and the means of its columns lie within results/bands.json of the accepted ones
-  claims   a claim that the accepted results reproduce is reproduced again; at a smaller scale than the claim's, its number lies in the claim's band, moved from
-           the printed number to the accepted one. Times are not held against those of an accepted run: they say more about the hour than about the program
+  claims   a claim that the accepted results reproduce is reproduced again, and what was set as printed is so again; at
+           a smaller scale than the claim's, its number lies in the claim's band, moved from the printed number to the
+           accepted one. Times are not held against an accepted run's: they say more about the hour than about the program
 """
 
 import gzip
@@ -44,7 +45,7 @@ def started_alike(run, old):
 def differences(run, old, allowed):
     """Sentences about what differs between a run and its accepted counterpart by more than is allowed; none where all is well."""
     m, kept = run.manifest, old.manifest
-    if m.get("guarantee_kept") is False:
+    if run.guarantee_kept is False:
         return ["its audit FAILED"]
     if m.get("status") != "finished":
         return [f"not finished (status: {m.get('status', 'unknown')})"]
@@ -85,7 +86,7 @@ def compare_claims(new, kept):
     for judgement in judge_all(new):
         before = accepted[judgement.claim["id"]].verdict
         if judgement.measured:
-            lost = before == "reproduced" and judgement.verdict == "refuted"
+            lost = (before, judgement.verdict) in (("reproduced", "refuted"), ("as printed", "not as printed"))
             yield (f"{judgement.claim['id']}: {judgement.verdict}, {judgement.measured.value:.4g} (paper {judgement.claim['value']:g}, band {band_in_words(judgement.claim)}); "
                    f"accepted: {before}{' – LOST' if lost else ''}"), not lost
         elif movable(judgement.claim):

@@ -16,6 +16,7 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 
 RESULTS = Path(__file__).parent / "results"
+AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.audited)
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
 
 
@@ -25,13 +26,15 @@ class EvidenceError(Exception):
 
 @dataclass(frozen=True)
 class Measured:
-    """A number and where it comes from; `source` is a path below the folder of the results."""
+    """A number and where it comes from; `source` is a path below the folder of the results, `about` what else must be
+    known to read it."""
 
     value: float
     source: str
     device: str
     commit: str
     ended: str
+    about: str = ""
 
 
 class Columns(Mapping):
@@ -72,6 +75,8 @@ class RunEvidence:
 
     def __init__(self, manifest, rows, source):
         self.manifest, self.rows, self.source = json.loads(Path(manifest).read_text()), Path(rows), source
+        afterwards = Path(manifest).with_name(Path(manifest).name.removesuffix("run.json") + AUDIT)
+        self.afterwards = json.loads(afterwards.read_text()) if afterwards.is_file() else {}
 
     @cached_property
     def columns(self):
@@ -86,18 +91,35 @@ class RunEvidence:
     @property
     def usable(self):
         m = self.manifest
-        return m.get("status") == "finished" and m.get("dirty") is False and m.get("guarantee_kept") is not False
+        return m.get("status") == "finished" and m.get("dirty") is False and self.guarantee_kept is not False
 
     @property
     def failed_audit(self):
-        """A run that stopped because its audit found an intersection: evidence against the guarantee, and for nothing else."""
-        return self.manifest.get("dirty") is False and self.manifest.get("guarantee_kept") is False
+        """A run of which an audit found an intersection: evidence against the guarantee, and for nothing else."""
+        return self.manifest.get("dirty") is False and self.guarantee_kept is False
+
+    @property
+    def audited_states(self):
+        """How many states were audited exactly, while the run went on or afterwards."""
+        return int(self.manifest.get("audited_states", 0)) + self.afterwards.get("states", 0)
+
+    @property
+    def guarantee_kept(self):
+        """False where any audit found an intersection, True where one looked and none did, else None."""
+        found = [self.manifest.get("guarantee_kept"), self.afterwards.get("clean")]
+        return False if False in found else True if True in found and self.audited_states else None
+
+    @property
+    def audit_in_words(self):
+        return f"{self.audited_states} states audited, {len(self.column('step'))} steps"
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane, and steps: so many from the scene's start, not a window."""
         m = self.manifest
         special = {"steps": lambda n: self.column("step")[:1] == [1] and len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
-                   "membrane": lambda name: self.membranes == {name}, "audited": lambda yes: (m.get("audit", "off") != "off") == yes, "scene": lambda name: m["scene"]["name"] == name}
+                   "membrane": lambda name: self.membranes == {name}, 
+                   "audited": lambda yes: (self.guarantee_kept is not None) == yes,
+                   "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
 
     def first(self, steps):
@@ -113,9 +135,9 @@ class RunEvidence:
         """Of the moving bodies: two figures may have one scene with different materials."""
         return {body["material"]["membrane"] for body in self.manifest["scene"]["bodies"] if not is_driven(body)}
 
-    def measured(self, value):
+    def measured(self, value, about=""):
         m = self.manifest
-        return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"])
+        return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"], about)
 
 
 def run_at(folder):
@@ -126,12 +148,13 @@ def run_at(folder):
 
 @dataclass(frozen=True)
 class Table:
-    """A table of results: name (figNN, tableN), scale, rows."""
+    """A table of results: name (figNN, tableN), scale, rows; `ended`: when its runs did, empty where nobody says so."""
 
     name: str
     scale: str
     rows: tuple
     source: str
+    ended: str = ""
 
 
 def table_name(path):
@@ -168,10 +191,22 @@ class Evidence:
         folder = Path(folder)
         self.runs, self.tables = sorted(runs_in(folder), key=lambda run: run.manifest.get("ended", "")), []
         self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
-        for path in sorted([*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")], key=lambda path: (ended_of(path), path)):
+        found = ((ended_of(path), path) for path in (*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")))
+        for ended, path in sorted(found):
             name, scale = table_name(path)
             with path.open(newline="") as file:
-                self.tables.append(Table(name, scale, tuple(csv.DictReader(file)), path.relative_to(folder).as_posix()))
+                rows = tuple(csv.DictReader(file))
+            self.tables.append(Table(name, scale, rows, path.relative_to(folder).as_posix(), ended))
+        self._earlier = {}
+
+    def before(self, moment):
+        """What of this was there at a moment, as manifests write it (2026-11-21T12:40:00Z)."""
+        if moment not in self._earlier:
+            earlier = self._earlier[moment] = copy.copy(self)
+            was_there = lambda run: run.manifest.get("ended", "") < moment  # noqa: E731
+            earlier.runs, earlier.failed = list(filter(was_there, self.runs)), list(filter(was_there, self.failed))
+            earlier.tables = [table for table in self.tables if table.ended and table.ended < moment]
+        return self._earlier[moment]
 
     def measure(self, spec, wanted):
         """The number that `spec` describes from the newest run that is as `wanted`, or the newest table, or None where there is none."""
@@ -183,9 +218,12 @@ class Evidence:
             return self._ratio(spec, wanted)
         wanted = {**wanted, **spec.get("run", {})}
         runs = self.runs_as(wanted)
-        if "manifest" in spec:  # one failed audit outweighs every run that kept the guarantee, whatever step it stopped at and whatever the material
+        if "guarantee" in spec:
+            # One failed audit outweighs every run that kept the guarantee, whatever its last step and its material.
             runs += [run for run in self.failed if run.matches({key: value for key, value in wanted.items() if key not in ("steps", "membrane")})]
-        return runs[-1].measured(value_of(runs[-1], spec)) if runs else None
+        if not runs:
+            return None
+        return runs[-1].measured(value_of(runs[-1], spec), runs[-1].audit_in_words if "guarantee" in spec else "")
 
     def runs_as(self, wanted):
         found = [run for run in self.runs if run.matches(wanted)]
@@ -244,8 +282,8 @@ def value_of(run, spec):
         return values.pop() if len(values) == 1 else math.nan
     if "scene" in spec:
         return _count(m["scene"], moving, spec["scene"])
-    if "manifest" in spec:
-        return 0 if m[spec["manifest"]] is True else 1
+    if "guarantee" in spec:
+        return 0 if run.guarantee_kept else 1
     if "simulated" in spec:
         return len(run.column("step")) * m["settings"]["time_step"]["value"]
     if "real_time" in spec:

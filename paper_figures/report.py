@@ -11,7 +11,6 @@ import io
 import re
 import shlex
 import sys
-from collections import Counter
 from pathlib import Path
 
 from paper_figures import recipes, verdicts
@@ -22,8 +21,11 @@ STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 78em; margin: 1.5em auto; padding: 0 1em; color: #111; }
 table { border-collapse: collapse; margin: .6em 0 1.4em; } td, th { border-bottom: 1px solid #ccc; padding: .25em .6em; text-align: left; vertical-align: top; }
 img, video { max-width: 100%; } h2 { margin-top: 2em; } code { background: #f2f2f2; } .number { text-align: right; min-width: 6em; } td small { color: #444; }
-.verdict { white-space: nowrap; font-weight: bold; } .reproduced { color: #005a87; } .refuted { color: #a33d00; } .not-comparable, .not-yet-run { color: #555; font-weight: normal; }
+.verdict { white-space: nowrap; font-weight: bold; }
+.reproduced { color: #005a87; } .refuted, .not-as-printed, .late { color: #a33d00; }
+.as-printed, .not-comparable, .not-yet-run { color: #555; font-weight: normal; }
 """
+LATE = ' <b class="late">set after a run</b>'
 PAPER_ORDER = [f"fig{number:02d}" for number in range(1, 23)]
 
 
@@ -47,7 +49,7 @@ def shown(path, words):
 
 
 def claim_row(judgement):
-    claim, m = judgement.claim, judgement.measured
+    claim, m, mark = judgement.claim, judgement.measured, LATE if judgement.late else ""
     also = "".join(f"<br><small>also {other['value']:g} ({escape(other['place'])})</small>" for other in claim.get("also", []))
     ours = f"{m.value:.4g}" if m else ""
     origin = f"{escape(m.device)}; commit {escape(m.commit)}; <code>{escape(m.source)}</code>" if m else ""
@@ -55,13 +57,22 @@ def claim_row(judgement):
     notes = "; ".join(filter(None, [escape(judgement.note), instead, origin]))
     return (f'<tr class="claim" id="{escape(claim["id"])}" data-verdict="{judgement.verdict}"><td>{escape(claim["says"])}<br><small>{escape(claim["place"])}</small></td>'
             f'<td class="number">{claim["value"]:g} {escape(claim["unit"]) if claim["unit"] != "1" else ""}{also}</td><td class="number">{ours}</td>'
-            f'<td>{escape(verdicts.band_in_words(claim))}<br><small>{escape(claim["why"])}</small></td>'
+            f'<td>{escape(verdicts.band_in_words(claim))}{mark}<br><small>{escape(claim["why"])}</small></td>'
             f'<td class="verdict {judgement.verdict.replace(" ", "-")}">{judgement.verdict}</td><td><small>{notes}</small></td></tr>')
 
 
-def claim_table(judgements):
+def rows_table(judgements, fourth, sixth):
+    head = "".join(f"<th>{words}</th>" for words in ("the paper says", "paper", "ours", fourth, "verdict", sixth))
     rows = "\n".join(map(claim_row, judgements))
-    return f"<table><tr><th>the paper says</th><th>paper</th><th>ours</th><th>band, and why</th><th>verdict</th><th>evidence</th></tr>\n{rows}\n</table>" if rows else ""
+    return f"<table><tr>{head}</tr>\n{rows}\n</table>" if rows else ""
+
+
+def claim_table(judgements):
+    """Results, and below them what whoever set the run up decided."""
+    results, given = verdicts.apart(judgements)
+    below = rows_table(given, "as printed where within, and why", "run")
+    heading = "<h3>Settings and counts of meshes</h3>" if below else ""
+    return rows_table(results, "band, and why", "evidence") + heading + below
 
 
 def numbered(text):
@@ -110,14 +121,20 @@ def figure_section(figure, book, judgements, evidence):
 
 
 def table1_section(judgements):
-    """Table 1 has its claims with the figures' scenes: here a row a scene, with a link to them."""
+    """Table 1 has its claims with the figures' scenes: here a row a scene, with a link to them; results first."""
     scenes = dict.fromkeys(j.claim["scene"] for j in judgements if "table1" in j.claim["figures"])
-    rows = ""
+    rows, columns = "", (verdicts.VERDICTS, verdicts.AS_SET)
     for scene in scenes:
-        found = Counter(j.verdict for j in judgements if j.claim["scene"] == scene)
-        rows += f'<tr><td><a href="{scene}.html">{scene}</a></td>' + "".join(f'<td class="number">{found[v] or ""}</td>' for v in verdicts.VERDICTS) + "</tr>\n"
+        groups = verdicts.apart([j for j in judgements if j.claim["scene"] == scene])
+        found = [verdicts.counts(group, names)[name] for group, names in zip(groups, columns) for name in names]
+        cells = "".join(f'<td class="number">{n or ""}</td>' for n in found)
+        rows += f'<tr><td><a href="{scene}.html">{scene}</a></td>{cells}</tr>\n'
     own = claim_table([j for j in judgements if j.claim["figures"][0] == "table1"])
-    return f'<h2 id="table1">Table 1: performance and parameters</h2><table><tr><th>scene</th>{"".join(f"<th>{v}</th>" for v in verdicts.VERDICTS)}</tr>{rows}</table>{own}'
+    above = zip(("results", "settings and counts of meshes"), columns)
+    above = "".join(f'<th colspan="{len(names)}">{words}</th>' for words, names in above)
+    head = "".join(f"<th>{name}</th>" for names in columns for name in names)
+    return ('<h2 id="table1">Table 1: performance and parameters</h2>'
+            f"<table><tr><th></th>{above}</tr><tr><th>scene</th>{head}</tr>{rows}</table>{own}")
 
 
 def inline(text):
@@ -160,7 +177,8 @@ def scene_page(scene, judgements, evidence):
     for run in (run for run in evidence.runs if run.manifest["scene"]["name"] == scene):
         m = run.manifest
         settings = ", ".join(f"{escape(name)} {escape(value['value'])}" for name, value in m["settings"].items())
-        audit = {True: f"exact audit of {m['audited_states']} states: no intersection", False: "exact audit FAILED"}.get(m.get("guarantee_kept"), "not audited")
+        audit = {True: f"exact audit of {run.audited_states} states: no intersection", False: "exact audit FAILED",
+                 None: "not audited"}[run.guarantee_kept]
         parts.append(f"<h2>{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>{escape(m['device'])}, commit {escape(m['commit'][:10])}, {len(run.column('step'))} steps, {audit}</p>"
                      f"{embedded(curves(run), 'curves of ' + run.source) if from_the_start(run) else ''}<details><summary>Settings</summary><p>{settings}</p></details>")
     return page(scene, "\n".join(parts if len(parts) > 2 else [*parts, "<p>No accepted run yet.</p>"]))
@@ -175,7 +193,9 @@ def write(out, evidence=None):
     contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
     sections = [figure_section(figure, book, judgements, evidence) for figure in figures]
     body = (f'<p id="counts">{verdicts.headline(judgements)}</p><h1>Offset Geometric Contact: what the paper says, and what we measured</h1>'
-            f"<p>A band is fixed before the run that it judges; where it is younger than the run, the row says so. Nothing here is written by hand: "
+            "<p>A band is fixed before the run that it judges; "
+            f"where a run that answers the claim was known, the row is marked{LATE}. "
+            "Nothing here is written by hand: "
             f"<code>experiments/reproduce --report</code> makes it from claims, accepted results and recipes.</p><p>{contents}</p>"
             + "\n".join([*sections, table1_section(judgements), deviations_section()]))
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -74,11 +74,11 @@ def device_row(scene, runs, memory=""):
     averages, maxima, repeats = zip(*(times(run) for run in runs))
     run, found = runs[-1], contacts(runs[-1])
     steps, wanted = len(run.column("step")), run.manifest["settings"]["steps"]["value"]
-    audit = {True: "no intersection", False: "FAILED"}.get(run.manifest.get("guarantee_kept"), "not audited")
+    audit = {True: "no intersection", False: "FAILED", None: "not audited"}[run.guarantee_kept]
     return {"scene": scene, "backend": run.manifest["backend"], **origin(run), **sizes(run),
             **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted, "runs": len(runs), "windows [ms]": "",
             "repeated steps": max(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
-            "audited states": run.manifest.get("audited_states", "0") + ", " + audit, "device memory [MiB]": memory}
+            "audited states": f"{run.audited_states}, {audit}", "device memory [MiB]": memory}
 
 
 def cpu_row(scene, windows, wanted):

@@ -1,7 +1,12 @@
 """Judges every claim of claims/*.json by the accepted results, or by run folders. The verdict is computed, never written by hand.
 
+Of a result, which a program computes and which may come out otherwise:
   reproduced      the number lies within the claim's band
   refuted         it lies outside; the evidence is named
+Of a setting or a count of a mesh, which whoever sets the run up decides, so that it proves nothing:
+  as printed      what was set is what the paper prints
+  not as printed  it is not
+Of both:
   not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable is named
   not yet run     no accepted run is of the kind that the claim needs
 
@@ -20,7 +25,15 @@ from paper_figures.evidence import RESULTS, Evidence, EvidenceError
 
 CLAIMS = Path(__file__).parent / "claims"
 KEPT = RESULTS / "verdicts.csv"
-VERDICTS = ("reproduced", "refuted", "not comparable", "not yet run")
+RESULT, SETTING, MESH_COUNT = KINDS = ("result", "setting", "mesh count")
+# What a claim is about follows from what is measured (evidence.value_of). How long a run simulates is its number of
+# steps times the time step: both are set.
+KIND_OF_MEASURE = {"setting": SETTING, "material": SETTING, "simulated": SETTING, "scene": MESH_COUNT,
+                   "steps": RESULT, "guarantee": RESULT, "real_time": RESULT, "ratio": RESULT, "table": RESULT}
+COLUMNS_THAT_ARE_SET = ("steps [1]",)
+UNDECIDED = ("not comparable", "not yet run")
+VERDICTS = ("reproduced", "refuted", *UNDECIDED)
+AS_SET = ("as printed", "not as printed", *UNDECIDED)
 STATES = ("smoke", "small")
 # Relative rounding of a number stored in single precision.
 SINGLE = 2.0**-24
@@ -28,12 +41,14 @@ SINGLE = 2.0**-24
 
 @dataclass(frozen=True)
 class Judgement:
-    """A claim (as its file has it, with scene and figures), its verdict, our number or None, and what else must be said."""
+    """A claim (as its file has it, with scene, figures and kind), its verdict, our number or None, and what else must
+    be said; `late`: whether a run that answers it was known when its band was set."""
 
     claim: dict
     verdict: str
     measured: object
     note: str
+    late: bool = False
 
 
 def load(folder=CLAIMS):
@@ -42,8 +57,9 @@ def load(folder=CLAIMS):
     for path in sorted(Path(folder).glob("*.json")):
         document = json.loads(path.read_text())
         for claim in document["claims"]:
-            result.append({**claim, "scene": document["scene"], "figures": document["figures"], "band_set": claim.get("band_set", document["bands_set"])})
-            _check(result[-1], path)
+            _check(claim, path)
+            common = {"scene": document["scene"], "figures": document["figures"], "kind": kind_of(claim)}
+            result.append({**claim, **common, "band_set": claim.get("band_set", document["bands_set"])})
     twice = {claim["id"] for claim in result if sum(other["id"] == claim["id"] for other in result) > 1}
     unknown = {claim["instead"] for claim in result if "instead" in claim} - {claim["id"] for claim in result}
     if twice or unknown:
@@ -51,10 +67,28 @@ def load(folder=CLAIMS):
     return result
 
 
+def kind_of(claim):
+    """One of KINDS, by what is measured; where nothing is, the claim says it itself. Throws EvidenceError."""
+    specs = claim.get("measure", [])
+    kinds = {_kind_of_measure(spec) for spec in (specs if isinstance(specs, list) else [specs])} or {claim.get("kind")}
+    if len(kinds) != 1 or not kinds <= set(KINDS):
+        raise EvidenceError(f"claim {claim.get('id', '?')}: what it measures is not one of {', '.join(KINDS)}: "
+                            "say it by a `measure`, or by `kind` where nothing is measured")
+    return kinds.pop()
+
+
+def _kind_of_measure(spec):
+    if spec.get("column") in COLUMNS_THAT_ARE_SET:
+        return SETTING
+    return next((kind for key, kind in KIND_OF_MEASURE.items() if key in spec), None)
+
+
 def _check(claim, path):
     missing = [key for key in ("id", "value", "unit", "place", "says", "why") if key not in claim]
     if missing:
         raise EvidenceError(f"{path.name}: claim {claim.get('id', '?')} lacks {', '.join(missing)}")
+    if "kind" in claim and "measure" in claim:
+        raise EvidenceError(f"{path.name}: claim {claim['id']}: its kind follows from what is measured; remove `kind`")
     if "band" in claim and "measure" not in claim:
         raise EvidenceError(f"{path.name}: claim {claim['id']} has a band, but nothing is measured")
     if "band" not in claim and "instead" not in claim and "devices" not in json.dumps(claim.get("measure", "")):
@@ -76,15 +110,27 @@ def judge(claim, evidence):
     measured = evidence.measure(claim["measure"], wanted)
     if measured is None:
         return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence, wanted))
-    late = f"the band was set on {claim['band_set'][:10]}, after this run" if measured.ended and measured.ended < claim["band_set"] and claim.get("band") not in (None, "stored") else ""
     if "band" not in claim:
         return Judgement(claim, "not comparable", measured, f"ours over the paper's: {measured.value / claim['value']:.3g}")
     also = [other for other in claim.get("also", []) if "band" in other]
     hit = within(measured.value, claim["value"], claim["band"])
     others = [other["place"] for other in also if within(measured.value, other["value"], other["band"])]
-    if not hit and others:
-        late = "; ".join(filter(None, [f"as in {', '.join(others)}; the paper says it in two ways", late]))
-    return Judgement(claim, "reproduced" if hit or others else "refuted", measured, late)
+    known = _known_before(claim, evidence, wanted)
+    note = [measured.about] if measured.about else []
+    note += [f"as in {', '.join(others)}; the paper says it in two ways"] if others and not hit else []
+    note += [f"the band was set on {claim['band_set'][:10]}, when this was known: {known}"] if known else []
+    yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
+    return Judgement(claim, yes if hit or others else no, measured, "; ".join(note), bool(known))
+
+
+def _known_before(claim, evidence, wanted):
+    """The number that a run had given when the claim's band was set, in words; empty where there was none, or where the
+    band leaves no choice."""
+    if claim["band"] == "stored":
+        return ""
+    earlier = evidence.before(claim["band_set"])
+    found = earlier.measure(claim["measure"], wanted)
+    return f"{found.value:.9g} ({found.source})" if found else claim.get("band_after", "")
 
 
 def _elsewhere(claim, evidence, wanted):
@@ -106,14 +152,26 @@ def judge_all(evidence=None, claims=None):
     return [judge(claim, evidence) for claim in claims or load()]
 
 
-def counts(judgements):
-    return {verdict: sum(j.verdict == verdict for j in judgements) for verdict in VERDICTS}
+def counts(judgements, names=VERDICTS):
+    return {verdict: sum(j.verdict == verdict for j in judgements) for verdict in names}
+
+
+def apart(judgements):
+    """(about results, about what was set)."""
+    return [[j for j in judgements if (j.claim["kind"] == RESULT) == wanted] for wanted in (True, False)]
 
 
 def headline(judgements):
-    """The first line of the report."""
-    found = counts(judgements)
-    return f"{found['not yet run']} of {len(judgements)} claims are not yet run; {found['reproduced']} reproduced, {found['refuted']} refuted, {found['not comparable']} not comparable."
+    """The first line of the report: results alone count; what was set stands beside them."""
+    results, given = apart(judgements)
+    found, settings = counts(results), counts(given, AS_SET)
+    late = sum(j.late for j in results if j.verdict == "reproduced")
+    mark = f" ({late} by a band set after a run)" if late else ""
+    undecided = ", ".join(f"{found[name]} {name}" for name in UNDECIDED)
+    beside = ", ".join(f"{settings[name]} {name}" for name in AS_SET)
+    return (f"{found['reproduced']} of {len(results)} claims about results are reproduced{mark}, "
+            f"{found['refuted']} refuted, {undecided}. "
+            f"Beside them stand {len(given)} settings and counts of meshes, which are no results: {beside}.")
 
 
 def unjudged(judgements):
@@ -129,7 +187,7 @@ def band_in_words(claim):
     if band is None:
         return "none"
     if band == "stored":
-        return "as printed"
+        return "rounded to single precision"
     low, high = band
     if low == high:
         return f"exactly {low:g}"
@@ -137,14 +195,16 @@ def band_in_words(claim):
 
 
 def as_table(judgements):
-    """CSV with a row a claim."""
+    """CSV with a row a claim: results first, settings and counts of meshes below them."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["claim", "verdict", "paper", "unit", "band", "ours", "device", "commit", "source", "note"])
-    for j in judgements:
+    writer.writerow(["claim", "kind", "verdict", "paper", "unit", "band", "band set after a run",
+                     "ours", "device", "commit", "source", "note"])
+    for j in (j for group in apart(judgements) for j in group):
         m = j.measured
-        writer.writerow([j.claim["id"], j.verdict, f"{j.claim['value']:g}", j.claim["unit"], band_in_words(j.claim), f"{m.value:.6g}" if m else "",
-                         *((m.device, m.commit, m.source) if m else ("", "", "")), j.note])
+        paper = (f"{j.claim['value']:g}", j.claim["unit"], band_in_words(j.claim), "yes" if j.late else "")
+        ours = (f"{m.value:.6g}", m.device, m.commit, m.source) if m else ("",) * 4
+        writer.writerow([j.claim["id"], j.claim["kind"], j.verdict, *paper, *ours, j.note])
     return out.getvalue()
 
 

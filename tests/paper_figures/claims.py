@@ -3,8 +3,11 @@
 Usage: claims.py SOURCE_DIR. The standard library is enough.
 """
 
+import copy
 import json
+import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -17,9 +20,13 @@ from paper_figures import verdicts  # noqa: E402
 from paper_figures.evidence import RESULTS, Evidence, EvidenceError, value_of  # noqa: E402
 
 
+GUARANTEE = {"measure": {"guarantee": "penetration-free"}, "band": [0, 0]}
+
+
 def claim(**changes):
     return {"id": "s.c", "scene": "cloth_on_sphere", "figures": [], "band_set": "2000-01-01", "value": 1, "unit": "1", "place": "p", "says": "w", "why": "y",
-            "run": {"scale": "paper", "backend": "cuda"}, "measure": {"steps": "wall", "statistic": "mean"}, "band": [0, 1], **changes}
+            "kind": verdicts.RESULT, "run": {"scale": "paper", "backend": "cuda"},
+            "measure": {"steps": "wall", "statistic": "mean"}, "band": [0, 1], **changes}
 
 
 class Accepted(unittest.TestCase):
@@ -31,10 +38,131 @@ class Accepted(unittest.TestCase):
         self.assertEqual(silent, [], "judge these claims, or write waits_for into them: what is missing")
         self.assertEqual(stale, [], "these are judged now: remove waits_for")
 
-    def test_every_claim_has_a_place_a_reason_and_a_verdict(self):
+    def test_every_claim_has_a_place_a_reason_and_a_verdict_of_its_kind(self):
         for judgement in verdicts.judge_all():
-            self.assertIn(judgement.verdict, verdicts.VERDICTS)
+            allowed = verdicts.VERDICTS if judgement.claim["kind"] == verdicts.RESULT else verdicts.AS_SET
+            self.assertIn(judgement.verdict, allowed, judgement.claim["id"])
             self.assertTrue(judgement.claim["place"] and judgement.claim["why"], judgement.claim["id"])
+
+
+class Kinds(unittest.TestCase):
+    """What is a result, and what whoever set the run up decided."""
+
+    def test_no_claim_lacks_a_kind(self):
+        self.assertEqual([each["id"] for each in verdicts.load() if each["kind"] not in verdicts.KINDS], [])
+
+    def test_what_does_not_change_when_everything_that_the_program_computed_does_is_no_result(self):
+        """Every number of the rows and the audit's answer are changed, settings, materials and scene are not."""
+        tried = {kind: 0 for kind in verdicts.KINDS}
+        evidence = Evidence()
+        for each in verdicts.load():
+            specs = each.get("measure", [])
+            for spec in specs if isinstance(specs, list) else [specs]:
+                wanted = {"scene": each["scene"], **each.get("run", {}), **spec.get("run", {})}
+                runs = [] if {"table", "ratio"} & set(spec) else evidence.runs_as(wanted)
+                if runs:
+                    same = value_of(runs[-1], spec) == value_of(self.changed(runs[-1]), spec)
+                    self.assertEqual(same, each["kind"] != verdicts.RESULT, each["id"])
+                    tried[each["kind"]] += 1
+        self.assertGreater(min(tried.values()), 10, tried)
+
+    @staticmethod
+    def changed(run):
+        other = copy.copy(run)
+        other.columns = {name: [3 * value + 1 for value in run.column(name)] for name in run.columns}
+        other.manifest, other.afterwards = {**run.manifest, "guarantee_kept": run.guarantee_kept is not True}, {}
+        return other
+
+    def test_the_headline_counts_results_alone(self):
+        setting = {"kind": verdicts.SETTING, "measure": {"setting": "iterations"}, "band": [40, 40]}
+        count = {"kind": verdicts.MESH_COUNT, "measure": {"scene": "vertices"}, "band": [1, 2]}
+        judged = [verdicts.judge(claim(**changes), Evidence())
+                  for changes in ({"band": [0, 100]}, {"band": [50, 100]}, setting, count)]
+        self.assertEqual([j.verdict for j in judged], ["reproduced", "refuted", "as printed", "not as printed"])
+        words = verdicts.headline(judged)
+        self.assertRegex(words, "^1 of 2 claims about results are reproduced.* 1 refuted")
+        self.assertRegex(words, "2 settings and counts of meshes.*1 as printed, 1 not as printed")
+        kinds = [line.split(",")[1] for line in verdicts.as_table(judged[::-1]).splitlines()[1:]]
+        self.assertEqual(kinds[:2], [verdicts.RESULT] * 2, "what was set stands below the results")
+
+
+class Bands(unittest.TestCase):
+    """A band that was chosen when its run was known says so, whatever run judges it now."""
+
+    def test_a_band_younger_than_any_run_that_answers_its_claim_is_marked(self):
+        old = Evidence().runs_as({"scene": "cloth_on_sphere", **claim()["run"]})[0]  # the newest is the last
+        for band_set, late in ((old.manifest["ended"], False), (old.manifest["ended"].replace("Z", "Z+"), True)):
+            judged = verdicts.judge(claim(band_set=band_set), Evidence())
+            self.assertGreater(judged.measured.ended, band_set, "a newer run judges")
+            self.assertEqual((judged.late, "when this was known" in judged.note), (late, late))
+
+    def test_the_mark_stands_in_the_table_and_in_the_headline(self):
+        judged = verdicts.judge(claim(band_set="2999-01-01", band=[0, 100]), Evidence())
+        self.assertIn("(1 by a band set after a run)", verdicts.headline([judged]))
+        self.assertIn(",0 to 100,yes,", verdicts.as_table([judged]))
+
+    def test_a_known_run_that_is_gone_is_named_by_the_claim(self):
+        self.assertTrue(verdicts.judge(claim(band_after="3.99 s of a run that was replaced"), Evidence()).late)
+
+    def test_no_band_is_younger_than_it_says_nor_than_a_number_that_no_mark_tells_of(self):
+        """By the history of the claims and of the kept verdicts; skipped where there is none."""
+        commits = history("paper_figures/claims", "paper_figures/results/verdicts.csv")
+        marked = {j.claim["id"] for j in verdicts.judge_all() if j.late}
+        for each in verdicts.load():
+            states = [(date, bands.get(each["id"])) for date, bands, _ in commits if each["id"] in bands]
+            if not states or each.get("band") in (None, "stored"):
+                continue
+            changes = [date for (date, band), (_, before) in zip(states[1:], states) if band != before]
+            if states[-1][1] == band_of(each):
+                last = changes[-1] if changes else states[0][0]
+                self.assertGreaterEqual(each["band_set"], last, f"{each['id']}: changed later than band_set says")
+            known = next((date for date, _, judged in commits if each["id"] in judged), "9999")
+            if states[-1][1] != band_of(each) or changes and known < changes[-1]:
+                self.assertTrue(known == "9999" or each["id"] in marked,
+                                f"{each['id']}: a number of {known} was known; say so in band_after")
+
+
+def band_of(each):
+    return json.dumps([each["value"], each.get("band"), [other.get("band") for other in each.get("also", [])]])
+
+
+def git(*words, **options):
+    utc = {**os.environ, "TZ": "UTC"}
+    return subprocess.run(["git", "-C", SOURCE, *words], capture_output=True, check=True, env=utc, **options).stdout
+
+
+def versions(names):
+    """The text of each COMMIT:PATH of `names`, empty where there is none."""
+    answer, texts = git("cat-file", "--batch", input="\n".join(names).encode()), []
+    for _ in names:
+        head, _, answer = answer.partition(b"\n")
+        size = 0 if head.endswith(b" missing") else int(head.rsplit(b" ", 1)[1])
+        texts.append(answer[:size].decode())
+        answer = answer[size + 1:] if size else answer
+    return texts
+
+
+def history(claims, kept):
+    """[(date, {claim: its band}, claims with a number)] of every commit that changed either, the oldest first; skips the
+    test where the checkout has no whole history."""
+    try:
+        if git("rev-parse", "--is-shallow-repository").strip() != b"false":
+            raise unittest.SkipTest("a checkout without its history")
+        words = ("--reverse", "--date=format-local:%Y-%m-%dT%H:%M:%SZ", "--format=%H %ad", "--", claims, kept)
+        commits = [line.split() for line in git("log", *words).decode().splitlines()]
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise unittest.SkipTest("no git repository") from error
+    files = [*(f"{claims}/{path.name}" for path in sorted((SOURCE / claims).glob("*.json"))), kept]
+    texts = iter(versions([f"{commit}:{name}" for commit, _ in commits for name in files]))
+    result = []
+    for _, date in commits:
+        *documents, rows = [next(texts) for _ in files]
+        decided = {*verdicts.VERDICTS[:2], *verdicts.AS_SET[:2]}
+        judged = {row[0] for row in (line.split(",") for line in rows.splitlines()) if decided & set(row[1:3])}
+        claims_then = [each for text in documents if text for each in json.loads(text)["claims"]]
+        bands = {each["id"]: band_of(each) for each in claims_then if "id" in each}
+        result.append((date, bands, judged))
+    return result
 
 
 class Judging(unittest.TestCase):
@@ -59,10 +187,6 @@ class Judging(unittest.TestCase):
     def test_a_setting_is_the_printed_one_to_single_precision(self):
         self.assertTrue(verdicts.within(0.009999999776482582, 0.01, "stored"))
         self.assertFalse(verdicts.within(0.01000001, 0.01, "stored"))
-
-    def test_a_band_set_after_the_run_is_said_to_be_so(self):
-        self.assertIn("after this run", verdicts.judge(claim(band_set="2999-01-01"), Evidence()).note)
-        self.assertEqual(verdicts.judge(claim(), Evidence()).note, "")
 
     def test_unknown_columns_and_mixed_commits_are_refused_in_words(self):
         with self.assertRaisesRegex(EvidenceError, "has no column 'wallet'; it has: step, wall"):
@@ -112,10 +236,30 @@ class Runs(unittest.TestCase):
 
     def test_a_failed_audit_refutes_the_guarantee_and_nothing_else(self):
         failed = lambda m: m.update(status="failed: intersection", guarantee_kept=False)  # noqa: E731
-        guarantee = {"measure": {"manifest": "guarantee_kept"}, "run": {"scale": "paper", "steps": 1000}, "band": [0, 0]}
+        guarantee = {**GUARANTEE, "run": {"scale": "paper", "steps": 1000}}
         self.assertEqual(self.judged(failed), "not yet run")
         self.assertEqual(self.judged(failed, **guarantee), "refuted")
         self.assertEqual(self.judged(lambda m: None, **{**guarantee, "run": {"scale": "paper", "steps": 100}}), "reproduced")
+
+    def test_a_verdict_about_penetrations_says_how_many_states_were_audited(self):
+        for j in verdicts.judge_all():
+            if j.measured and "guarantee" in j.claim["measure"]:
+                self.assertRegex(j.note, r"^[1-9]\d* states audited, \d+ steps", j.claim["id"])
+
+    def test_an_audit_afterwards_counts_as_one_beside_the_run(self):
+        said, wanted = "61 states audited, 100 steps", {"run": {"scale": "paper", "steps": 100, "audited": True}}
+        for found, verdict, note in ((None, "not yet run", ""), ({"states": 61, "clean": True}, "reproduced", said),
+                                     ({"states": 61, "clean": False}, "refuted", said),
+                                     ({"states": 0, "clean": True}, "not yet run", "")):
+            with tempfile.TemporaryDirectory() as name:
+                shutil.copy(RESULTS / "h200/sphere_cuda_profile_steps.csv", Path(name) / "steps.csv")
+                manifest = json.loads((RESULTS / "h200/sphere_cuda_profile_run.json").read_text())
+                self.assertEqual(manifest["audited_states"], "0")
+                (Path(name) / "run.json").write_text(json.dumps(manifest))
+                if found:
+                    (Path(name) / "audit.json").write_text(json.dumps(found))
+                judged = verdicts.judge(claim(**GUARANTEE, **wanted), Evidence(name))
+            self.assertEqual((judged.verdict, judged.note), (verdict, note))
 
 
 class Counts(unittest.TestCase):
@@ -208,8 +352,14 @@ class OneSceneOfTwoFigures(unittest.TestCase):
 
 class Files(unittest.TestCase):
     def test_faulty_claim_files_are_refused(self):
-        for change, words in (({"place": None}, "lacks place"), ({"measure": None}, "nothing is measured"), ({"band": None}, "must name the claim that is comparable")):
-            broken = {k: v for k, v in {**claim(), **change}.items() if v is not None}
+        no_kind = "not one of result, setting, mesh count"
+        for change, words in (({"place": None}, "lacks place"), ({"measure": None}, "nothing is measured"),
+                              ({"band": None}, "must name the claim that is comparable"),
+                              ({"kind": verdicts.SETTING}, "follows from what is measured"),
+                              ({"measure": {"taste": "sweet"}}, no_kind),
+                              ({"measure": [{"setting": "iterations"}, {"steps": "wall"}]}, no_kind),
+                              ({"measure": None, "band": None, "instead": "s.c"}, "`kind` where nothing is measured")):
+            broken = {k: v for k, v in {**claim(kind=None), **change}.items() if v is not None}
             with tempfile.TemporaryDirectory() as name, self.assertRaisesRegex(EvidenceError, words):
                 (Path(name) / "s.json").write_text(json.dumps({"scene": "s", "figures": [], "bands_set": "2000", "claims": [broken]}))
                 verdicts.load(name)

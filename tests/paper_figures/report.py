@@ -34,6 +34,7 @@ class Page(HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.ids, self.links, self.pictures, self.movies, self.marked, self.shown, self.words, self.foreign = set(), [], [], [], {}, {}, [], []
+        self.late = set()
         self.row = self.cell = self.head = None
         self.feed(text)
 
@@ -51,6 +52,8 @@ class Page(HTMLParser):
         if "data-verdict" in attributes:
             self.row = attributes["id"]
             self.marked[self.row] = attributes["data-verdict"]
+        if attributes.get("class") == "late" and self.row:
+            self.late.add(self.row)
         self.head = tag in ("title", "style")
         self.cell = tag == "td" and "verdict" in attributes.get("class", "").split()
 
@@ -59,6 +62,9 @@ class Page(HTMLParser):
             self.words.append(data.strip())
             if self.cell:
                 self.shown[self.row] = data
+
+
+judged = functools.cache(verdicts.judge_all)
 
 
 @functools.cache  # the pages are read once for each planted fault
@@ -83,10 +89,14 @@ def mp4(source):
 def faults(folder):
     """Sentences about what is wrong with the report in `folder`; none where all is well."""
     pages = {path.name: Page(path.read_text()) for path in sorted(Path(folder).glob("*.html"))}
-    expected = {j.claim["id"]: j.verdict for j in verdicts.judge_all()}
+    expected = {j.claim["id"]: j.verdict for j in judged()}
     found = []
-    if pages["index.html"].words[0] != verdicts.headline(verdicts.judge_all()):
+    if pages["index.html"].words[0] != verdicts.headline(judged()):
         found.append("the first line does not count the claims")
+    late = {j.claim["id"] for j in judged() if j.late}
+    if pages["index.html"].late != late:
+        wrong = ", ".join(sorted(pages["index.html"].late ^ late))
+        found.append(f"index.html: not marked as judged by a band set after a run, or marked without reason: {wrong}")
     if pages["index.html"].marked != expected:
         found.append("index.html: the verdicts are not those of the claims")
     for name, page in pages.items():
@@ -108,7 +118,9 @@ def check_faults_are_found(folder):
     """Each planted fault must be named; otherwise this test could not fail."""
     index = Path(folder) / "index.html"
     good = index.read_text()
-    plants = [(lambda t: re.sub(r"^(.*?)\d+ of", r"\g<1>0 of", t, count=1, flags=re.S), "does not count"), (lambda t: t.replace('data-verdict="refuted"', 'data-verdict="reproduced"', 1), "not those"),
+    plants = [(lambda t: re.sub(r"\d+ of (\d+ claims)", r"0 of \1", t, count=1), "does not count"),
+              (lambda t: t.replace(report.LATE, "", 2), "not marked"),
+              (lambda t: t.replace('data-verdict="refuted"', 'data-verdict="reproduced"', 1), "not those"),
               (lambda t: t.replace(">refuted</td>", ">reproduced</td>", 1), "shows 'reproduced'"), (lambda t: t.replace('href="twist.html"', 'href="twists.html"', 1), "leads nowhere"),
               (lambda t: t.replace('src="data:image/png;base64,iVBOR', 'src="data:image/png;base64,AAAAA', 1), "can't be read"),
               (lambda t: t.replace('src="data:image/png', 'src="http://example.org/a.png" title="', 1), "can't be read"), (lambda t: t.replace("<body>", "<body><script></script>", 1), "holds a script"),
@@ -133,7 +145,7 @@ def browse(browser, folder, screenshot):
         pictures, bad, asked, first = found.groups()
         assert int(pictures) == len(Page(path.read_text()).pictures) and bad == "0" and asked == "0", f"{path.name}: {bad} of {pictures} pictures not shown, {asked} requests"
         if path.name == "index.html":
-            assert first.startswith(verdicts.headline(verdicts.judge_all())), first
+            assert first.startswith(verdicts.headline(judged())), first
         copy.unlink()
     subprocess.run([*base, "--window-size=1300,2400", f"--screenshot={screenshot}", (Path(folder) / "index.html").as_uri()], capture_output=True, check=True)
 
