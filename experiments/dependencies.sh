@@ -6,11 +6,11 @@ packages=(
   python3 python3-venv python3-yaml
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev
   libeigen3-dev libsuitesparse-dev libopenblas-dev
-  nlohmann-json3-dev libcli11-dev libbenchmark-dev catch2 librapidcheck-dev
+  nlohmann-json3-dev libcli11-dev libbenchmark-dev catch2
   libegl1 libgl1 libgl1-mesa-dri libxrender1
 )
 # Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with these.
-fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-pytest python3-jsonschema)
+fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-jsonschema)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -27,6 +27,7 @@ from pathlib import Path
 from paper_figures import commands, growth, in_time
 from paper_figures.device_memory import DeviceMemory
 from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, command_in, last_lines, make, manifest_of
+from paper_figures.unpacking import UnpackError, extract_file
 
 TABLE1 = Path(__file__).parent.parent / "experiments/table1"
 ROWS = {"twist": "fig12", "fifty_layers_1m": "", "cloth_on_sphere": "fig18", "fifty_layers": "fig10", "knot": "fig11", "dress": "fig13", "robot_shirt": "fig14"}  # and the figures of their whole runs
@@ -254,12 +255,10 @@ def unpack(folder, out, program):
     out.mkdir(parents=True, exist_ok=True)
     whole = out / "packed.tar.gz"
     whole.write_bytes(b"".join(path.read_bytes() for path in sorted(folder.glob("runs_*"))))
-    try:
-        with tarfile.open(whole) as archive:
-            names = archive.getnames()
-            archive.extractall(out)
-    except (EOFError, tarfile.ReadError):
-        sys.exit(f"device_runs: the pieces in {folder} end in the middle of a file: the last ones are missing or cut; nothing of them is unpacked")
+    try:  # a part is never above TOTAL, and a call packs each of them once at most
+        names = extract_file(whole, out, TOTAL, TOTAL * len(parts("paper", "cuda")))
+    except UnpackError as error:
+        sys.exit(f"device_runs: {folder}: {error}; nothing is unpacked")
     finally:
         whole.unlink()
     for run in sorted({(out / name).parent for name in names if name.endswith("run.json")}):

@@ -65,7 +65,6 @@ FOREIGN = {
     "spawn.h": ("experiments/plugins", "experiments/bench"),
     "stdint.h": ("compare/plugin.h",),
     "catch2/": (),
-    "rapidcheck": (),
     "unistd.h": ("compare/files", "compare/record", "experiments"),
     "fcntl.h": ("compare/files", "compare/record", "experiments"),
     "sys/": ("compare/files", "compare/record", "experiments"),

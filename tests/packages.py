@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be included, imported or called somewhere.
+
+    tests/packages.py SOURCE_DIR     the self-test, then one line for each package that is not; exit status 1 where there is any
+
+What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones, other systems).
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+# What no include, import or call shows: why it is there, and the words in the tree that it is there for.
+STATED = {
+    "build-essential": ("the compiler", r"project\([^)]*CXX"),
+    "ca-certificates": ("the Python package index is reached by https", r"-m pip install"),
+    "python3": ("plots, tests, the workflow", r"python3 -m"),
+    "python3-venv": ("the Python environment", r"-m venv"),
+    "libgmp-dev": ("CGAL's exact numbers", r"find_package\(CGAL"),
+    "libmpfr-dev": ("CGAL's exact numbers", r"find_package\(CGAL"),
+    "libopenblas-dev": ("CHOLMOD's dense blocks", r"find_library\(CHOLMOD"),
+    **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"), ("PyVista draws without a screen", r"import pyvista")),
+}
+IMPORTED_AS = {"PyYAML": "yaml", "vtk": "vtkmodules"}
+INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
+IMPORT = re.compile(r"^\s*(?:import|from)\s+(\w+)|-m (\w+)", re.M)
+EXECUTOR = re.compile(r"^executor: (\w+)", re.M)
+
+
+def arrays(script):
+    """name -> words of the arrays `name=(…)` of a shell script."""
+    return {name: re.sub(r"#[^\n]*", "", body).split() for name, body in re.findall(r"^(\w+)=\((.*?)\)$", script, re.M | re.S)}
+
+
+def said(*command):
+    """What a command prints; nothing where it fails or is not there."""
+    try:
+        return subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    except OSError:
+        return ""
+
+
+def files_of(package, deep=True):
+    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies stands for;
+    none where it is not installed."""
+    listed = said("dpkg", "-L", package).splitlines()
+    found = [path for path in listed if path.startswith(("/usr/include/", "/usr/bin/", "/usr/lib/python3/dist-packages/"))]
+    if found or not listed or not deep:
+        return found
+    depends = said("dpkg-query", "-W", "-f=${Depends}", package)
+    return [path for name in re.findall(r"[a-z][\w.+-]+", depends) for path in files_of(name, deep=False)]
+
+
+def brings(files, tree):
+    """Whether the tree includes, imports or calls one of these files. `tree`: {path: text}."""
+    sources = {path for path in tree if path.endswith((".cpp", ".hpp", ".h", ".cu", ".cuh"))}
+    includes = {"/" + header for path in sources for header in INCLUDE.findall(tree[path])}
+    words = {word for path, text in tree.items() if path not in sources for word in re.findall(r"[\w-]+", text)}
+    imports = imported(tree)
+    for path in files:
+        folder, _, name = path.rpartition("/")
+        module = path.partition("dist-packages/")[2].split("/")[0]
+        if folder == "/usr/bin" and name in words or module and module in imports:
+            return True
+        if path.startswith("/usr/include/") and any(path.endswith(header) for header in includes):
+            return True
+    return False
+
+
+def imported(tree):
+    python = (text for path, text in tree.items() if path.endswith((".py", ".sh", "reproduce", "Snakefile")))
+    return {a or b for text in python for a, b in IMPORT.findall(text)}
+
+
+def unused(dependencies, requirements, tree, files=files_of):
+    """Sentences about packages of either file that nothing in the tree uses, and about entries of STATED that no package needs."""
+    found, lists = [], arrays(dependencies)
+    for package in dict.fromkeys(lists.get("packages", []) + lists.get("optional_packages", [])):
+        if package in STATED:
+            used = any(re.search(STATED[package][1], text) for text in tree.values())
+        else:
+            there = files(package)
+            used = not there or brings(there, tree)
+        found += [] if used else [f"{package} (experiments/dependencies.sh)"]
+    imports = imported(tree)
+    executors = {f"snakemake_executor_plugin_{name}" for text in tree.values() for name in EXECUTOR.findall(text)}
+    for package in lists.get("fallback_packages", []):
+        found += [] if package.removeprefix("python3-") in imports else [f"{package} (experiments/dependencies.sh)"]
+    for package in re.findall(r"^([\w-]+)==", requirements, re.M):
+        name = IMPORTED_AS.get(package, package.replace("-", "_"))
+        plugin = any(name.startswith(executor) for executor in executors)
+        found += [] if name in imports or plugin else [f"{package} (plots/requirements.txt)"]
+    words = "nothing includes, imports or calls it: remove it, or say in STATED (tests/packages.py) what it is for"
+    return [f"{what}: {words}" for what in found]
+
+
+def self_test():
+    """Sentences about planted packages that are judged wrongly."""
+    modules = "/usr/lib/python3/dist-packages"
+    brought = {"libused-dev": ["/usr/include/used/all.hpp"], "tool": ["/usr/bin/tool"], "python3-used": [f"{modules}/used/x.py"],
+               "libidle-dev": ["/usr/include/idle.h"], "idler": ["/usr/bin/idler"], "python3-idle": [f"{modules}/idle/x.py"]}
+    tree = {"a.cpp": "#include <used/all.hpp>\n// idler\n", "b.sh": "tool --all\npython3 -m called\n", "c.py": "import used\n",
+            "d.yaml": "executor: slurm\n"}
+    sound = unused("packages=(libused-dev tool python3-used  # words\n not-installed)",
+                   "used==1\ncalled==1\nsnakemake-executor-plugin-slurm==2\n", tree, lambda name: brought.get(name, []))
+    planted = unused("packages=(libidle-dev idler)\noptional_packages=(python3-idle)\nfallback_packages=(python3-idle)", "idle==1\n",
+                     tree, lambda name: brought[name])
+    wrong = [f"a used package is called unused: {finding}" for finding in sound]
+    return wrong + ([] if len(planted) == 5 else [f"of five planted packages {len(planted)} are found: {planted}"])
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        print(__doc__, file=sys.stderr)
+        return 2
+    root = Path(arguments[0])
+    names = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True, check=True).stdout.split()
+    kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle|measure|table1))$")
+    texts = filter(kinds.search, names)
+    ours = {"experiments/dependencies.sh", "plots/requirements.txt", "tests/packages.py"}
+    tree = {name: (root / name).read_text(errors="replace") for name in texts if name not in ours and (root / name).is_file()}
+    dependencies = (root / "experiments/dependencies.sh").read_text()
+    tree["experiments/dependencies.sh"] = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # how it installs, not what
+    findings = self_test() + unused(dependencies, (root / "plots/requirements.txt").read_text(), tree)
+    print("\n".join(findings))
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
