@@ -79,9 +79,11 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
                   "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the exact one. On the CPU it takes\n"
                   "turns with the simulation, on a GPU it runs beside it, so that it is never part of a step's time.\n"
-                  "Ctrl-C stops after the current frame; what is finished stays, whatever ends the run: a signal, kill -9, a full disk, power. --resume goes on\n"
-                  "from checkpoint.h5 (every --checkpoint seconds, and at each end that leaves time for it), which the same program and scene take to the very\n"
-                  "bits of a run that was never cut off: frames, rows of steps.csv (but for times), final state. Not with --solver ipc.\n"
+                  "Ctrl-C stops within a second, or after the step that is computed. What is finished stays, whatever\n"
+                  "ends the run: a signal, kill -9, a full disk, power. --resume goes on from checkpoint.h5 (every\n"
+                  "--checkpoint seconds, and at each end that leaves time for it), which the same program and scene take\n"
+                  "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
+                  "state. Not with --solver ipc.\n"
                   "Exit status 1: a penetration, a broken bound, a number that is not finite.");
   command->callback([options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
 }

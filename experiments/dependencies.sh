@@ -4,7 +4,7 @@
 packages=(
   build-essential cmake ninja-build git ca-certificates
   python3 python3-venv python3-yaml
-  libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev
+  libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev zlib1g-dev
   libeigen3-dev libsuitesparse-dev libopenblas-dev
   nlohmann-json3-dev libcli11-dev libbenchmark-dev catch2
   libegl1 libgl1 libgl1-mesa-dri libxrender1

@@ -1,4 +1,5 @@
-// Ctrl-C asks a run to stop at the end of what it is doing, so that its folder stays whole; a second one ends the program at once.
+// Ctrl-C asks a run to stop after the step that it computes, so that its folder stays whole; a second one ends the
+// program at once.
 #pragma once
 
 #include <csignal>

@@ -20,6 +20,8 @@ namespace {
 using compare::Snapshot;
 using compare::StepMetrics;
 
+constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
+
 bool finite(const Snapshot& snapshot) {
   return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
 }
@@ -116,7 +118,7 @@ void RunSession::start_state() {
   }
   if (request_.resume) start_ = request_.resume->state;
   if (!finite(start_)) throw compare::InputError("the start holds a position that is not finite");
-  step_ = start_.step;
+  step_ = offered_step_ = start_.step;
 }
 
 void RunSession::check_start() const {
@@ -189,9 +191,20 @@ RunSummary RunSession::run() {
   return summary_;
 }
 
+/// Steps until something is due. No bit depends on where the simulation pauses.
 std::int64_t RunSession::chunk() const {
-  const std::int64_t to_frame = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
-  return std::min(to_frame, settings_.steps - step_);
+  const std::int64_t to_state = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
+  return std::min({to_state, settings_.steps - step_, pace_.steps()});
+}
+
+bool RunSession::is_frame(std::int64_t step) const { return step % frame_steps_ == 0 || step == settings_.steps; }
+
+/// A whole run offers it, too: not only one that saves a checkpoint between two frames, or that ends before time.
+bool RunSession::is_planned(std::int64_t step) const { return request_.audit == AuditMode::every || is_frame(step); }
+
+bool RunSession::is_checkpoint_due() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - saved_at_).count() >=
+         request_.checkpoint_seconds;
 }
 
 void RunSession::simulate() {
@@ -202,22 +215,43 @@ void RunSession::simulate() {
     progress.show(step_, number(recent) + " ms a step, " +
                              counted(static_cast<std::size_t>(summary_.last_vertex_facet_contacts + summary_.last_edge_edge_contacts), "contact"));
   }
+  progress.end();
+  if (interrupted() && !failed()) {
+    log_line("stops after step " + std::to_string(step_) +
+             "; once more ends the program at once, and leaves what is written");
+    offer_state(any_step);
+  }
   collect(auditor_->finish());
 }
 
 /// False where the simulation can't go on.
 bool RunSession::one_chunk() {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
   const std::vector<StepMetrics> rows = simulation_->advance(chunk());
+  pace_.measured(static_cast<std::int64_t>(rows.size()), std::chrono::duration<double>(Clock::now() - begin).count());
   add_rows(rows);
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
-  Snapshot snapshot = simulation_->snapshot();
-  // A broken step may have been committed or not: its state is no good one.
-  const bool good = snapshot.step > step_ && (broken.empty() || snapshot.step < rows.back().step) && finite(snapshot);
-  step_ = snapshot.step;
-  if (good) offer(std::move(snapshot), step_ % frame_steps_ == 0 || step_ == settings_.steps);
+  if (broken.empty()) {
+    step_ = rows.back().step;
+    // A state that waits for its verdict is saved as soon as that is there.
+    if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
+  } else if (!rows.empty()) {
+    // A broken step may have been committed or not: its state is no good one.
+    offer_state(rows.back().step);
+  }
   collect(auditor_->take());
   if (!broken.empty() && !failed()) summary_.failure = broken;
   return !failed();
+}
+
+/// The state as it is now, where it is new, finite and of a step before `before`.
+void RunSession::offer_state(std::int64_t before) {
+  Snapshot snapshot = simulation_->snapshot();
+  step_ = snapshot.step;
+  if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
+  offered_step_ = step_;
+  offer(std::move(snapshot));
 }
 
 void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
@@ -248,17 +282,17 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
   }
 }
 
-void RunSession::offer(Snapshot snapshot, bool is_frame) {
-  const bool is_last = snapshot.step == settings_.steps;
-  if (request_.audit == AuditMode::off || (request_.audit == AuditMode::end && !is_last)) return accept({std::move(snapshot), is_frame});
+void RunSession::offer(Snapshot snapshot) {
+  if (request_.audit == AuditMode::off || (request_.audit == AuditMode::end && snapshot.step != settings_.steps))
+    return accept(std::move(snapshot));
   auditor_->submit(snapshot);
-  offered_.push_back({std::move(snapshot), is_frame});
+  offered_.push_back(std::move(snapshot));
 }
 
-void RunSession::accept(Offered offered) {
-  last_good_ = std::move(offered.snapshot);
-  if (offered.is_frame) store_frame(last_good_);
-  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - saved_at_).count() >= request_.checkpoint_seconds) save_checkpoint();
+void RunSession::accept(Snapshot snapshot) {
+  last_good_ = std::move(snapshot);
+  if (is_frame(last_good_.step)) store_frame(last_good_);
+  if (is_checkpoint_due()) save_checkpoint();
 }
 
 /// After rows and frames up to its step, so that a run that goes on from it misses none.
@@ -271,15 +305,15 @@ void RunSession::save_checkpoint() {
 
 void RunSession::collect(const std::vector<Verdict>& verdicts) {
   for (const Verdict& verdict : verdicts) {
-    Offered offered = std::move(offered_.front());
+    Snapshot snapshot = std::move(offered_.front());
     offered_.pop_front();
     if (summary_.failed_states > 0) continue;
-    ++summary_.audited_states;
+    ++(is_planned(snapshot.step) ? summary_.audited_states : unplanned_audits_);
     if (!summary_.guarantee_kept) summary_.guarantee_kept = true;
     if (verdict.kept()) {
-      accept(std::move(offered));
+      accept(std::move(snapshot));
     } else {
-      reject(verdict, offered.snapshot);
+      reject(verdict, snapshot);
     }
   }
 }
@@ -307,6 +341,8 @@ void RunSession::store_frame(const Snapshot& snapshot) {
 void RunSession::finish() {
   store_frame(last_good_);
   save_checkpoint();
+  // A whole run counts what it was asked to audit, however often it was cut off; one that ends early, all that it did.
+  if (last_good_.step < settings_.steps) summary_.audited_states += unplanned_audits_;
   summary_.last_step = last_good_.step;
   summary_.final_hash = state_hash(last_good_.positions);
   summary_.was_interrupted = !failed() && step_ < settings_.steps;

@@ -14,10 +14,11 @@
 #include "compare/record/run_folder.hpp"
 #include "experiments/auditor.hpp"
 #include "experiments/output.hpp"
+#include "experiments/pace.hpp"
 
 namespace ogc::experiments {
 
-/// What a run that is cut off loses at most, besides the frame that it works at.
+/// What a run that is cut off loses at most, besides the steps that it works at.
 inline constexpr double default_checkpoint_seconds = 60;
 
 struct RunRequest {
@@ -69,10 +70,6 @@ class RunSession {
   RunSummary run();
 
  private:
-  struct Offered {
-    compare::Snapshot snapshot;
-    bool is_frame = false;
-  };
   void start_state();
   void check_start() const;
   void open_folder();
@@ -82,10 +79,14 @@ class RunSession {
   void simulate();
   bool one_chunk();
   std::int64_t chunk() const;
+  bool is_frame(std::int64_t step) const;
+  bool is_planned(std::int64_t step) const;
+  bool is_checkpoint_due() const;
+  void offer_state(std::int64_t before);
   void add_rows(const std::vector<compare::StepMetrics>& rows);
   void count(const std::vector<compare::StepMetrics>& rows);
-  void offer(compare::Snapshot snapshot, bool is_frame);
-  void accept(Offered offered);
+  void offer(compare::Snapshot snapshot);
+  void accept(compare::Snapshot snapshot);
   void collect(const std::vector<Verdict>& verdicts);
   void reject(const Verdict& verdict, const compare::Snapshot& snapshot);
   void store_frame(const compare::Snapshot& snapshot);
@@ -99,11 +100,14 @@ class RunSession {
   StateJudge judge_;
   std::unique_ptr<Auditor> auditor_;
   std::unique_ptr<compare::RunWriter> writer_;
-  std::deque<Offered> offered_;    ///< states that wait for their verdict
+  std::deque<compare::Snapshot> offered_;  ///< states that wait for their verdict
   compare::Snapshot start_, last_good_;
   std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
+  std::int64_t offered_step_ = 0;  ///< of the last state that was offered
+  Pace pace_;
   std::int64_t saved_step_ = -1;   ///< of the last checkpoint
   std::chrono::steady_clock::time_point saved_at_;
+  std::size_t unplanned_audits_ = 0;
   std::vector<double> step_times_;
   RunSummary summary_;
 };

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -68,7 +69,13 @@ class Run:
 
     def frame(self, path):
         with h5py.File(path, "r") as file:
-            return Frame(int(file.attrs["step"]), float(file.attrs["time"]), file["positions"][:], file["velocities"][:], file["bounds"][:])
+            frame = Frame(int(file.attrs["step"]), float(file.attrs["time"]),
+                          file["positions"][:], file["velocities"][:], file["bounds"][:])
+            expected = int(file.attrs.get("crc32", _checksum(frame)))  # frames of format 1 have none
+        if expected != _checksum(frame):
+            raise RunError(f"{path} is damaged: its content is not what its checksum says; "
+                           "restore the file, or run the scene again")
+        return frame
 
     def frame_at_step(self, step):
         """The stored frame nearest to `step`."""
@@ -90,6 +97,15 @@ def commits_in_words(runs):
     if len(set(commits)) == 1:
         return f"commit {commits[0]}"
     return "MIXED, not one program's runs: " + ", ".join(f"{run.folder.name} of commit {commit}" for run, commit in zip(runs, commits))
+
+
+def _checksum(frame):
+    """CRC-32 of the bytes of positions, velocities, bounds, step and time, as the file's writer took it."""
+    step, time = np.array(frame.step, "<i8"), np.array(frame.time, "<f8")
+    result = 0
+    for part in (frame.positions, frame.velocities, frame.bounds, step, time):
+        result = zlib.crc32(part.tobytes(), result)
+    return result
 
 
 def _read_steps(path):

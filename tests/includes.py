@@ -50,6 +50,7 @@ FOREIGN = {
     "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),
     "hdf5": ("compare/files", "compare/record"),
     "H5": ("compare/files", "compare/record"),
+    "zlib.h": ("compare/files",),
     "tbb/": ("compare/oracle", "reference", "fast/cpu", "experiments"),
     "oneapi/tbb": ("compare/oracle", "reference", "fast/cpu", "experiments"),
     "cuda": ("fast/cuda",),

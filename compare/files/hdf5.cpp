@@ -214,6 +214,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   if (!type.valid() || !write_attribute(file_.id(), object, name, type.id(), scalar_or_row(1), text.data())) refuse_write("attribute " + name);
 }
 
+bool Hdf5File::has_attribute(const std::string& name) const { return H5Aexists(file_.id(), name.c_str()) > 0; }
+
 template <class T>
 T Hdf5File::attribute(const std::string& name) const {
   const Hdf5Handle attribute(H5Aopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Aclose);

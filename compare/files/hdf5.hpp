@@ -69,6 +69,8 @@ class Hdf5File {
   void set_attribute(const std::string& object, const std::string& name, double value);
   /// Fixed length, ASCII.
   void set_attribute(const std::string& object, const std::string& name, std::string_view text);
+  /// Whether the root has an attribute of this name.
+  bool has_attribute(const std::string& name) const;
   /// Scalar attribute of the root, converted to T.
   template <class T>
   T attribute(const std::string& name) const;

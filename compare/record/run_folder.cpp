@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cstdio>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/files/hdf5.hpp"
+#include "compare/files/packing.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
 
@@ -63,6 +65,19 @@ void refuse_used_folder(const fs::path& folder) {
   for (const char* name : {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf"})
     if (fs::exists(folder / name))
       throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
+}
+
+/// Of the bytes of positions, velocities, bounds, step and time, in this order.
+std::int64_t checksum(const Frame& frame) {
+  static_assert(std::endian::native == std::endian::little, "the low byte comes first");
+  std::uint32_t sum = 0;
+  const auto add = [&](const auto& values) {
+    const std::size_t size = std::size(values) * sizeof(*std::data(values));
+    sum = crc32({reinterpret_cast<const char*>(std::data(values)), size}, sum);
+  };
+  add(frame.positions), add(frame.velocities), add(frame.bounds);
+  add(std::array{frame.step}), add(std::array{frame.time});
+  return sum;
 }
 
 /// Writes the scene beside its place and moves it there as a whole. Returns its file relative to `folder`.
@@ -141,11 +156,13 @@ void RunWriter::add_frame(const Frame& frame) {
     throw std::invalid_argument("frame of step " + std::to_string(frame.step) + ": its arrays have not one entry for each vertex of the scene");
   const fs::path path = frame_path(folder_, frame.step);
   Hdf5File file = Hdf5File::create_in_memory(path);
+  file.set_attribute("/", "format_version", std::array{frame_format_version});
   file.set_attribute("/", "step", std::array{frame.step});
   file.set_attribute("/", "time", frame.time);
   file.write("positions", as_floats(frame.positions), 3);
   file.write("velocities", as_floats(frame.velocities), 3);
   file.write("bounds", std::span(frame.bounds));
+  file.set_attribute("/", "crc32", std::array{checksum(frame)});
   write_durably(path, file.image());
 }
 
@@ -172,12 +189,23 @@ Frame RunReader::frame(std::size_t i) const {
 
 Frame read_frame(const fs::path& path) {
   const Hdf5File file = Hdf5File::open(path);
+  const std::int64_t version =
+      file.has_attribute("format_version") ? file.attribute<std::int64_t>("format_version") : 1;
+  if (version > frame_format_version)
+    throw InputError(path.string() + ": is of frame format " + std::to_string(version) + ", newer than format " +
+                     std::to_string(frame_format_version) + ", the newest that this program reads: use a newer ogc");
   const std::vector<std::size_t> shape = file.shape("positions");
   if (shape.size() != 2 || shape[1] != 3 || file.shape("velocities") != shape || file.shape("bounds") != std::vector{shape[0]})
     throw InputError(path.string() + ": positions, velocities and bounds are not vertices × 3, vertices × 3 and vertices: " +
                      "not a frame of a run, or damaged; use another one");
-  return {file.attribute<std::int64_t>("step"), file.attribute<double>("time"), as_vectors(file.read<float>("positions")),
-          as_vectors(file.read<float>("velocities")), file.read<float>("bounds")};
+  Frame frame{file.attribute<std::int64_t>("step"), file.attribute<double>("time"),
+              as_vectors(file.read<float>("positions")), as_vectors(file.read<float>("velocities")),
+              file.read<float>("bounds")};
+  if (version > 1 && file.attribute<std::int64_t>("crc32") != checksum(frame))
+    throw InputError(path.string() +
+                     ": the frame is damaged, its content is not what its checksum says: restore the file, or remove "
+                     "it and compute it again from the frame before it with --from-state");
+  return frame;
 }
 
 }  // namespace ogc::compare

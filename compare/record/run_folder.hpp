@@ -1,10 +1,12 @@
-// Run folders (design.md §5): run.json, steps.csv, frames/, trajectory.vtkhdf. A run that is killed at any time leaves all of its finished frames
-// readable: every file is written under a temporary name, synced and renamed; steps.csv grows by whole lines.
+// Run folders (design.md §5): run.json, steps.csv, frames/, trajectory.vtkhdf. A run that is killed at any time leaves
+// all of its finished frames readable: every file is written under a temporary name, synced and renamed; steps.csv
+// grows by whole lines.
 //
 //   run.json            written last when a run begins, again when it ends: "status" says which
 //   scene/NAME.json     the scene, meshes beside it (compare/files/scene_files.hpp)
 //   steps.csv           compare/record/steps_csv.hpp
-//   frames/frame_000025.h5   the state after step 25: positions, velocities [vertices × 3], bounds [vertices]; attributes step, time
+//   frames/frame_000025.h5   the state after step 25: positions, velocities [vertices × 3], bounds [vertices];
+//                       attributes format_version, step, time, crc32 (of positions, velocities, bounds, step, time)
 //   checkpoint.h5       where the run can go on (compare/record/checkpoint.hpp)
 //   trajectory.vtkhdf   all frames, for viewers
 #pragma once
@@ -23,6 +25,9 @@
 #include "compare/record/manifest.hpp"
 
 namespace ogc::compare {
+
+/// The newest frames that this program writes and reads. Format 1 has neither its number nor a checksum.
+inline constexpr std::int64_t frame_format_version = 2;
 
 /// One stored state.
 struct Frame {
@@ -92,7 +97,8 @@ class RunReader {
   std::vector<std::pair<std::int64_t, std::filesystem::path>> frames_;  ///< by step
 };
 
-/// Reads one file of frames/. Throws InputError that names the file.
+/// Reads one file of frames/. Throws InputError that names the file: missing, no frame, damaged (its content is not
+/// what its checksum says), of a newer format.
 Frame read_frame(const std::filesystem::path& file);
 
 /// Assembles trajectory.vtkhdf (temporal PolyData, one block of points and triangles, point data velocity, bound, body) from the frames. Throws

@@ -104,6 +104,28 @@ def check_mixture(source, folder):
     assert said.startswith("MIXED, not one program's runs: ") and "of commit 0000000000" in said, said
 
 
+def check_damaged(source, folder, scratch):
+    """A frame whose content is not what its checksum says is refused by name; one of format 1, without any, is read."""
+    import h5py
+    sys.path.insert(0, str(source))
+    from plots.run_folder import Run, RunError
+
+    run = Run(folder)
+    path = scratch / run.frames[-1].name
+    path.write_bytes(run.frames[-1].read_bytes())
+    whole = run.frame(path)
+    with h5py.File(path, "r+") as file:
+        file["bounds"][0] += 1
+    try:
+        said = run.frame(path) and "nothing was wrong"
+    except RunError as error:
+        said = str(error)
+    assert path.name in said and "damaged" in said, said
+    with h5py.File(path, "r+") as file:
+        del file.attrs["crc32"]
+    assert run.frame(path).step == whole.step
+
+
 if __name__ == "__main__":
     source_dir, run_folder, scene_module = sys.argv[1:4]
     with tempfile.TemporaryDirectory() as name:
@@ -112,4 +134,5 @@ if __name__ == "__main__":
         check_teaser(source_dir, run_folder, Path(name))
         check_refused(source_dir, scene_module, run_folder, Path(name))
         check_mixture(source_dir, run_folder)
+        check_damaged(source_dir, run_folder, Path(name))
     print("drawn, and refused where it should be")

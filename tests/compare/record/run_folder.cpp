@@ -166,6 +166,49 @@ TEST_CASE("frames that do not fit the scene are refused, when written and when r
   CHECK_THROWS_WITH(RunReader(folder / "run").frame(0), ContainsSubstring("4 vertices") && ContainsSubstring("10"));
 }
 
+TEST_CASE("a frame in which any byte of its state, step or time is changed is refused by name", "[property]") {
+  const Scratch folder;
+  start(folder / "run").add_frame(recorded_frame(7));
+  const std::filesystem::path file = folder / "run/frames/frame_000007.h5";
+  const std::string whole = text_of(file);
+  const Frame frame = recorded_frame(7);
+  CHECK(read_frame(file) == frame);
+  const auto place_of = [&](const auto* values, std::size_t count) {
+    const std::string_view bytes(reinterpret_cast<const char*>(values), count * sizeof *values);
+    REQUIRE(whole.find(bytes) != std::string::npos);
+    return std::pair(whole.find(bytes), bytes.size());
+  };
+  const auto places = {place_of(frame.positions.data(), 10), place_of(frame.velocities.data(), 10),
+                       place_of(frame.bounds.data(), 10), place_of(&frame.time, 1), place_of(&frame.step, 1)};
+  for (const auto& [begin, size] : places)
+    for (std::size_t i = begin; i < begin + size; ++i) {
+      std::string damaged = whole;
+      damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+      std::ofstream(file, std::ios::binary) << damaged;
+      CHECK_THROWS_WITH(read_frame(file), ContainsSubstring("frame_000007.h5") && ContainsSubstring("damaged"));
+    }
+}
+
+TEST_CASE("frames of a newer format are refused by name, those of the oldest, without a checksum, are read", "[unit]") {
+  const Scratch folder;
+  const Frame frame = recorded_frame(7);
+  const auto write = [&](std::int64_t version) {
+    Hdf5File file = Hdf5File::create_in_memory("frame");
+    if (version > 1) file.set_attribute("/", "format_version", std::array{version});
+    file.set_attribute("/", "step", std::array{frame.step});
+    file.set_attribute("/", "time", frame.time);
+    file.write("positions", as_floats(frame.positions), 3);
+    file.write("velocities", as_floats(frame.velocities), 3);
+    file.write("bounds", std::span<const float>(frame.bounds));
+    write_durably(folder / "frame.h5", file.image());
+    return folder / "frame.h5";
+  };
+  CHECK(read_frame(write(1)) == frame);
+  CHECK_THROWS_WITH(read_frame(write(2)), ContainsSubstring("frame.h5") && ContainsSubstring("crc32"));
+  CHECK_THROWS_WITH(read_frame(write(frame_format_version + 1)),
+                    ContainsSubstring("frame.h5: is of frame format 3, newer than format 2"));
+}
+
 TEST_CASE("a trajectory holds the frames one behind the other and the cells once", "[unit]") {
   const Scratch folder;
   {
