@@ -61,6 +61,7 @@ FOREIGN = {
     "CLI/": ("experiments",),
     "benchmark/": ("experiments",),
     "dlfcn.h": ("experiments/plugins",),
+    "pthread.h": ("experiments/plugins",),
     "poll.h": ("experiments/plugins",),
     "signal.h": ("experiments/plugins",),
     "spawn.h": ("experiments/plugins", "experiments/bench"),

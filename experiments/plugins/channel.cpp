@@ -14,10 +14,30 @@ namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// Time between two looks at whether the other process still runs [ms].
+constexpr int look_again = 50;
+/// A block grows by so much as its bytes come in, so that memory follows what was sent, not what was announced.
+constexpr std::uint64_t piece = 16u << 20;
+
+std::optional<double> deadline_of(const Patience& patience) {
+  return patience.seconds < 0 ? std::nullopt : std::optional(now() + patience.seconds);
+}
+
 /// Milliseconds for poll, rounded up; -1 waits for ever.
 int milliseconds_until(const std::optional<double>& deadline) {
   if (!deadline) return -1;
   return static_cast<int>(std::clamp((*deadline - now()) * 1000 + 1, 0.0, 1e9));
+}
+
+/// "88" or "0 to 65536".
+std::string printed(BlockLength allowed) {
+  return (allowed.least == allowed.most ? "" : std::to_string(allowed.least) + " to ") + std::to_string(allowed.most);
+}
+
+void check(const BlockHead& head, BlockLength allowed) {
+  if (head.mark != BlockHead::right_mark) throw MalformedBlock("does not begin as its messages do");
+  if (head.length < allowed.least || head.length > allowed.most)
+    throw MalformedBlock("is " + std::to_string(head.length) + " bytes long instead of " + printed(allowed));
 }
 
 }  // namespace
@@ -35,40 +55,61 @@ void Channel::close() {
   descriptor_ = -1;
 }
 
-bool Channel::send(Bytes block) {
-  const std::uint64_t length = block.size();
-  for (Bytes rest : {bytes_of_one(length), block}) {
+Transfer Channel::send(Bytes block, const Patience& patience) {
+  const Deadline deadline = deadline_of(patience);
+  const BlockHead head{.length = block.size()};
+  for (Bytes rest : {bytes_of_one(head), block}) {
     while (!rest.empty()) {
-      const ssize_t sent = ::send(descriptor_, rest.data(), rest.size(), MSG_NOSIGNAL);
-      if (sent < 0 && errno == EINTR) continue;
-      if (sent <= 0) return false;
+      if (const Transfer ready = wait(POLLOUT, patience, deadline); ready != Transfer::whole) return ready;
+      const ssize_t sent = ::send(descriptor_, rest.data(), rest.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+      if (sent <= 0) return Transfer::end;
       rest = rest.subspan(static_cast<std::size_t>(sent));
     }
   }
-  return true;
+  return Transfer::whole;
 }
 
-Received Channel::receive(std::vector<std::byte>& block, double seconds) {
-  const std::optional<double> deadline = seconds < 0 ? std::nullopt : std::optional(now() + seconds);
-  std::uint64_t length = 0;
-  if (const Received head = read(reinterpret_cast<std::byte*>(&length), sizeof length, deadline); head != Received::block) return head;
-  block.resize(length);
-  return read(block.data(), length, deadline);
-}
-
-Received Channel::read(std::byte* to, std::size_t count, const std::optional<double>& deadline) {
-  while (count > 0) {
-    pollfd waiting{descriptor_, POLLIN, 0};
-    const int ready = poll(&waiting, 1, milliseconds_until(deadline));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) return Received::timeout;
-    const ssize_t got = ready < 0 ? -1 : ::read(descriptor_, to, count);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return Received::end;
-    to += got;
-    count -= static_cast<std::size_t>(got);
+Transfer Channel::receive(std::vector<std::byte>& block, BlockLength allowed, const Patience& patience) {
+  const Deadline deadline = deadline_of(patience);
+  BlockHead head;
+  const auto head_bytes = std::as_writable_bytes(std::span(&head, 1));
+  if (const Transfer got = read(head_bytes, patience, deadline); got != Transfer::whole) return got;
+  check(head, allowed);
+  block.clear();
+  while (block.size() < head.length) {
+    const std::size_t before = block.size();
+    block.resize(before + std::min(piece, head.length - before));
+    if (const Transfer got = read(std::span(block).subspan(before), patience, deadline); got != Transfer::whole)
+      return got;
   }
-  return Received::block;
+  return Transfer::whole;
+}
+
+Transfer Channel::wait(short until, const Patience& patience, const Deadline& deadline) const {
+  for (;;) {
+    // Asked before the socket, in which there may be what it sent before it ended.
+    const bool runs = !patience.other_runs || patience.other_runs();
+    const int left = milliseconds_until(deadline), soon = left < 0 ? look_again : std::min(left, look_again);
+    const int turn = patience.other_runs ? soon : left;
+    pollfd waiting{descriptor_, until, 0};
+    const int ready = poll(&waiting, 1, runs ? turn : 0);
+    if (ready > 0) return Transfer::whole;
+    if (ready < 0 && errno != EINTR) return Transfer::end;
+    if (ready == 0 && !runs) return Transfer::end;
+    if (ready == 0 && left >= 0 && turn == left) return Transfer::timeout;
+  }
+}
+
+Transfer Channel::read(std::span<std::byte> to, const Patience& patience, const Deadline& deadline) {
+  while (!to.empty()) {
+    if (const Transfer ready = wait(POLLIN, patience, deadline); ready != Transfer::whole) return ready;
+    const ssize_t got = ::read(descriptor_, to.data(), to.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return Transfer::end;
+    to = to.subspan(static_cast<std::size_t>(got));
+  }
+  return Transfer::whole;
 }
 
 }  // namespace ogc::experiments

@@ -1,10 +1,16 @@
-// A socket between `ogc` and a worker process, and blocks of bytes over it: each with its length in front, so that both sides read what was written.
+// A socket between `ogc` and a worker process, and blocks of bytes over it: each with a mark and its length in front,
+// so that both sides read what was written, and what anybody else wrote into the socket is told from it. A plug-in
+// lives in the worker's process and can reach the socket: nothing that comes out of it is believed before it is
+// checked.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -27,7 +33,38 @@ Bytes bytes_of_one(const Item& item) {
   return std::as_bytes(std::span(&item, 1));
 }
 
-enum class Received { block, end, timeout };
+/// In front of each block.
+struct BlockHead {
+  std::uint64_t mark = right_mark;
+  std::uint64_t length = 0;  ///< of the block behind the head [bytes]
+  /// The bytes "gc-block": no length, count or text that a plug-in sends by chance.
+  static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
+};
+
+/// How long a block may be [bytes].
+struct BlockLength {
+  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+};
+constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }
+
+/// What came is no block, or not of the length that is due. what() ends the sentence "a message …".
+struct MalformedBlock : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class Transfer {
+  whole,
+  end,  ///< the other side is gone, also in the middle of a block
+  timeout,
+};
+
+/// How long to wait for the other side.
+struct Patience {
+  double seconds = -1;  ///< < 0: for ever
+  /// Whether the process on the other side still runs. The socket alone can't tell where that process has left children
+  /// behind, which hold it, too.
+  std::function<bool()> other_runs{};
+};
 
 /// One end of the socket, which it owns.
 class Channel {
@@ -43,13 +80,15 @@ class Channel {
   void close();
   bool is_open() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
-  /// False where the other side is gone.
-  bool send(Bytes block);
-  /// Waits for a block; `seconds` < 0: for ever. `end` where the other side is gone, also in the middle of a block.
-  Received receive(std::vector<std::byte>& block, double seconds);
+  Transfer send(Bytes block, const Patience& patience = {});
+  /// Waits for a block. Throws MalformedBlock, before it takes memory for it, where its head is none or its length not
+  /// allowed.
+  Transfer receive(std::vector<std::byte>& block, BlockLength allowed, const Patience& patience = {});
 
  private:
-  Received read(std::byte* to, std::size_t count, const std::optional<double>& deadline);
+  using Deadline = std::optional<double>;
+  Transfer wait(short until, const Patience& patience, const Deadline& deadline) const;
+  Transfer read(std::span<std::byte> to, const Patience& patience, const Deadline& deadline);
   int descriptor_ = -1;
 };
 

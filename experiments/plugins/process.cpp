@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "compare/problem/contestant.hpp"
 #include "compare/problem/error.hpp"
@@ -29,7 +30,8 @@ using compare::ContestantFailure;
 /// Least time limit after a hang.
 constexpr unsigned least_limit = 1;
 
-constexpr const char* lost_socket = "it closed the worker's socket, which is not its own";
+constexpr const char* lost_socket =
+    "it closed the worker's socket, or read what was for the worker; the socket is not its own";
 
 std::string in_seconds(unsigned seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
 
@@ -58,13 +60,26 @@ pid_t spawn(const PluginOptions& options, Channel& channel) {
   return process;
 }
 
+/// Whether the process has not ended yet; one that has is left for waitpid.
+bool runs(pid_t process) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
+
 /// Waits a second at most for a process whose socket is closed.
-bool ended_by_itself(pid_t process, int& status) {
-  for (int i = 0; i < 100; ++i) {
-    if (waitpid(process, &status, WNOHANG) == process) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
+bool ended_by_itself(pid_t process) {
+  for (int i = 0; i < 100 && runs(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return !runs(process);
+}
+
+/// Ends what is left of the process and of those that it has started, unless they have left its group; returns its
+/// status.
+int end_group(pid_t process) {
+  // Before waitpid, after which the number might be another process's.
+  kill(-process, SIGKILL);
+  int status = 0;
+  waitpid(process, &status, 0);
+  return status;
 }
 
 }  // namespace
@@ -75,6 +90,32 @@ PluginProcess::PluginProcess(PluginOptions options) : options_(std::move(options
     throw compare::InputError(options_.file.string() + ": there is no such file; give the shared library that holds your kernels");
   options_.file = std::filesystem::absolute(options_.file);  // dlopen looks elsewhere for a bare name
   start();
+}
+
+Patience PluginProcess::patience() const {
+  return {static_cast<double>(limit_seconds_), [process = process_] { return runs(process); }};
+}
+
+void PluginProcess::send(Bytes block) {
+  if (const Transfer sent = channel_.send(block, patience()); sent != Transfer::whole)
+    throw ContestantFailure(ending(sent));
+}
+
+template <class Read>
+auto PluginProcess::received(Read read) {
+  try {
+    return read([this](BlockLength allowed) {
+      std::vector<std::byte> block;
+      if (const Transfer got = channel_.receive(block, allowed, patience()); got != Transfer::whole)
+        throw ContestantFailure(ending(got));
+      return block;
+    });
+  } catch (const MalformedBlock& wrong) {
+    stop();
+    throw ContestantFailure("its worker sent a message that " + std::string(wrong.what()) +
+                            ": it wrote into the worker's socket, descriptor " + std::to_string(worker_descriptor) +
+                            ", which is not its own");
+  }
 }
 
 bool PluginProcess::has(std::string_view stage) const {
@@ -99,19 +140,13 @@ PluginProcess::Answer PluginProcess::ask(std::string_view stage_name, const Ques
   const std::size_t number = find_plugin_stage(stage_name).value();
   const PluginStage& stage = plugin_stages()[number];
   const CallRequest request{number, sizes, limit_seconds_};
-  bool sent = channel_.send(bytes_of_one(request));
-  for (const Bytes& input : inputs) sent = sent && channel_.send(input);
-  if (!sent) throw ContestantFailure(ending(Received::end));
-  CallResult result;
-  const std::vector<std::byte> block = receive();
-  std::memcpy(&result, block.data(), sizeof result);
-  const std::string why = text_of(receive());
-  if (result.status == CallResult::Status::broken) stop();
-  if (result.status != CallResult::Status::answered) throw ContestantFailure(why);
-  Answer answer;
-  answer.counts = result.counts;
-  for (std::size_t k = 0; k < stage.outputs.size(); ++k) answer.outputs.push_back(receive());
-  seconds_[std::string(stage_name)] += result.seconds;
+  send(bytes_of_one(request));
+  for (const Bytes& input : inputs) send(input);
+  WorkerAnswer said = received([&](const NextBlock& next) { return read_answer(next, stage, sizes); });
+  if (said.result.status == CallResult::Status::broken) stop();
+  if (said.result.status != CallResult::Status::answered) throw ContestantFailure(said.why);
+  Answer answer{std::move(said.outputs), said.result.counts};
+  seconds_[std::string(stage_name)] += said.result.seconds;
   note(stage, answer);
   return answer;
 }
@@ -119,38 +154,25 @@ PluginProcess::Answer PluginProcess::ask(std::string_view stage_name, const Ques
 void PluginProcess::start() {
   stop();
   process_ = spawn(options_, channel_);
-  LoadStatus status{};
-  const std::vector<std::byte> block = receive();
-  std::memcpy(&status, block.data(), sizeof status);
-  const std::string text = text_of(receive());
-  if (status == LoadStatus::refused) throw compare::InputError(options_.file.string() + ": " + text);
-  if (status == LoadStatus::failed) throw compare::ResourceError(options_.file.string() + ": " + text);
-  name_ = text;
-  const std::vector<std::byte> has = receive();
-  has_.assign(reinterpret_cast<const std::uint8_t*>(has.data()), reinterpret_cast<const std::uint8_t*>(has.data()) + has.size());
+  const Greeting greeting = received(read_greeting);
+  if (greeting.status == LoadStatus::refused) throw compare::InputError(options_.file.string() + ": " + greeting.text);
+  if (greeting.status == LoadStatus::failed)
+    throw compare::ResourceError(options_.file.string() + ": " + greeting.text);
+  name_ = greeting.text;
+  has_ = greeting.has;
 }
 
-std::vector<std::byte> PluginProcess::receive() {
-  std::vector<std::byte> block;
-  const Received received = channel_.receive(block, limit_seconds_);
-  if (received != Received::block) throw ContestantFailure(ending(received));
-  return block;
-}
-
-std::string PluginProcess::ending(Received received) {
-  if (received == Received::timeout) {
+std::string PluginProcess::ending(Transfer how) {
+  if (how == Transfer::timeout) {
     stop();
     const std::string text = "it hangs: no answer within " + in_seconds(limit_seconds_);
     limit_seconds_ = std::max(least_limit, options_.limit_seconds / 10);
     return text;
   }
-  int status = 0;
   channel_.close();
-  if (!ended_by_itself(process_, status)) {
-    stop();
-    return lost_socket;
-  }
-  process_ = -1;
+  const bool by_itself = ended_by_itself(process_);
+  const int status = end_group(std::exchange(process_, -1));
+  if (!by_itself) return lost_socket;
   if (WIFEXITED(status) && WEXITSTATUS(status) == worker_lost_socket) return lost_socket;
   if (WIFSIGNALED(status)) return "it crashed: signal " + std::to_string(WTERMSIG(status)) + ", " + strsignal(WTERMSIG(status));
   return "it ended the process, exit status " + std::to_string(WEXITSTATUS(status));
@@ -158,10 +180,7 @@ std::string PluginProcess::ending(Received received) {
 
 void PluginProcess::stop() {
   channel_.close();
-  if (process_ < 0) return;
-  kill(-process_, SIGKILL);
-  waitpid(process_, nullptr, 0);
-  process_ = -1;
+  if (process_ >= 0) end_group(std::exchange(process_, -1));
 }
 
 void PluginProcess::note(const PluginStage& stage, const Answer& answer) {

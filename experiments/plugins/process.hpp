@@ -10,6 +10,7 @@
 #include <sys/types.h>
 
 #include "experiments/plugins/channel.hpp"
+#include "experiments/plugins/messages.hpp"
 #include "experiments/plugins/worker.hpp"
 
 namespace ogc::experiments {
@@ -54,8 +55,13 @@ class PluginProcess {
   void start();
   void stop();
   /// Ends the process and says how it ended by itself, or that it had to be ended.
-  std::string ending(Received received);
-  std::vector<std::byte> receive();
+  std::string ending(Transfer how);
+  /// Sends a block or throws ContestantFailure.
+  void send(Bytes block);
+  /// What `read` makes of the blocks that come; ContestantFailure where none come, or wrong ones.
+  template <class Read>
+  auto received(Read read);
+  Patience patience() const;
   void note(const PluginStage& stage, const Answer& answer);
 
   PluginOptions options_;

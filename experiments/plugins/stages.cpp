@@ -1,5 +1,6 @@
 #include "experiments/plugins/stages.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -232,6 +233,23 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges), rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
   return {1, contacts, contacts, sizes.triangles, sizes.hinges, 2 * rounds + 1, rounds + 1};
+}
+
+// Of contacts: each vertex with each triangle, each edge with each other one as first and as second, at each detection;
+// and those of the guess above, so that contacts which are listed twice in a small mesh are told as what they are. The
+// products fit into 64 bits: sizes do into 31, and 2^40 ends them.
+ListSizes most_entries(const QuestionSizes& sizes) {
+  constexpr std::int64_t most = std::int64_t{1} << 40;
+  ListSizes entries = first_capacities(sizes);
+  const auto detections = static_cast<double>(entries[static_cast<std::size_t>(List::detections)]);
+  const auto add_pairs = [&](List list, double first, double second) {
+    std::int64_t& count = entries[static_cast<std::size_t>(list)];
+    count = std::min(
+        most, count + static_cast<std::int64_t>(std::min(first * second * detections, static_cast<double>(most))));
+  };
+  add_pairs(List::vertex_facet, sizes.vertices, sizes.triangles);
+  add_pairs(List::edge_edge, sizes.edges, sizes.edges);
+  return entries;
 }
 
 std::string_view list_name(List list) {

@@ -47,6 +47,8 @@ constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
 /// Room for the lists at the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);
+/// More entries than these no right answer can have; never below first_capacities.
+ListSizes most_entries(const QuestionSizes& sizes);
 /// What an entry of the list is called; in the plural.
 std::string_view list_name(List list);
 

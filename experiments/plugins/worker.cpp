@@ -1,6 +1,9 @@
 #include "experiments/plugins/worker.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -12,10 +15,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/plugins/channel.hpp"
 #include "experiments/plugins/memory.hpp"
+#include "experiments/plugins/messages.hpp"
 
 namespace ogc::experiments {
 
@@ -25,17 +30,34 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The process that was started, and not a copy of it.
+const pid_t worker = getpid();
+
+/// Ends a child of the plug-in's that returned from its function: the question was asked of its parent, which answers
+/// it.
+void end_if_copy() {
+  if (getpid() != worker) _exit(exit_success);
+}
+
+/// What the plug-in forks or starts has the socket neither to write to nor to hold open.
+void keep_from_children() {
+  fcntl(worker_descriptor, F_SETFD, FD_CLOEXEC);
+  pthread_atfork(nullptr, nullptr, [] { close(worker_descriptor); });
+}
+
 /// The library, its stages, and the memory that it asks for.
 class Library {
  public:
   explicit Library(const std::string& file) {
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    end_if_copy();
     if (!library) throw Refusal(std::string("it can't be loaded: ") + dlerror());
     const ogc_plugin_info* (*describe)() = nullptr;
     void* const symbol = dlsym(library, "ogc_plugin");
     if (!symbol) throw Refusal("it has no function ogc_plugin, so it is no plug-in; write OGC_PLUGIN(\"name\", OGC_HOST_MEMORY) into it (compare/plugin.h)");
     std::memcpy(&describe, &symbol, sizeof symbol);
     const ogc_plugin_info* const info = describe();
+    end_if_copy();
     if (!info) throw Refusal("ogc_plugin() returns a null pointer");
     if (info->version != OGC_PLUGIN_VERSION)
       throw Refusal("it was built for version " + std::to_string(info->version) + " of compare/plugin.h, and this program knows version " +
@@ -103,10 +125,7 @@ class Call {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (status != 0) throw std::runtime_error("ogc_" + std::string(stage_.name) + " returned " + std::to_string(status) + " instead of 0");
     check_guards();
-    for (std::size_t k = 0; k < list_count; ++k)
-      if (arrays.counts[k] < 0)
-        throw std::runtime_error("it did not set the count of " + std::string(list_name(static_cast<List>(k))) + ", or to a negative number (" +
-                                 std::to_string(arrays.counts[k]) + ")");
+    check_counts(arrays.counts);
     return {CallResult::Status::answered, arrays.counts, seconds};
   }
 
@@ -118,6 +137,18 @@ class Call {
   }
 
   static std::string counted(const ListSizes& counts, std::size_t k) { return std::to_string(counts[k]) + " " + std::string(list_name(static_cast<List>(k))); }
+
+  void check_counts(const ListSizes& counts) const {
+    const ListSizes most = most_entries(request_.sizes);
+    for (std::size_t k = 0; k < list_count; ++k) {
+      if (counts[k] < 0)
+        throw std::runtime_error("it did not set the count of " + std::string(list_name(static_cast<List>(k))) +
+                                 ", or to a negative number (" + std::to_string(counts[k]) + ")");
+      if (counts[k] > most[k])
+        throw std::runtime_error("it counted " + counted(counts, k) + ", at most " + std::to_string(most[k]) +
+                                 " being possible");
+    }
+  }
 
   void check_guards() {
     for (std::size_t k = 0; k < stage_.outputs.size(); ++k) {
@@ -138,7 +169,8 @@ class Call {
   std::size_t first_ = 0, made_ = 0;
 };
 
-bool send_text(Channel& channel, const std::string& text) { return channel.send(bytes_of(text)); }
+bool sent(Channel& channel, Bytes block) { return channel.send(block) == Transfer::whole; }
+bool sent_text(Channel& channel, const std::string& text) { return sent(channel, bytes_of(short_enough(text))); }
 
 bool answer(Channel& channel, Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs) {
   CallResult result;
@@ -153,33 +185,47 @@ bool answer(Channel& channel, Library& library, const CallRequest& request, cons
     result.status = library.memory->can_go_on() ? CallResult::Status::failed : CallResult::Status::broken;
     why = error.what();
   }
+  end_if_copy();
   alarm(0);
-  bool sent = channel.send(bytes_of_one(result)) && send_text(channel, why);
-  if (result.status == CallResult::Status::answered)
-    for (const auto& output : outputs) sent = sent && channel.send(output);
-  return sent;
+  bool all = sent(channel, bytes_of_one(result)) && sent_text(channel, why);
+  for (const auto& output : outputs) all = all && sent(channel, output);
+  return all;
+}
+
+/// A question; nothing where the other side is gone. Throws MalformedBlock where a part of it is missing, which the
+/// plug-in must have read.
+std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_question(Channel& channel) {
+  std::vector<std::byte> block;
+  CallRequest request;
+  if (channel.receive(block, exactly(sizeof request)) != Transfer::whole) return std::nullopt;
+  std::memcpy(&request, block.data(), sizeof request);
+  if (request.stage >= plugin_stages().size()) throw MalformedBlock("asks for a stage that there is not");
+  std::vector<std::vector<std::byte>> inputs(plugin_stages()[request.stage].inputs);
+  for (auto& input : inputs)
+    if (channel.receive(input, {}) != Transfer::whole) return std::nullopt;
+  return std::pair(request, std::move(inputs));
 }
 
 /// Until the other side is gone.
 void serve(Channel& channel, Library& library) {
-  std::vector<std::byte> block;
-  while (channel.receive(block, -1) == Received::block) {
-    CallRequest request;
-    std::memcpy(&request, block.data(), sizeof request);
-    std::vector<std::vector<std::byte>> inputs(plugin_stages()[request.stage].inputs);
-    for (auto& input : inputs)
-      if (channel.receive(input, -1) != Received::block) return;
-    if (!answer(channel, library, request, inputs)) _exit(worker_lost_socket);
+  try {
+    while (const auto question = next_question(channel))
+      if (!answer(channel, library, question->first, question->second)) _exit(worker_lost_socket);
+  } catch (const MalformedBlock&) {
+    _exit(worker_lost_socket);
   }
 }
 
-bool greet(Channel& channel, LoadStatus status, const std::string& text) { return channel.send(bytes_of_one(status)) && send_text(channel, text); }
+bool greet(Channel& channel, LoadStatus status, const std::string& text) {
+  return sent(channel, bytes_of_one(status)) && sent_text(channel, text);
+}
 
 int work(const std::string& file) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   dup2(STDERR_FILENO, STDOUT_FILENO);  // what the plug-in prints must not stand in a result
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  keep_from_children();
   Channel channel(worker_descriptor);
   std::unique_ptr<Library> library;
   try {
@@ -193,7 +239,10 @@ int work(const std::string& file) {
   }
   std::vector<std::uint8_t> has;
   for (const void* function : library->functions) has.push_back(function != nullptr);
-  if (greet(channel, LoadStatus::loaded, library->name) && channel.send(bytes_of(has))) serve(channel, *library);
+  if (greet(channel, LoadStatus::loaded, library->name) && sent(channel, bytes_of(has))) serve(channel, *library);
+  // Nobody waits for what the plug-in has started.
+  signal(SIGTERM, SIG_IGN);
+  if (getpgrp() == getpid()) kill(0, SIGTERM);
   // Without the library's destructors: the answers are given, and what fails now would say nothing.
   _exit(exit_success);
 }

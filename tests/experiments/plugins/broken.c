@@ -1,8 +1,12 @@
 /* A plug-in in C that is right, and breaks as the environment variable OGC_BROKEN says where it meets a case with d = r (or, of a mesh, always). */
+#define _GNU_SOURCE
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "compare/plugin.h"
@@ -14,11 +18,77 @@ static int breaks(const char* how) {
   return wanted && strcmp(wanted, how) == 0;
 }
 
+/* The worker's socket. */
+enum { worker_socket = 3 };
+
+static void write_to_socket(const void* bytes, size_t count) {
+  if (write(worker_socket, bytes, count) < 0) perror("the socket");
+}
+
+/* What stands in front of each of the worker's blocks: a mark and the length. */
+static void announce(uint64_t length) {
+  const uint64_t head[2] = {0x6b636f6c622d6367, length};
+  write_to_socket(head, sizeof head);
+}
+
 /* In a library that crashes or hangs while it is loaded. */
 __attribute__((constructor)) static void load(void) {
   if (breaks("crash while loading")) abort();
+  if (breaks("fork while loading")) fork();
+  if (breaks("garbage while loading")) write_to_socket(getenv("OGC_BROKEN"), 16);
   if (breaks("hang while loading"))
     for (;;) pause();
+}
+
+/* Of what the worker says first of an answer; it is checked before it is believed. */
+enum { result_bytes = 72 };
+
+static void write_messages(void) {
+  unsigned char bytes[4096] = {0};
+  if (breaks("zeros")) write_to_socket(bytes, 256);
+  if (breaks("three bytes")) write_to_socket(bytes, 3);
+  if (breaks("absurd length")) announce(UINT64_C(1) << 62);
+  if (breaks("empty message")) announce(0);
+  if (breaks("no message behind its head")) announce(result_bytes);
+  for (size_t i = 0; breaks("garbage") && i < sizeof bytes; ++i) bytes[i] = (unsigned char)(i * i * 7 + i / 11);
+  if (breaks("garbage")) write_to_socket(bytes, sizeof bytes);
+  if (breaks("half a message")) {
+    announce(result_bytes);
+    write_to_socket(bytes, 40);
+    _exit(0);
+  }
+}
+
+/* A file "child" of its number, by which a test finds out what became of it. */
+static void tell_number(void) {
+  FILE* const file = fopen("child", "w");
+  if (!file) return;
+  fprintf(file, "%d", (int)getpid());
+  fclose(file);
+}
+
+/* Starts a child as `how` says, behind the back of the C library where it begins with "clone". */
+static void fork_child(void) {
+  const char* const how = getenv("OGC_BROKEN");
+  const int clones = how && strncmp(how, "clone", 5) == 0;
+  if (!clones && (!how || strncmp(how, "fork", 4) != 0)) return;
+  const char* const then = how + (clones ? 5 : 4);
+  const pid_t child = clones ? (pid_t)syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0) : fork();
+  const int is_child = child == 0;
+  if (is_child && strcmp(then, ", both return") == 0) return;
+  if (is_child && strcmp(then, ", child exits") == 0) exit(0);
+  if (is_child && strcmp(then, ", child writes") == 0) {
+    const char zeros[64] = {0};
+    write_to_socket(zeros, sizeof zeros);
+    _exit(0);
+  }
+  if (is_child) {
+    tell_number();
+    for (;;) pause();
+  }
+  if (strcmp(then, ", child exits") == 0 || strcmp(then, ", child writes") == 0) waitpid(child, NULL, 0);
+  if (strcmp(then, ", parent exits") == 0) _exit(5);
+  if (strcmp(then, ", parent crashes") == 0) abort();
 }
 
 static void break_activation(const ogc_activation_in* in, ogc_activation_out* out, int64_t i) {
@@ -32,6 +102,8 @@ static void break_activation(const ogc_activation_in* in, ogc_activation_out* ou
   if (breaks("behind")) out->curvature[in->n] = 0;
   if (breaks("far behind")) out->curvature[in->n + 100000] = 0;
   if (breaks("input")) ((float*)in->distance)[i] = 0;
+  write_messages();
+  fork_child();
   if (breaks("close"))
     for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
 }
@@ -70,6 +142,12 @@ int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out
   for (int32_t t = 0; t < in->topology.triangle_count; ++t) out->d_min_triangle[t] = 0;
   if (breaks("no count")) return 0;
   out->count = breaks("growing") ? out->capacity + 1 : breaks("few") ? 3 : 0;
+  if (breaks("wild contact")) {
+    out->count = 2;
+    out->contacts[0] = (ogc_vertex_facet_contact){1000000000, 2, -5, 77};
+    out->contacts[1] = (ogc_vertex_facet_contact){-3, 1, 2000000000, -1000000};
+  }
+  if (breaks("absurd count")) out->count = INT64_C(1) << 60;
   if (breaks("few")) out->contacts[0] = (ogc_vertex_facet_contact){0, 0, 0, 0};
   return 0;
 }

@@ -346,5 +346,10 @@ int ogc_step(const ogc_step_in* in, ogc_step_out* out) {
   for (std::size_t v = 0; v < step.end().size(); ++v) out->velocity[v] = plain(step.velocity(v));
   Trace(*out).write(step.events);
   if (breaks("odd event")) out->kind[0] = 9;
+  const Index wild = 1000000000;
+  if (breaks("wild colour")) std::fill_n(out->colour, in->scene.topology.vertex_count, wild);
+  if (breaks("negative colour")) std::fill_n(out->colour, in->scene.topology.vertex_count, -7);
+  if (breaks("wild contact") && out->vertex_facet_count > 0) out->vertex_facet[0] = {wild, 2, -wild, -5};
+  if (breaks("wild edges") && out->edge_edge_count > 0) out->edge_edge[0] = {1, wild, 0, -wild, wild, -3};
   return 0;
 }

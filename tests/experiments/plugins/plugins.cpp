@@ -1,5 +1,9 @@
 // Plug-ins that break, before the judge: each is reported as what it is, the judge goes on or ends cleanly, and standard output holds results alone.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -12,10 +16,15 @@ namespace {
 
 const std::string broken = OGC_TEST_PLUGINS "/libplugin_broken.so";
 
+/// Where the broken plug-in runs; failing cases are saved below it.
+const TemporaryFolder& broken_folder() {
+  static const TemporaryFolder folder;
+  return folder;
+}
+
 /// `ogc compare` with the broken plug-in; `how` it breaks.
 ProgramResult compare_broken(const std::string& how, const std::string& arguments) {
-  static const TemporaryFolder scratch;  // failing cases are saved below it
-  const std::string folder = (scratch / "").string();
+  const std::string folder = (broken_folder() / "").string();
   return run_ogc("compare " + arguments + " --time-limit 3 --plugin " + broken, "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
@@ -24,6 +33,20 @@ ProgramResult compare_ours(const std::string& how, const std::string& arguments)
   static const TemporaryFolder scratch;
   return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_ours.so",
                  "cd '" + (scratch / "").string() + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
+}
+
+/// Whether the process whose number stands in the file ends within a second (but for an entry that nobody has asked
+/// for), or there is no such file.
+bool has_ended(const std::filesystem::path& file) {
+  std::ifstream number(file);
+  std::string id, name, state;
+  if (!(number >> id)) return true;
+  for (int i = 0; i < 100; ++i) {
+    std::ifstream status("/proc/" + id + "/stat");
+    if (!(status >> id >> name >> state) || state == "Z") return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
 }
 
 /// A case with d = r, at which it breaks, and one with d < r.
@@ -64,6 +87,49 @@ TEST_CASE("a plug-in that gives no answer is reported as what it did, with exit 
   CHECK(contains(result.out, {"no answer: " + what, "gen=ladder.radius seed=1 index=1\n"}));
 }
 
+TEST_CASE("a plug-in that writes into the worker's socket is told so, and the judge goes on", "[agreement]") {
+  const std::string socket = ": it wrote into the worker's socket, descriptor 3, which is not its own";
+  const auto [how, what] = GENERATE(table<std::string, std::string>(
+      {{"zeros", "its worker sent a message that does not begin as its messages do"},
+       {"three bytes", "its worker sent a message that does not begin as its messages do"},
+       {"garbage", "its worker sent a message that does not begin as its messages do"},
+       {"absurd length", "its worker sent a message that is 4611686018427387904 bytes long instead of "},
+       {"empty message", "its worker sent a message that is 0 bytes long instead of "},
+       {"no message behind its head", "its worker sent a message that holds 103 as the outcome of a call"}}));
+  const ProgramResult result = compare_broken(how, "activation --generator ladder.radius --cases 400");
+  INFO(how << "\n" << result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {"no answer: " + what, socket, "gen=ladder.radius seed=1 index=1\n", "3 mismatches"}));
+}
+
+TEST_CASE("a plug-in that ends in the middle of a message is told how it ended", "[agreement]") {
+  const ProgramResult result = compare_broken("half a message", breaking);
+  INFO(result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {"no answer: it ended the process, exit status 0"}));
+}
+
+TEST_CASE("a plug-in that forks gets its verdict, and no child of it is left", "[agreement]") {
+  const auto [how, status, what] = GENERATE(table<std::string, int, std::string>(
+      {{"fork", 0, "activation: passed"},
+       {"fork, both return", 0, "activation: passed"},
+       {"fork, child exits", 0, "activation: passed"},
+       {"fork, child writes", 0, "activation: passed"},
+       {"fork, parent exits", 1, "no answer: it ended the process, exit status 5"},
+       {"fork, parent crashes", 1, "no answer: it crashed: signal 6"},
+       {"fork while loading", 0, "activation: passed"},
+       {"clone", 0, "activation: passed"},
+       {"clone, both return", 0, "activation: passed"},
+       {"clone, child writes", 1, "no answer: its worker sent a message that does not begin as its messages do"},
+       {"clone, parent exits", 1, "no answer: it ended the process, exit status 5"}}));
+  std::filesystem::remove(broken_folder() / "child");
+  const ProgramResult result = compare_broken(how, breaking);
+  INFO(how << "\n" << result.out << result.err);
+  CHECK(result.status == status);
+  CHECK(contains(result.out, {what}));
+  CHECK(has_ended(broken_folder() / "child"));
+}
+
 TEST_CASE("the case at which a plug-in crashes is found in its batch, and the cases before it are judged", "[agreement]") {
   const ProgramResult result = compare_broken("behind", "activation --generator ladder.radius --cases 400 --json");
   INFO(result.out << result.err);
@@ -90,6 +156,9 @@ TEST_CASE("lists of contacts that a plug-in miscounts or does not write are no a
   const std::string facet = "--problem 'stage=detect_vertex_facet gen=lattice seed=3 index=402'", edge = "--problem 'stage=detect_edge_edge gen=ladder.stack seed=3 index=16'";
   CHECK(contains(compare_broken("no count", facet).out, {"no answer: it did not set the count of contacts"}));
   CHECK(contains(compare_broken("growing", facet).out, {"and, given room for as many, "}));
+  CHECK(contains(compare_broken("absurd count", facet).out,
+                 {"no answer: it counted 1152921504606846976 contacts, at most ", " being possible"}));
+  CHECK(contains(compare_broken("wild contact", facet).out, {"is missing"}));
   CHECK(contains(compare_broken("few", facet).out, {"it counted 3 contacts, and did not write all of them"}));
   CHECK(contains(compare_broken("", edge).out, {"a contact names a face of kind 7"}));
   CHECK(contains(compare_broken("", facet).out, {"is missing"}));  // the list is empty, and well formed
@@ -116,6 +185,9 @@ TEST_CASE("a library that is no plug-in for this program is refused with exit st
   CHECK(contains(crash.err, {"it crashed: signal 6"}));
   CHECK(hang.status == 1);
   CHECK(contains(hang.err, {"it hangs"}));
+  const ProgramResult garbage = compare_broken("garbage while loading", harmless);
+  CHECK(garbage.status == 1);
+  CHECK(contains(garbage.err, {"its worker sent a message that does not begin as its messages do"}));
 }
 
 TEST_CASE("our own rest state, sweep and step pass as a plug-in, and are timed beside ours", "[agreement]") {
@@ -149,6 +221,17 @@ TEST_CASE("wrong plug-ins of the stages with scenes are found, and each wrong an
        {"no end", "step", "no answer: the contacts of detection 0 are said to end at -1"},
        {"odd event", "step", "no answer: event 0 is of kind 9"}}));
   const ProgramResult result = compare_ours(how, stage + (stage == "step" ? " --cases 6000" : " --cases 1500"));
+  INFO(how << "\n" << result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {what}));
+}
+
+TEST_CASE("indices of a step that name nothing are wrong answers, and no more", "[agreement]") {
+  const auto [how, what] = GENERATE(table<std::string, std::string>({{"wild colour", "has 1000000000"},
+                                                                     {"negative colour", "colour: vertex 0 has -7"},
+                                                                     {"wild contact", "1000000000"},
+                                                                     {"wild edges", "1000000000"}}));
+  const ProgramResult result = compare_ours(how, "step --generator onto --cases 40");
   INFO(how << "\n" << result.out << result.err);
   CHECK(result.status == 1);
   CHECK(contains(result.out, {what}));
