@@ -65,9 +65,33 @@ find_python() {
   python=/usr/bin/python3
 }
 
-# Configures and builds: build <root> <preset> [targets…]; quiet unless it fails.
+seconds_between_lines=30  # of a build that nobody watches
+
+# Says how far a build is until it is killed or the shell that began it ends: watch_build <log>. On a terminal one line that is
+# redrawn, else lines.
+watch_build() {
+  local log=$1 begun=$SECONDS said=$SECONDS line count left
+  while sleep 1 && kill -0 $$ 2>/dev/null; do
+    count=$(tail -c 4000 "$log" 2>/dev/null | grep -oE '^\[[0-9]+/[0-9]+\]' | tail -n 1 | tr -d '[]' || true)
+    [ -n "$count" ] || continue
+    line="building ${count%/*} of ${count#*/}"
+    # Half a minute tells how fast it goes; what was compiled before is there at once.
+    if [ $((SECONDS - begun)) -ge "$seconds_between_lines" ] && [ "${count%/*}" -gt 0 ]; then
+      left=$(((SECONDS - begun) * (${count#*/} - ${count%/*}) / ${count%/*}))
+      if [ $left -lt 90 ]; then line+=", about $left s left"; else line+=", about $(((left + 30) / 60)) min left"; fi
+    fi
+    if [ -t 2 ]; then
+      printf '\r%s\033[K' "$line" >&2
+    elif [ $((SECONDS - said)) -ge "$seconds_between_lines" ]; then
+      said=$SECONDS
+      say "$line"
+    fi
+  done
+}
+
+# Configures and builds: build <root> <preset> [targets…]; says how far it is, and what failed.
 build() {
-  local root=$1 preset=$2 log
+  local root=$1 preset=$2 log watcher status=0
   shift 2
   log=$root/build/$preset/log.txt
   mkdir -p "$root/build/$preset"
@@ -76,9 +100,14 @@ build() {
     (cd "$root" && cmake --preset "$preset" -G Ninja) > "$log" 2>&1 || { cat "$log" >&2; return 1; }
   fi
   say "Building build/$preset (log: build/$preset/log.txt)"
-  if ! ninja -C "$root/build/$preset" "$@" > "$log" 2>&1; then
-    grep -E -A20 'FAILED|error' "$log" | head -80 >&2
-    return 1
-  fi
+  : > "$log"
+  watch_build "$log" >/dev/null &
+  watcher=$!
+  ninja -C "$root/build/$preset" "$@" > "$log" 2>&1 || status=1
+  kill $watcher 2>/dev/null
+  wait $watcher 2>/dev/null || true
+  [ ! -t 2 ] || printf '\r\033[K' >&2
+  [ $status -eq 0 ] || grep -E -A20 'FAILED|error' "$log" | head -80 >&2
+  return $status
 }
 

@@ -90,8 +90,12 @@ class RunEvidence:
 
     @property
     def usable(self):
-        m = self.manifest
-        return m.get("status") == "finished" and m.get("dirty") is False and self.guarantee_kept is not False
+        return self.sound and self.manifest.get("dirty") is False
+
+    @property
+    def sound(self):
+        """Usable but for what made it: a program with uncommitted changes, maybe."""
+        return self.manifest.get("status") == "finished" and self.guarantee_kept is not False
 
     @property
     def failed_audit(self):
@@ -185,12 +189,13 @@ def ended_of(path):
 
 
 class Evidence:
-    """All usable runs and tables below `folder`: accepted results, or run folders."""
+    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program as well."""
 
-    def __init__(self, folder=RESULTS):
+    def __init__(self, folder=RESULTS, changed=False):
         folder = Path(folder)
         self.runs, self.tables = sorted(runs_in(folder), key=lambda run: run.manifest.get("ended", "")), []
-        self.runs, self.failed = [run for run in self.runs if run.usable], [run for run in self.runs if run.failed_audit]
+        self.failed = [run for run in self.runs if run.failed_audit]
+        self.runs = [run for run in self.runs if run.usable or changed and run.sound]
         found = ((ended_of(path), path) for path in (*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")))
         for ended, path in sorted(found):
             name, scale = table_name(path)

@@ -17,14 +17,18 @@ def due(step):
 
 
 def main(runs, ogc, scale, backend, names):
-    """Exit status of the first step that fails, or 0."""
+    """Exit status of the first step that fails, or 0. Tells first which steps are due (progress.py)."""
     chosen = recipes.choose(names, recipes.load(), backend)
     recipes.program_stamp(runs, ogc)
     os.chdir(runs)
     os.environ.update(PYTHONPATH=str(recipes.ROOT), OGC_STAMP=recipes.PROGRAM)
+    wanted, made = [], set()
     for step in (step for recipe in chosen for step in recipes.steps(recipe, scale, backend, ogc)):
-        if not due(step):
-            continue
+        if made & set(step.inputs) or due(step):
+            wanted.append(step)
+            made.add(step.output)
+    job.tell(due=[step.name for step in wanted])
+    for step in wanted:
         print(f"{step.name} → {step.output}", file=sys.stderr, flush=True)
         status = job.run(step.log, step.output, list(step.command))
         if status != 0:

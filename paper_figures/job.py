@@ -1,9 +1,11 @@
 """Runs the command of one step with a log; where it fails, shows the command and the log's last lines. Beside the log it writes how long the command took.
 
 Usage: python3 -m paper_figures.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is removed first, if it is a run folder.
+Where OGC_EVENTS names a file, it is told there when the step begins and how it ends (progress.py); its name is the log's.
 """
 
 import json
+import os
 import shlex
 import shutil
 import subprocess
@@ -12,6 +14,7 @@ import time
 from pathlib import Path
 
 LINES = 20
+EVENTS = "OGC_EVENTS"
 
 
 def clear(output):
@@ -21,19 +24,32 @@ def clear(output):
         shutil.rmtree(folder)
 
 
+def tell(**event):
+    """A line for whoever watches; one write, so that steps side by side do not mix theirs."""
+    if os.environ.get(EVENTS):
+        with open(os.environ[EVENTS], "a", encoding="utf-8") as file:
+            file.write(json.dumps(event) + "\n")
+
+
 def run(log, output, command):
     """Exit status of the command; 1 where it succeeded without making its output."""
     clear(output)
     log = Path(log)
+    tell(what="begins", step=log.stem)
     log.parent.mkdir(parents=True, exist_ok=True)
     begun = time.monotonic()
     with log.open("w") as file:
         status = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
     if status == 0 and Path(output).is_file():
-        log.with_name(log.name + ".json").write_text(json.dumps({"command": command, "seconds": round(time.monotonic() - begun, 2)}))
+        seconds = round(time.monotonic() - begun, 2)
+        log.with_name(log.name + ".json").write_text(json.dumps({"command": command, "seconds": seconds}))
+        tell(what="ends", step=log.stem, seconds=seconds)
         return 0
     last = "\n  ".join(log.read_text(errors="replace").splitlines()[-LINES:])
-    print(f"FAILED ({'exit status ' + str(status) if status else f'no {output}'}): {shlex.join(command)}\n  {last}\n  (the whole log: {log.resolve()})", file=sys.stderr)
+    why = f"exit status {status}" if status else f"no {output}"
+    words = f"FAILED ({why}): {shlex.join(command)}\n  {last}\n  (the whole log: {log.resolve()})"
+    tell(what="fails", step=log.stem, words=words)
+    print(words, file=sys.stderr)
     return status or 1
 
 

@@ -1,6 +1,8 @@
 """The report: index.html with every figure, table and claim, and a page a scene with its curves; each file holds its pictures and style itself and needs no network.
 
-It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which a test holds it to.
+It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which a test
+holds it to. Runs that were just made stand beside the accepted ones: their numbers, judged where they are of the size that the
+claim needs, their pictures and their curves.
 """
 
 import argparse
@@ -11,6 +13,7 @@ import io
 import re
 import shlex
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 from paper_figures import recipes, verdicts
@@ -23,10 +26,34 @@ table { border-collapse: collapse; margin: .6em 0 1.4em; } td, th { border-botto
 img, video { max-width: 100%; } h2 { margin-top: 2em; } code { background: #f2f2f2; } .number { text-align: right; min-width: 6em; } td small { color: #444; }
 .verdict { white-space: nowrap; font-weight: bold; }
 .reproduced { color: #005a87; } .refuted, .not-as-printed, .late { color: #a33d00; }
+.fresh { color: #005a87; } figure.fresh { border-left: .3em solid #005a87; padding-left: .7em; }
 .as-printed, .not-comparable, .not-yet-run { color: #555; font-weight: normal; }
 """
 LATE = ' <b class="late">set after a run</b>'
 PAPER_ORDER = [f"fig{number:02d}" for number in range(1, 23)]
+
+
+@dataclass(frozen=True)
+class JustMade:
+    """Run folders of the workflow, and what it was asked for."""
+
+    folder: Path
+    scale: str
+    backend: str
+    evidence: Evidence
+
+    def picture(self, recipe):
+        """The picture of a figure that is there, or None."""
+        path = self.folder / recipe.picture(self.scale, self.backend)
+        return path if path.suffix == ".png" and path.is_file() else None
+
+    def about(self, claim):
+        """What these runs say about a claim, as HTML; empty where they say nothing."""
+        judged = verdicts.judge(claim, self.evidence) if "measure" in claim else None
+        if judged and judged.measured:
+            return f'{judged.measured.value:.4g}<br><small class="fresh">{escape(judged.verdict)}</small>'
+        found = verdicts.at_another_scale(claim, self.evidence, self.scale) if "measure" in claim else None
+        return f"{found.value:.4g}<br><small>{escape(self.scale)}, not judged</small>" if found else ""
 
 
 def escape(text):
@@ -48,7 +75,7 @@ def shown(path, words):
     return f'<video controls title="{escape(words)}" src="data:video/mp4;base64,{base64.b64encode(path.read_bytes()).decode()}"></video>'
 
 
-def claim_row(judgement):
+def claim_row(judgement, fresh=None):
     claim, m, mark = judgement.claim, judgement.measured, LATE if judgement.late else ""
     also = "".join(f"<br><small>also {other['value']:g} ({escape(other['place'])})</small>" for other in claim.get("also", []))
     ours = f"{m.value:.4g}" if m else ""
@@ -58,21 +85,24 @@ def claim_row(judgement):
     return (f'<tr class="claim" id="{escape(claim["id"])}" data-verdict="{judgement.verdict}"><td>{escape(claim["says"])}<br><small>{escape(claim["place"])}</small></td>'
             f'<td class="number">{claim["value"]:g} {escape(claim["unit"]) if claim["unit"] != "1" else ""}{also}</td><td class="number">{ours}</td>'
             f'<td>{escape(verdicts.band_in_words(claim))}{mark}<br><small>{escape(claim["why"])}</small></td>'
-            f'<td class="verdict {judgement.verdict.replace(" ", "-")}">{judgement.verdict}</td><td><small>{notes}</small></td></tr>')
+            f'<td class="verdict {judgement.verdict.replace(" ", "-")}">{judgement.verdict}</td>'
+            + (f'<td class="number">{fresh.about(claim)}</td>' if fresh else "")
+            + f"<td><small>{notes}</small></td></tr>")
 
 
-def rows_table(judgements, fourth, sixth):
-    head = "".join(f"<th>{words}</th>" for words in ("the paper says", "paper", "ours", fourth, "verdict", sixth))
-    rows = "\n".join(map(claim_row, judgements))
+def rows_table(judgements, band, evidence, fresh):
+    titles = ("the paper says", "paper", "ours, accepted", band, "verdict", *(["just made"] if fresh else []), evidence)
+    head = "".join(f"<th>{words}</th>" for words in titles)
+    rows = "\n".join(claim_row(judgement, fresh) for judgement in judgements)
     return f"<table><tr>{head}</tr>\n{rows}\n</table>" if rows else ""
 
 
-def claim_table(judgements):
+def claim_table(judgements, fresh=None):
     """Results, and below them what whoever set the run up decided."""
     results, given = verdicts.apart(judgements)
-    below = rows_table(given, "as printed where within, and why", "run")
+    below = rows_table(given, "as printed where within, and why", "run", fresh)
     heading = "<h3>Settings and counts of meshes</h3>" if below else ""
-    return rows_table(results, "band, and why", "evidence") + heading + below
+    return rows_table(results, "band, and why", "evidence", fresh) + heading + below
 
 
 def numbered(text):
@@ -97,26 +127,37 @@ def origin_of(path):
     return "see the README beside it for machine and commit"
 
 
+def pictures_just_made(figure, mine, fresh):
+    """What the workflow just drew of a figure, beside the accepted pictures."""
+    if not fresh:
+        return ""
+    how = f"{escape(fresh.scale)}, {escape(fresh.backend)}</small></figcaption></figure>"
+    found = ((recipe.name, fresh.picture(recipe)) for recipe in mine)
+    return "".join(f'<figure class="fresh">{shown(path, f"{figure}, just made")}<figcaption><small>just made: {escape(name)}, {how}'
+                   for name, path in found if path)
+
+
 def commands_of(evidence, scene):
     """The commands that made the accepted runs of a scene, each once, with machine and commit."""
     lines = dict.fromkeys((run.manifest["command"], run.manifest["device"], run.manifest["commit"][:10]) for run in evidence.runs if run.manifest["scene"]["name"] == scene)
     return "".join(f"<li><code>{escape(command)}</code> – {escape(device)}, commit {escape(commit)}</li>" for command, device, commit in lines)
 
 
-def figure_section(figure, book, judgements, evidence):
+def figure_section(figure, book, judgements, evidence, fresh=None):
     """Pictures, claims, parameters and commands of one figure."""
     mine = [recipe for recipe in book.values() if numbered(recipe.name) == figure]
     claims = [j for j in judgements if j.claim["figures"][0] == figure]
     scenes = sorted({j.claim["scene"] for j in claims} | {recipe.scene for recipe in mine} - {""})
     title = mine[0].title if mine else "no recipe yet"
     images = "".join(f"<figure>{shown(path, f'{figure}, ours')}<figcaption><small>{escape(path.relative_to(RESULTS).as_posix())}: {origin_of(path)}</small></figcaption></figure>"
-                     for path in pictures_of(figure))
+                     for path in pictures_of(figure)) + pictures_just_made(figure, mine, fresh)
     redo = "".join(f"<li><code>experiments/reproduce {escape(r.name)}{'' if 'illustration' in r.body else ' --scale paper'}</code> (parameters: "
                    f"<code>paper_figures/{escape(r.name)}.yaml</code>: {escape(shlex.join(map(str, r.body.get('run', r.body.get('options', [])))) or 'those of the scene')})</li>" for r in mine)
     links = ", ".join(f'<a href="{scene}.html">{scene}</a>' for scene in scenes)
     made = "".join(commands_of(evidence, scene) for scene in scenes)
     words = "Drawn from the exact reference; it makes no claim in numbers." if mine and "illustration" in mine[0].body else "" if claims else "No claim in numbers."
-    return (f'<h2 id="{figure}">{figure.replace("fig0", "Fig. ").replace("fig", "Fig. ")}: {escape(title)}</h2>{f"<p>{words}</p>" if words else ""}{images}{claim_table(claims)}'
+    return (f'<h2 id="{figure}">{figure.replace("fig0", "Fig. ").replace("fig", "Fig. ")}: {escape(title)}</h2>{f"<p>{words}</p>" if words else ""}'
+            f"{images}{claim_table(claims, fresh)}"
             f"{f'<p>Scene: {links}</p>' if links else ''}{f'<p>To redo it:</p><ul>{redo}</ul>' if redo else ''}{f'<p>Accepted runs:</p><ul>{made}</ul>' if made else ''}")
 
 
@@ -172,35 +213,44 @@ def from_the_start(run):
     return len(steps) > 1 and steps[0] == 1
 
 
-def scene_page(scene, judgements, evidence):
-    parts = [f'<p><a href="index.html">All figures</a></p><h1>{escape(scene)}</h1>', claim_table([j for j in judgements if j.claim["scene"] == scene])]
-    for run in (run for run in evidence.runs if run.manifest["scene"]["name"] == scene):
+def scene_page(scene, judgements, evidence, fresh=None):
+    claims = claim_table([j for j in judgements if j.claim["scene"] == scene], fresh)
+    parts = [f'<p><a href="index.html">All figures</a></p><h1>{escape(scene)}</h1>', claims]
+    made = [run for run in fresh.evidence.runs if run.manifest["scene"]["name"] == scene] if fresh else []
+    for run in (*made, *(run for run in evidence.runs if run.manifest["scene"]["name"] == scene)):
         m = run.manifest
         settings = ", ".join(f"{escape(name)} {escape(value['value'])}" for name, value in m["settings"].items())
         audit = {True: f"exact audit of {run.audited_states} states: no intersection", False: "exact audit FAILED",
                  None: "not audited"}[run.guarantee_kept]
-        parts.append(f"<h2>{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>{escape(m['device'])}, commit {escape(m['commit'][:10])}, {len(run.column('step'))} steps, {audit}</p>"
+        mark = "Just made: " if run in made else ""
+        commit = m["commit"][:10] + (", with uncommitted changes" if m.get("dirty") else "")
+        parts.append(f"<h2>{mark}{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>{escape(m['device'])}, "
+                     f"commit {escape(commit)}, {len(run.column('step'))} steps, {audit}</p>"
                      f"{embedded(curves(run), 'curves of ' + run.source) if from_the_start(run) else ''}<details><summary>Settings</summary><p>{settings}</p></details>")
     return page(scene, "\n".join(parts if len(parts) > 2 else [*parts, "<p>No accepted run yet.</p>"]))
 
 
-def write(out, evidence=None):
-    """index.html at `out` and the scenes' pages beside it. Returns the paths."""
+def write(out, evidence=None, fresh=None):
+    """index.html at `out` and the scenes' pages beside it, with what was just made (JustMade) if given. Returns the paths."""
     evidence, book, out = evidence or Evidence(), recipes.load(), Path(out)
     judgements = verdicts.judge_all(evidence)
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book) or any(j.claim["figures"][0] == f for j in judgements)]
     figures += [name for name, recipe in book.items() if "vary" in recipe.body]
     contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
-    sections = [figure_section(figure, book, judgements, evidence) for figure in figures]
+    sections = [figure_section(figure, book, judgements, evidence, fresh) for figure in figures]
+    beside = (f'<p id="fresh">Beside the accepted results stand {len(fresh.evidence.runs)} finished runs of '
+              f"{escape(fresh.folder)}, asked for at scale {escape(fresh.scale)} on {escape(fresh.backend)}.</p>" if fresh else "")
     body = (f'<p id="counts">{verdicts.headline(judgements)}</p><h1>Offset Geometric Contact: what the paper says, and what we measured</h1>'
             "<p>A band is fixed before the run that it judges; "
             f"where a run that answers the claim was known, the row is marked{LATE}. "
             "Nothing here is written by hand: "
-            f"<code>experiments/reproduce --report</code> makes it from claims, accepted results and recipes.</p><p>{contents}</p>"
+            "<code>experiments/reproduce --report</code> makes it from claims, accepted results and recipes.</p>"
+            f"{beside}<p>{contents}</p>"
             + "\n".join([*sections, table1_section(judgements), deviations_section()]))
     out.parent.mkdir(parents=True, exist_ok=True)
     scenes = sorted({j.claim["scene"] for j in judgements} | {recipe.scene for recipe in book.values()} - {""})
-    written = {out: page("OGC Testbed: report", body), **{out.with_name(f"{scene}.html"): scene_page(scene, judgements, evidence) for scene in scenes}}
+    pages = {out.with_name(f"{scene}.html"): scene_page(scene, judgements, evidence, fresh) for scene in scenes}
+    written = {out: page("OGC Testbed: report", body), **pages}
     for path, text in written.items():
         path.write_text(text)
     return list(written)
@@ -209,8 +259,14 @@ def write(out, evidence=None):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", default=recipes.HERE / "report/index.html", help="the page; the scenes' pages go beside it")
+    parser.add_argument("--runs", type=Path, metavar="FOLDER", help="run folders just made, to stand beside the accepted results")
+    parser.add_argument("--scale", default="small", choices=recipes.SCALES, help="of these runs")
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of these runs")
+    options = parser.parse_args()
     try:
-        paths = write(parser.parse_args().out)
+        runs = options.runs and options.runs.resolve()
+        fresh = JustMade(runs, options.scale, options.backend, Evidence(runs, changed=True)) if runs else None
+        paths = write(options.out, fresh=fresh)
     except (EvidenceError, recipes.RecipeError) as error:
         sys.exit(f"report: {error}")
     print(f"{paths[0]} and {len(paths) - 1} pages of scenes, {sum(path.stat().st_size for path in paths) / 2**20:.1f} MiB")

@@ -109,7 +109,7 @@ def judge(claim, evidence):
     wanted = {"scene": claim["scene"], **claim.get("run", {})}
     measured = evidence.measure(claim["measure"], wanted)
     if measured is None:
-        return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence, wanted))
+        return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence))
     if "band" not in claim:
         return Judgement(claim, "not comparable", measured, f"ours over the paper's: {measured.value / claim['value']:.3g}")
     also = [other for other in claim.get("also", []) if "band" in other]
@@ -133,18 +133,24 @@ def _known_before(claim, evidence, wanted):
     return f"{found.value:.9g} ({found.source})" if found else claim.get("band_after", "")
 
 
-def _elsewhere(claim, evidence, wanted):
+def _elsewhere(claim, evidence):
     """What the same measure gives at a smaller scale: no verdict, but worth knowing."""
     notes = [claim["waits_for"]] if "waits_for" in claim else []
     for scale in STATES:
-        fewer = {key: value for key, value in wanted.items() if key not in ("steps", "device")}
-        try:
-            found = evidence.measure(claim["measure"], {**fewer, "scale": scale})
-        except EvidenceError:  # a table older than the column: nothing to show beside a claim that waits anyway
-            continue
+        found = at_another_scale(claim, evidence, scale)
         if found and claim.get("band") != "stored" and claim.get("unit") == "1":
             notes.append(f"at {scale}, not judged: {found.value:.3g}")
     return "; ".join(notes)
+
+
+def at_another_scale(claim, evidence, scale):
+    """What the claim's measure gives at another scale than the claim is about, or None: no verdict."""
+    wanted = {"scene": claim["scene"], **claim.get("run", {}), "scale": scale}
+    wanted = {key: value for key, value in wanted.items() if key not in ("steps", "device")}
+    try:
+        return evidence.measure(claim["measure"], wanted)
+    except EvidenceError:  # a table older than the column
+        return None
 
 
 def judge_all(evidence=None, claims=None):

@@ -5,6 +5,7 @@ Usage: report.py SOURCE_DIR [--browser CHROMIUM SCREENSHOT.png]: with a browser 
 
 import base64
 import functools
+import json
 import re
 import subprocess
 import sys
@@ -133,6 +134,36 @@ def check_faults_are_found(folder):
     index.write_text(good)
 
 
+def check_just_made(folder):
+    """Runs just made stand beside the accepted ones: number and verdict where they are of the claim's size, else the number
+    alone; picture; curves."""
+    runs = Path(folder)
+    for scale, scene in (("paper", "cloth_on_sphere"), ("small", "knot")):
+        run = runs / f"{'fig18' if scale == 'paper' else 'fig11'}-{scale}-cuda/run"
+        run.mkdir(parents=True)
+        manifest = json.loads((report.RESULTS / "h200/sphere_cuda_run.json").read_text())
+        manifest.update(scale=scale, dirty=True, scene={**manifest["scene"], "name": scene})
+        (run / "run.json").write_text(json.dumps(manifest))
+        (run / "steps.csv").write_bytes((report.RESULTS / "h200/sphere_cuda_steps.csv").read_bytes())
+    picture = next(report.RESULTS.glob("h200/fig18_paper.png"))
+    (runs / "fig18-paper-cuda/fig18.png").write_bytes(picture.read_bytes())
+    fresh = report.JustMade(runs, "paper", "cuda", report.Evidence(runs, changed=True))
+    claims = {j.claim["id"]: j for j in judged()}
+    row = report.claim_row(claims["cloth_on_sphere.cuda_steady"], fresh)
+    ours = f"{verdicts.judge(claims['cloth_on_sphere.cuda_steady'].claim, fresh.evidence).measured.value:.4g}"
+    assert f">{ours}<" in row and '<small class="fresh">reproduced' in row, row
+    assert row.count("<td") == report.claim_row(claims["cloth_on_sphere.cuda_steady"]).count("<td") + 1
+    smaller = report.JustMade(runs, "small", "cuda", fresh.evidence)
+    assert "small, not judged" in report.claim_row(claims["knot.cuda_steady"], smaller)
+    assert 'class="number"></td>' in report.claim_row(claims["dress.cuda_steady"], fresh), "no run says anything about it"
+    book = {name: recipe for name, recipe in report.recipes.load().items() if name == "fig18"}
+    section = Page(report.figure_section("fig18", book, [], fresh.evidence, fresh))
+    assert len(section.pictures) == len(Page(report.figure_section("fig18", book, [], fresh.evidence)).pictures) + 1
+    page = report.scene_page("cloth_on_sphere", [], report.Evidence(runs), fresh)
+    assert page.count("Just made: fig18-paper-cuda/run") == 1
+    assert "with uncommitted changes" in page, "a changed program's run is shown, and said to be so"
+
+
 def browse(browser, folder, screenshot):
     """Opens every page in the browser: all pictures are shown, nothing is asked of the network. Takes a picture of the first."""
     base = [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=10000"]
@@ -156,6 +187,7 @@ if __name__ == "__main__":
         wrong = faults(scratch)
         assert not wrong, "\n".join(wrong)
         check_faults_are_found(scratch)
+        check_just_made(Path(scratch) / "runs")
         if "--browser" in sys.argv:
             browse(*sys.argv[sys.argv.index("--browser") + 1:][:1], scratch, sys.argv[-1])
     print(f"{len(written)} pages: verdicts, links and pictures are right")
