@@ -1,5 +1,5 @@
 // Cases of spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the spring, which damping does not see; seams, to
-// those between a vertex and a point of an edge, with the point at its ends too.
+// those between a vertex and a point of an edge, with the point at its ends too, and closed.
 #include <array>
 #include <cmath>
 
@@ -117,7 +117,14 @@ CaseData seam_end(Random& random) {
   return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0), edge, 0, random.one_in(2));
 }
 
-constexpr std::array<Generator, 9> table{{{"uniform", 40, true, uniform},
+/// Stitches closed down to the roundings of their point and beyond, beside rest lengths of any size: l and l₀ → 0, each by itself.
+CaseData closed(Random& random) {
+  const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()), before = edge * std::abs(random.rung());
+  const double rest_length = edge * random.magnitude(-10, 0);
+  return seam_case(random, edge, ratio, length, before, rest_length, true);
+}
+
+constexpr std::array<Generator, 10> table{{{"uniform", 40, true, uniform},
                                           {"bits", 15, false, bits},
                                           {"lattice", 15, false, lattice},
                                           {"ladder.rest", 20, false, at_rest},
@@ -125,7 +132,8 @@ constexpr std::array<Generator, 9> table{{{"uniform", 40, true, uniform},
                                           {"ladder.stitch", 10, false, stitch},
                                           {"seam", 20, true, seam},
                                           {"ladder.seam_lattice", 10, false, seam_lattice},
-                                          {"ladder.seam", 15, false, seam_end}}};
+                                          {"ladder.seam", 15, false, seam_end},
+                                          {"ladder.closed", 10, false, closed}}};
 
 }  // namespace
 

@@ -8,7 +8,7 @@ namespace ogc::compare {
 
 /// E = k_s/2 (l − l₀)² + k k_s/2 (l − lᵗ)², l = ‖Σ wᵢ xᵢ‖, w = (1, s − 1, −s): of an end and a point between two others (a stitch), or of two ends where s = 0;
 /// then x₂ is not read. Asked about `own`. Block: w² (k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + k k_s n nᵀ), w that of `own`; with a rest length of 0 that is
-/// w² k_s I and the damping's part. Where l = 0 there is no direction: the force is 0, and the block is w² k_s I for l₀ = 0, otherwise 0.
+/// w² k_s I and the damping's part. Where l = 0 there is no direction: the force is 0 and the block w² k_s I for every l₀, which majorises E as −k_s l₀ l ≤ 0.
 ///
 /// With `per_vertex` damping the energy is the elastic term alone; with B, its block, and moved = x − xᵗ of `own` the force is less k B moved, and the block (1 + k) B.
 ///

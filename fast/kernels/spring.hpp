@@ -37,8 +37,8 @@ OGC_HD inline float spring_length(const Vec& apart) {
 /// Adds force and block of the end of weight w; `apart` as spring_apart, `length_start` lᵗ.
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart, float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  if (!(length > 0)) {
-    if (spring.rest_length == 0) sum.add_identity(stiffness);
+  if (!(length > 0)) {  // no direction: w² k_s I majorises the energy whatever l₀ is, and of a stitch a length that was lost to rounding may exceed it
+    sum.add_identity(stiffness);
     return;
   }
   const float stretched = 1.0f - spring.rest_length / length, across = stretched > 0 ? stretched : 0.0f, resistance = damping * stiffness;

@@ -126,13 +126,13 @@ void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple
   add_outer(energy.bend(0), angle.slope, angle.slope, sum);
 }
 
-/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping (compare/stages/spring.hpp).
+/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; w² k_s I where l = 0 (compare/stages/spring.hpp).
 void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 4>& ends, VertexSystem& sum) {
   const std::array<Triple<Own>, 4> x = with_own<Own>(ends, place);
   const Triple<Own> apart = separation(term.weight, x);
   const Own length = sqrt(dot(apart, apart));
   const double squared_weight = term.weight[place] * term.weight[place];
-  if (length.value == 0) return add_identity(term.rest_length == 0 ? squared_weight * term.stiffness : 0, sum);
+  if (length.value == 0) return add_identity(squared_weight * term.stiffness, sum);
   const double across = std::max(0.0, 1 - term.rest_length / length.value);
   add_force(1, term.energy(x).slope, sum);
   add_identity(squared_weight * term.stiffness * across, sum);

@@ -33,6 +33,13 @@ Fault spoiled(const std::string& name, Stage stage, std::function<ForceOut(const
 
 void shorten(Vec3f& force) { force = {0.999f * force.x, 0.999f * force.y, 0.999f * force.z}; }
 
+/// Whether what is apart at a stitch is 0 in single precision.
+bool is_closed_by_rounding(const SpringCase& c) {
+  const auto& [x, a, b] = c.vertex;
+  const auto apart = [&](float Vec3f::*axis) { return x.*axis - a.*axis - c.ratio * (b.*axis - a.*axis); };
+  return c.ratio > 0 && apart(&Vec3f::x) == 0 && apart(&Vec3f::y) == 0 && apart(&Vec3f::z) == 0;
+}
+
 }  // namespace
 
 std::vector<Fault> force_faults() {
@@ -84,6 +91,10 @@ std::vector<Fault> force_faults() {
                         }),
       spoiled<SpringIn>("spring: force 0.1 % too small", Stage::spring, &Contestant::spring,
                         [](const SpringCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
+      spoiled<SpringIn>("spring: no block where rounding closes a stitch with a rest length", Stage::spring, &Contestant::spring,
+                        [](const SpringCase& c, Vec3f&, std::array<float, 6>& block) {
+                          if (c.rest_length > 0 && is_closed_by_rounding(c)) block = {};
+                        }),
   };
 }
 
