@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 from paper_figures import in_time, recipes
-from paper_figures.evidence import NOT_RUN, RESULTS
+from paper_figures.evidence import AUDIT, NOT_RUN, RESULTS, run_at
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
 # A file above the first is no small data; the folder as a whole stays under 30 MiB. Rows above the second are kept compressed.
@@ -33,8 +33,13 @@ def relative(text):
 
 
 def manifests(folder):
-    """(run folder's name below the figure's, manifest) of each run of a figure."""
-    return [("_".join(path.parent.relative_to(folder).parts), json.loads(path.read_text())) for path in sorted(folder.rglob("run.json"))]
+    """(run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts as one beside it."""
+    return [("_".join(path.parent.relative_to(folder).parts), manifest_at(path)) for path in sorted(folder.rglob("run.json"))]
+
+
+def manifest_at(path):
+    run, manifest = run_at(path.parent), json.loads(path.read_text())
+    return {**manifest, "guarantee_kept": run.guarantee_kept} if run and run.afterwards else manifest
 
 
 def check(name, manifest, earlier_part=False):
@@ -126,7 +131,7 @@ def run_files(path, stem):
     """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
     manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
-    names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if path.with_name(name).is_file()]
+    names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT) if path.with_name(name).is_file()]
     rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 

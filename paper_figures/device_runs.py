@@ -26,6 +26,7 @@ from pathlib import Path
 
 from paper_figures import commands, growth, in_time
 from paper_figures.device_memory import DeviceMemory
+from paper_figures.evidence import AUDIT
 from paper_figures.timed_runs import FAILED, FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, command_in, last_lines, make, manifest_of
 from paper_figures.unpacking import UnpackError, extract_file
 
@@ -39,7 +40,7 @@ LEFT_FOR_THE_NEXT = 75  # exit status of experiments/table1 at its limit
 @dataclass(frozen=True)
 class Part:
     """Runs of one figure, or of one row of Table 1; chains may run side by side. Of each run `frames` are packed, evenly over it, and the `last` ones.
-    `groups`: solvers of paper_figures.in_time; those of a group at once, each on its half of the cores."""
+    `solvers`: of paper_figures.in_time, one after the other, each on all cores."""
 
     folder: str
     chains: tuple = ()
@@ -49,7 +50,7 @@ class Part:
     frames: int = 4
     last: int = 0
     gpu: bool = True
-    groups: tuple = ()
+    solvers: tuple = ()
     prepare: Callable | None = None  # of (program, folder), before the first run
 
 
@@ -72,14 +73,14 @@ def parts(scale, backend):
               "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
               "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot", frames=17),
               "dress": row("dress", frames=20), "robot_shirt": row("robot_shirt", frames=20)}
-    groups = (("ipc", "newton"), ("vbd",), *([("vbd_cuda",)] if backend == "cuda" else []))
+    solvers = ("ipc", "newton", "vbd", *(["vbd_cuda"] if backend == "cuda" else []))
     on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
                 "fig21": Part(figure("fig21"), tuple(map(tuple, commands.activations(scale, backend))), frames=0, last=2),
                 "fig02_ipc": Part(figure("fig02"), tuple((window,) for window in half_turn_by_ipc), frames=2, gpu=False),
                 "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False),
                 "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False),
-                # A figure of the CPU, as its recipe says. VBD after the others, on as many cores: its steps want the memory's whole bandwidth.
-                "fig18_solvers": Part(f"fig18_solvers-{scale}-cpu", frames=21, groups=groups)}
+                # A figure of the CPU, as its recipe says: a ratio of two solvers is of the same cores, and of nothing beside them.
+                "fig18_solvers": Part(f"fig18_solvers-{scale}-cpu", frames=21, solvers=solvers)}
     cores = os.cpu_count() or 1
     over = {name: Part(figure("growth"), (tuple(jobs),), frames=0, gpu=name == "growth_cuda", prepare=growth.scenes_of(jobs))
             for name, jobs in (*((f"growth_{kind}", growth.sizes(scale, kind)) for kind in reversed(both)), ("threads", growth.threads(scale, cores)))}
@@ -119,24 +120,21 @@ class Machine:
 
     def in_parts(self, part, limit):
         """By paper_figures.in_time, which keeps and goes on by itself; a process a solver, which so knows its processor time."""
-        cores = sorted(os.sched_getaffinity(0))
-        half, folder = max(1, len(cores) // 2), self.out / part.folder
-        if all(in_time.ended(folder / name) for group in part.groups for name in group):
+        folder = self.out / part.folder
+        if all(in_time.ended(folder / name) for name in part.solvers):
             return KEPT
-        for group in part.groups:
+        for name in part.solvers:
             if limit.left() == 0:
                 return STOPPED
-            with ThreadPoolExecutor(max_workers=len(group)) as pool:
-                list(pool.map(lambda name, share: self.in_time(folder, name, share, part, limit), group, (cores[:half], cores[-half:])))
-            if not all(in_time.ended(folder / name) for name in group):
+            if not in_time.ended(folder / name):
+                self.in_time(folder, name, part, limit)
+            if not in_time.ended(folder / name):
                 return STOPPED
         return FINISHED
 
-    def in_time(self, folder, name, cores, part, limit):
-        if in_time.ended(folder / name):
-            return
+    def in_time(self, folder, name, part, limit):
         log = folder / f"{name}.log"
-        options = ["--ogc", self.program, "--scale", self.options.scale, "--seconds", limit.left(), "--solvers", name, "--cores", *cores]
+        options = ["--ogc", self.program, "--scale", self.options.scale, "--seconds", limit.left(), "--solvers", name]
         with DeviceMemory(folder / f"{name}_device_memory.json", part.gpu and name == "vbd_cuda"):
             code = command_in([sys.executable, "-m", "paper_figures.in_time", folder, *options], log, Limit())
         if code != 0:
@@ -175,7 +173,7 @@ class Machine:
             print(f"{name:24} not begun: no time is left; call again to go on")
             return False
         try:
-            end = self.table(part, limit) if part.row else self.in_parts(part, limit) if part.groups else self.chains(part, limit)
+            end = self.table(part, limit) if part.row else self.in_parts(part, limit) if part.solvers else self.chains(part, limit)
         except RunFailure as problem:
             end, words = FAILED, f"\n  {problem}"
         print(f"{name:24} {time.monotonic() - begun:7.1f} s  {end}{words}", flush=True)
@@ -184,8 +182,8 @@ class Machine:
 
 def run_folders(out, part):
     """Finished run folders of a part, or failed ones where to fail is a result; of runs made in parts all, where the last is finished."""
-    if part.groups:
-        solvers = [out / part.folder / name for group in part.groups for name in group]
+    if part.solvers:
+        solvers = [out / part.folder / name for name in part.solvers]
         return [made for solver in solvers if in_time.ended(solver) for made in in_time.parts(solver)]
     if part.row:
         found = sorted((out / part.folder / part.row).glob("cpu_*" if part.windows else "whole*"))
@@ -205,7 +203,7 @@ def files_of(out, part):
     """What is packed of a part."""
     for folder in run_folders(out, part):
         frames = chosen_frames(folder, part)
-        yield from (folder / name for name in ("run.json", "steps.csv", "iterations.csv", in_time.PROCESSOR_TIME) if (folder / name).is_file())
+        yield from (folder / name for name in ("run.json", "steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT) if (folder / name).is_file())
         yield from frames
         if frames:
             yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())

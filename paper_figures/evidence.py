@@ -244,7 +244,9 @@ class Evidence:
         a, b = alike[-1]
         first, second = value_of(a, spec["ratio"][0]), value_of(b, spec["ratio"][1])
         found = a.measured(first / second)
-        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, max(a.manifest["ended"], b.manifest["ended"]))
+        on = f"{a.manifest['device']} over {b.manifest['device']}" if spec.get("devices") == "differ" else f"each on {found.device}"
+        ended = max(a.manifest["ended"], b.manifest["ended"])
+        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on)
 
     def _of_table(self, spec, scale):
         for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
@@ -256,7 +258,9 @@ class Evidence:
                 raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one program")
             if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
                 continue
-            return Measured(cells[0] / cells[1] if len(cells) > 1 else cells[0], table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""))
+            value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
+            on = f"each on {rows[0]['device']}" if len(cells) > 1 and "[ms]" in spec["column"] else ""
+            return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on)
         return None
 
 

@@ -1,4 +1,5 @@
-"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene, frames of the first run, and the ratios beside the paper's.
+"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames of the first run, and the ratios
+beside the paper's, each with the threads and devices that it is of.
 
 VBD-OGC on CUDA is a fourth curve where its run lies in the folder (or with --cuda). Where a command may last so long only, the runs are made in parts:
 
@@ -44,9 +45,9 @@ class Joined(Run):
 
 
 def label(run):
-    """The solver, and how far it came where it was stopped."""
+    """The solver, what it ran on, and how far it came where it was stopped."""
     last, whole = int(run.column("step")[-1]), int(run.setting("steps"))
-    return solver_of(run) + (f", first {last} of {whole} steps" if last < whole else "")
+    return f"{solver_of(run)} ({run.manifest['device']})" + (f", first {last} of {whole} steps" if last < whole else "")
 
 
 def detections(run):
@@ -95,10 +96,18 @@ def summary(runs):
         processor = f", {used:.4g} ms of processor time" if np.isfinite(used) else ""
         clock = f"{np.mean(wall):.4g} ms a step on the clock (median {np.median(wall):.4g}, worst {wall.max():.4g})"
         counts = f"{np.mean(run.column('iterations')):.3g} iterations, {np.mean(found):.3g} detections a step"
-        lines.append(f"{label(run)} ({run.manifest['device']}): {clock}{processor}, {counts}")
+        lines.append(f"{label(run)}: {clock}{processor}, {counts}")
+    baseline = next((label(run) for run in runs if run.manifest["solver"] == "ipc"), "")
     for name, ratio, measured, claim in ratios(runs):
-        lines.append(f"IPC takes {ratio:.3g} times the {measured} that {name} takes" + (f" (paper: {claim:g})" if claim else " (the paper has none)"))
-    return lines
+        beside = f"paper: {claim:g}" if claim else "the paper has none"
+        lines.append(f"{baseline} takes {ratio:.3g} times the {measured} that {name} takes ({beside})")
+    return lines + unequal(runs)
+
+
+def unequal(runs):
+    """A warning where solvers of the CPU ran on different numbers of threads; none where they ran on the same."""
+    threads = sorted({run.manifest["device"] for run in runs if run.manifest["backend"] == "cpu"})
+    return [f"NOT ON THE SAME CORES ({', '.join(threads)}): a ratio of these says little about the methods"] if len(threads) > 1 else []
 
 
 def rows(runs):

@@ -78,7 +78,8 @@ def device_row(scene, runs, memory=""):
     return {"scene": scene, "backend": run.manifest["backend"], **origin(run), **sizes(run),
             **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted, "runs": len(runs), "windows [ms]": "",
             "repeated steps": max(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
-            "audited states": f"{run.audited_states}, {audit}", "device memory [MiB]": memory}
+            "audited states": f"{run.audited_states}, {audit}", "audit [s]": run.afterwards.get("seconds", ""),
+            "device memory [MiB]": memory}
 
 
 def cpu_row(scene, windows, wanted):
@@ -92,7 +93,8 @@ def cpu_row(scene, windows, wanted):
                      + ([f"{WINDOWS - len(windows)} of {WINDOWS} not run"] if len(windows) < WINDOWS else []))
     return {"scene": scene, "backend": "cpu", **origin(windows[-1]), **sizes(windows[-1]), **beside(windows[-1], statistics.fmean(averages), max(maxima)),
             "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows), "windows [ms]": each,
-            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found), "audited states": "windows: not audited", "device memory [MiB]": ""}
+            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found), "audited states": "windows: not audited", "audit [s]": "",
+            "device memory [MiB]": ""}
 
 
 def rows_of(folder):
@@ -117,10 +119,11 @@ def text(value):
 
 
 SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
-         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states", "device memory [MiB]", "device",
+         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states", "audit [s]", "device memory [MiB]", "device",
          "paper's machine", "status", "commit")
 
 NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in the average, not in the maximum. "
+        "audit [s]: after the run, which it is no part of. "
         "CPU: windows of steps from states of the device's run, average of the windows (first state: average [ms]), maximum over all. fifty_layers and "
         "fifty_layers_1m stand beside the same printed times, as Table 1 and Fig. 10 print one pair for two resolutions.")
 

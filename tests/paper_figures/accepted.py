@@ -166,6 +166,18 @@ class Accepting(Scratch):
             rows = {row["file"]: row for row in csv.DictReader(file)}
         self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
 
+    def test_an_audit_after_the_run_is_kept_and_one_that_failed_is_refused(self):
+        for clean in (True, False):
+            self.finished(audited_states="0", guarantee_kept="not checked")
+            (self.runs / "fig18-paper-cuda/run/audit.json").write_text(json.dumps({"states": 101, "clean": clean}))
+            if clean:
+                self.accept("fig18")
+                self.assertEqual(Evidence(self.results).runs[0].audit_in_words, "101 states audited, 100 steps")
+            else:
+                with self.assertRaisesRegex(accept.AcceptError, "failed its audit"):
+                    self.accept("fig18")
+            shutil.rmtree(self.runs)
+
     def test_runs_without_logs_of_steps_took_what_their_manifests_say(self):
         self.finished(started="2026-11-22T10:00:00Z", ended="2026-11-22T10:01:30Z")
         self.accept("fig18")

@@ -339,6 +339,13 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         self.assertEqual(claim["run"]["steps"], len(steps))
         self.assertAlmostEqual(verdicts.judge(claim, Evidence(self.folder)).measured.value, average)
 
+    def test_a_ratio_of_times_says_what_both_ran_on(self):
+        """Of the accepted results: threads stand beside each ratio of solvers."""
+        found = {j.claim["id"]: j.note for j in verdicts.judge_all() if j.measured and j.claim["id"].startswith("cloth_on_sphere.ipc_over")}
+        self.assertEqual(len(found), 2)
+        for note in found.values():
+            self.assertRegex(note, r"^each on \d+ threads")
+
     def test_a_ratio_is_of_the_same_materials(self):
         cpu = {"backend": "cpu", "device": "8 threads"}
         self.make("1_ipc", "stable_neo_hookean", 6, solver="ipc", **cpu)

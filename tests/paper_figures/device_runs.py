@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 from pathlib import Path
 
 SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
@@ -93,7 +94,9 @@ class Parts(Scratch):
         self.assertEqual(frames[1], min(25, frames[0]))
         for path in (home / part.folder / job.name, home / "fig18-smoke-cpu/run"):
             self.assertTrue((path / "trajectory.vtkhdf").is_file() and not path.is_symlink(), path)
-        self.assertEqual([(row["scene"], row["backend"]) for row in table1.rows_of(home / "table1-smoke-cpu")], [("cloth_on_sphere", "cpu")] * 2)
+        rows = table1.rows_of(home / "table1-smoke-cpu")
+        self.assertEqual([(row["scene"], row["backend"]) for row in rows], [("cloth_on_sphere", "cpu")] * 2)
+        self.assertEqual(rows[0]["audited states"], "31, no intersection", "all states, though not all frames came along")
 
     def test_solvers_side_by_side_in_parts_are_kept_and_packed_with_their_processor_time(self):
         there, home = self.folder / "there", self.folder / "home"
@@ -106,6 +109,7 @@ class Parts(Scratch):
             self.assertEqual(timed_runs.manifest_of(part)["solver"], name)
             self.assertGreater(json.loads((part / "processor_time.json").read_text())["user [s]"], 0)
             self.assertTrue((part / "trajectory.vtkhdf").is_file())
+            self.assertEqual(timed_runs.manifest_of(part)["device"], f"{len(os.sched_getaffinity(0))} threads")
 
     def test_each_part_is_packed_as_soon_as_it_is_finished(self):
         """A machine that was taken away in the second part must have left the first."""
@@ -129,15 +133,18 @@ class Parts(Scratch):
         said = subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True, check=False)
         self.assertEqual((said.returncode, "end in the middle" in said.stderr, [path.name for path in (self.folder / "cut").iterdir()]), (1, True, []))
 
-    def test_a_group_waits_for_the_one_before_and_none_begins_without_time(self):
+    def test_solvers_of_fig_18_run_one_after_the_other_on_all_cores_and_none_begins_without_time(self):
         machine = device_runs.Machine(device_runs.arguments().parse_args(["--out", str(self.folder), "--program", OGC, "--scale", "smoke"]))
-        begun = []
-        machine.in_time = lambda folder, name, cores, part, limit: begun.append((name, len(cores)))
-        part, half = machine.book["fig18_solvers"], max(1, len(os.sched_getaffinity(0)) // 2)
-        self.assertEqual(machine.in_parts(part, Limit()), timed_runs.STOPPED)  # none of the two has reached its end
-        self.assertEqual(sorted(begun), [("ipc", half), ("newton", half)])
+        begun, ended = [], set()
+        machine.in_time = lambda folder, name, part, limit: begun.append(name)
+        part = machine.book["fig18_solvers"]
+        self.assertEqual(machine.in_parts(part, Limit()), timed_runs.STOPPED)  # IPC has not reached its end
         self.assertEqual(machine.in_parts(part, Limit(1e-9)), timed_runs.STOPPED)
-        self.assertEqual(len(begun), 2)
+        self.assertEqual(begun, ["ipc"])
+        with unittest.mock.patch.object(device_runs.in_time, "ended", lambda folder: folder.name in ended):
+            machine.in_time = lambda folder, name, part, limit: (begun.append(name), ended.add(name))
+            self.assertEqual([machine.in_parts(part, Limit()) for _ in "ab"], [timed_runs.FINISHED, timed_runs.KEPT])
+        self.assertEqual(begun[1:], ["ipc", "newton", "vbd", "vbd_cuda"])
 
     def test_fewer_iterations_before_the_step_of_fig_17_change_its_start_alone(self):
         whole, fewer = commands.three_cloths("paper", ["cpu"]), commands.three_cloths("paper", ["cpu"], 40)

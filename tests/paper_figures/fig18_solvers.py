@@ -5,6 +5,7 @@ Usage: fig18_solvers.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h
 
 import csv
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from paper_figures import in_time  # noqa: E402
 
 BASE = ["cloth_on_sphere", "--scale", "smoke", "--set", "membrane=stable_neo_hookean", "--audit", "end"]
 FIRST, STEPS = 12, 30
+THREADS = f"{len(os.sched_getaffinity(0))} threads"
 
 
 def change(manifest, **changes):
@@ -73,12 +75,20 @@ class Solvers(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "fig18_solvers.png").is_file())
         for measured in ("time on the clock", "processor time"):
-            self.assertRegex(done.stdout, f"{measured} of 30 steps that Newton-OGC takes \\(paper: 9.2\\)")
-            self.assertRegex(done.stdout, f"{measured} of 30 steps that VBD-OGC takes \\(paper: 128\\)")
-        self.assertRegex(done.stdout, r"time on the clock of 30 steps that VBD-OGC, CUDA takes \(the paper has none\)")
+            for solver, paper in (("Newton-OGC", "9.2"), ("VBD-OGC", "128")):
+                ratio = rf"IPC \({THREADS}\) takes \S+ times the {measured} of 30 steps that {solver} \({THREADS}\) takes \(paper: {paper}\)"
+                self.assertRegex(done.stdout, ratio)
+        self.assertRegex(done.stdout, r"time on the clock of 30 steps that VBD-OGC, CUDA \(no GPU: a fixture\) takes \(the paper has none\)")
+        self.assertNotIn("NOT ON THE SAME CORES", done.stdout)
         self.assertNotRegex(done.stdout, "processor time of 30 steps that VBD-OGC, CUDA")
         self.assertEqual([(row["solver"], row["backend"], row["steps"]) for row in self.rows()],
                          [("ipc", "cpu", "30"), ("newton", "cpu", "30"), ("vbd", "cpu", "30"), ("vbd", "cuda", "30")])
+
+    def test_runs_on_different_numbers_of_threads_are_said_to_be_so(self):
+        change(self.folder / "vbd/part_00/run.json", device="999 threads")
+        said = self.draw().stdout
+        self.assertRegex(said, rf"IPC \({THREADS}\) takes .* that VBD-OGC \(999 threads\) takes")
+        self.assertIn(f"NOT ON THE SAME CORES ({', '.join(sorted([THREADS, '999 threads']))})", said)
 
     def test_the_ratio_is_that_of_the_rows(self):
         runs = {name: fig18_solvers.Joined(in_time.parts(self.folder / name)) for name in ("ipc", "vbd")}

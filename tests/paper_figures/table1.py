@@ -5,6 +5,8 @@ Usage: table1.py SOURCE_DIR OGC. The standard library is enough.
 
 import csv
 import json
+import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,8 +17,8 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]), sys.argv[2]
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
-from paper_figures import accept, table1  # noqa: E402
-from paper_figures.evidence import Evidence, EvidenceError  # noqa: E402
+from paper_figures import accept, audited, table1  # noqa: E402
+from paper_figures.evidence import Evidence, EvidenceError, run_at  # noqa: E402
 
 
 def make_run(folder, backend, rows, first=1, **changes):
@@ -85,6 +87,95 @@ class Known(unittest.TestCase):
             table1.rows_of(self.folder / "other")
 
 
+# `ogc audit RUN --json`: of each frame its step; one of step 7 intersects; with OGC_SLOW it is asked to stop after two.
+AUDIT = """import json, os, pathlib, signal, sys, time
+steps = sorted(int(path.stem[-6:]) for path in (pathlib.Path(sys.argv[2]) / "frames").iterdir())
+assert sys.argv[1] == "audit" and sys.argv[3] == "--json" and (pathlib.Path(sys.argv[2]) / "scene/scene.json").is_file()
+stopped = []
+signal.signal(signal.SIGINT, lambda *_: stopped.append(1))
+done = []
+for step in steps:
+    done.append({"state": f"step {step}", "count": int(step == 7)})
+    while os.environ.get("OGC_SLOW") and len(done) == 2 and not stopped:
+        time.sleep(0.01)
+    if stopped:
+        break
+found = sum(state["count"] for state in done)
+print(json.dumps({"states": done, "intersections": found, "complete": not stopped}))
+sys.exit(1 if found else 130 if stopped else 0)
+"""
+
+
+class Afterwards(unittest.TestCase):
+    """The audit after a run, with a stand-in for `ogc`."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+        self.program = self.folder / "ogc"
+        self.program.write_text(f"#!{sys.executable}\n{AUDIT}")
+        self.program.chmod(0o755)
+        self.addCleanup(os.environ.pop, "OGC_SLOW", None)
+
+    def run_of(self, steps):
+        run = self.folder / "run"
+        make_run(run, "cuda", [(1, 10, 0)], guarantee_kept="not checked", audited_states="0")
+        for name in ("frames", "scene"):
+            (run / name).mkdir()
+        (run / "scene/scene.json").touch()
+        for step in steps:
+            (run / f"frames/frame_{step:06d}.h5").touch()
+        return run
+
+    def test_what_was_audited_is_not_audited_again(self):
+        run = self.run_of((0, 5, 10, 15, 20))
+        os.environ["OGC_SLOW"] = "yes"
+        for status, states, words in ((75, 2, "not all yet"), (75, 4, "not all yet"), (0, 5, "no intersection"), (0, 5, "no intersection")):
+            os.environ["OGC_SLOW"] = "yes" if status else ""
+            ended, found = audited.audit(self.program, run, 0.5 if status else None)
+            self.assertEqual((ended, found["states"]), (status, states))
+            self.assertIn(words, audited.in_words(found))
+        self.assertEqual(found["steps"], [0, 5, 10, 15, 20])
+        made = run_at(run)
+        self.assertEqual((made.audited_states, made.guarantee_kept), (5, True))
+
+    def test_an_intersection_refutes_and_is_named(self):
+        run = self.run_of((0, 7, 9))
+        for _ in range(2):
+            status, found = audited.audit(self.program, run)
+            self.assertEqual((status, found["clean"], found["intersecting_steps"]), (1, False, [7]))
+        self.assertIn("1 INTERSECTIONS, the first in step 7", audited.in_words(found))
+        self.assertTrue(run_at(run).failed_audit)
+
+    def test_a_run_that_was_made_anew_is_audited_anew(self):
+        run = self.run_of((0, 7))
+        audited.audit(self.program, run)
+        later = time.time() + 9
+        os.utime(run / "run.json", (later, later))
+        (run / "frames/frame_000007.h5").unlink()
+        self.assertEqual(audited.audit(self.program, run)[0], 0)
+
+    def test_what_cannot_be_audited_exits_2(self):
+        run = self.run_of((0,))
+        self.program.write_text("#!/bin/sh\necho 'ogc: no such thing' >&2\nexit 2\n")
+        self.assertEqual(audited.audit(self.program, run)[0], 2)
+        self.assertFalse((run / "audit.json").exists())
+
+
+class Frames(unittest.TestCase):
+    def test_every_row_stores_a_state_in_a_60th_of_a_second(self):
+        """As many steps as go into it, at least one."""
+        text = (SOURCE / "experiments/table1").read_text()
+        table = re.search(r"frame_steps_of\(\) \{(.*?)\*\)", text, re.S)[1]
+        steps = {row: int(n) for rows, n in re.findall(r"([\w|]+)\) echo (\d+)", table) for row in rows.split("|")}
+        self.assertEqual(set(steps), set(table1.ROWS))
+        for row, n in steps.items():
+            path = SOURCE / f"paper_figures/results/h200/table1_paper/{row}_whole_run.json"
+            time_step = json.loads(path.read_text())["settings"]["time_step"]["value"]
+            self.assertEqual(n, max(1, int(1 / 60 / time_step * (1 + 1e-6))), row)
+
+
 class Real(unittest.TestCase):
     def call(self, *words):
         return subprocess.run([str(SOURCE / "experiments/table1"), OGC, *words], capture_output=True, text=True, timeout=250)
@@ -112,6 +203,14 @@ class Real(unittest.TestCase):
             self.assertEqual([row["runs"] for row in rows], ["1", "5", "1", "5"])
             self.assertEqual({row["steps"] for row in rows[1::2]}, {"15"})
             self.assertEqual(rows[2]["steps"], rows[2]["of steps"])
+            for name in ("twist", "cloth_on_sphere"):
+                run = Path(folder) / name / "whole"
+                frames, found = len(list((run / "frames").iterdir())), json.loads((run / "audit.json").read_text())
+                self.assertEqual((found["states"], found["clean"], found["complete"]), (frames, True, True), name)
+            sphere = rows[2]
+            self.assertEqual(sphere["audited states"], f"{frames}, no intersection")
+            self.assertGreater(float(sphere["audit [s]"]), 0)
+            self.assertEqual(json.loads((run / "run.json").read_text())["audit"], "off", "its time is the steps' alone")
             again = self.call(*words)
             self.assertEqual((again.returncode, again.stdout), (0, ""))
 
