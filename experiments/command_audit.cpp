@@ -1,15 +1,13 @@
-// `ogc audit`: does anything intersect? Exactly, for a mesh of any origin or for each frame of a run.
+// `ogc audit`: does anything intersect? Exactly, for a mesh of any origin, or for each frame of a run of any program.
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/mesh_files.hpp"
-#include "compare/oracle/audit.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/problem/validate.hpp"
-#include "compare/record/run_folder.hpp"
-#include "experiments/auditor.hpp"
+#include "experiments/audits/audit_source.hpp"
+#include "experiments/audits/offenders.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/output.hpp"
@@ -21,11 +19,21 @@ namespace {
 
 using compare::SmallestDistances;
 
+struct Options {
+  AuditRequest request;
+  std::string show;  ///< folder of the pictures; empty: none
+};
+
+/// Of how many states pictures are made: the first ones tell what the others would.
+constexpr std::size_t most_shown = 8;
+
 struct State {
-  std::string name;  ///< "step 12", or the mesh's file
+  std::string name;  ///< "step 12", "frame 3", or the mesh's file
   Json json;
   std::string text;
   std::size_t count = 0;
+  bool has_triangles = true;
+  std::size_t loose_edges = 0;  ///< edges that belong to no triangle
   SmallestDistances distances;
 };
 
@@ -43,11 +51,17 @@ Json to_json(const SmallestDistances& distances, const compare::Topology& topolo
   return json;
 }
 
-State state_of(const std::string& name, const compare::AuditResult& result, const SmallestDistances& distances, const compare::Topology& topology,
-               const std::string& text) {
-  State state{name, {{"state", name}, {"count", result.count}, {"intersections", Json::array()}}, text, result.count, distances};
-  state.json["smallest_distances"] = to_json(distances, topology);
-  for (const compare::Intersection& pair : result.intersections) {
+State state_of(const AuditedState& audited) {
+  const compare::Topology& topology = *audited.topology;
+  State state{.name = audited.name,
+              .json = {{"state", audited.name}, {"count", audited.result.count}, {"intersections", Json::array()}},
+              .text = audited.text,
+              .count = audited.result.count,
+              .has_triangles = !topology.triangles.empty(),
+              .distances = audited.distances};
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
+  state.json["smallest_distances"] = to_json(audited.distances, topology);
+  for (const compare::Intersection& pair : audited.result.intersections) {
     const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
     const auto first = static_cast<std::size_t>(pair.first);
     Json entry{{"kind", is_edge ? "edge_triangle" : "vertex_triangle"}};
@@ -64,35 +78,36 @@ State state_of(const std::string& name, const compare::AuditResult& result, cons
   return state;
 }
 
-compare::Topology topology_of(const compare::Mesh& mesh) {
-  return compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
-}
-
-std::vector<State> audit_mesh(const std::string& file) {
-  const compare::Mesh mesh = compare::read_mesh(file);
-  const std::string problems = compare::describe(compare::validate(mesh));
-  if (!problems.empty()) throw compare::InputError(file + ":\n" + problems);
-  const compare::Topology topology = topology_of(mesh);
-  const compare::AuditResult result = compare::audit(topology, mesh.positions);
-  return {state_of(file, result, compare::smallest_distances(topology, mesh.positions), topology, compare::describe(result, topology))};
-}
-
-std::vector<State> audit_run(const std::string& folder) {
-  const compare::RunReader reader(folder);
-  const compare::Topology topology = topology_of(reader.scene().mesh);
-  const StateJudge judge(reader.scene());
-  const auto count = static_cast<std::int64_t>(reader.frame_count());
-  if (count == 0) throw compare::InputError(folder + ": holds no frame yet; there is nothing to audit");
-  catch_interrupts();
-  Progress progress(0, count, "frame");
+/// All that was looked at before the end, an interruption, or a state that can't be read.
+struct Audits {
   std::vector<State> states;
-  for (std::int64_t i = 0; i < count && !interrupted(); ++i) {
-    const compare::Frame frame = reader.frame(static_cast<std::size_t>(i));
-    const compare::AuditResult result = judge.audit(frame.positions);
-    states.push_back(state_of("step " + std::to_string(frame.step), result, judge.smallest_distances(frame.positions), topology, judge.describe(result)));
-    progress.show(i + 1, counted(result.count, "intersection"));
+  std::vector<std::string> shown;  ///< what --show wrote, a line each
+  std::size_t planned = 0;
+  std::string stopped;  ///< why the rest can't be read; empty where it could
+};
+
+Audits audit_all(AuditSource& source, const std::string& show) {
+  Audits audits;
+  audits.planned = source.size();
+  catch_interrupts();
+  Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
+  for (std::size_t i = 0; i < source.size() && !interrupted(); ++i) {
+    std::optional<AuditedState> audited;
+    try {
+      audited = source.next();
+    } catch (const compare::InputError& error) {
+      if (i == 0) throw;
+      audits.stopped = error.what();
+      return audits;
+    }
+    audits.states.push_back(state_of(*audited));
+    if (!show.empty() && audited->result.count > 0 && audits.shown.size() < most_shown)
+      audits.shown.push_back(
+          show_offenders(show, audited->name, audited->result, *audited->topology, audited->positions));
+    if (source.size() > 1)
+      progress.show(static_cast<std::int64_t>(i) + 1, counted(audited->result.count, "intersection"));
   }
-  return states;
+  return audits;
 }
 
 std::string list(std::span<const compare::Index> vertices) {
@@ -122,49 +137,129 @@ std::string describe_distances(const std::vector<State>& states) {
          std::to_string(edges.distances.other_edge) + vertices(pair, "other_edge_vertices") + in_state(edges) + "\n";
 }
 
-int run(const std::string& path, const CommandContext& context) {
-  const bool is_run = std::filesystem::is_directory(path);
-  const std::vector<State> states = is_run ? audit_run(path) : audit_mesh(path);
-  const std::string left_out = is_run ? left_out_of_audits(compare::RunReader(path).scene()) : "";
-  std::size_t total = 0;
-  std::string text;
-  Json json{{"audited", path}, {"states", Json::array()}};
+/// Two states say nothing about curves (method.md §5), which pass through each other between them.
+std::string unseen(const std::vector<State>& states) {
+  const auto has = std::ranges::find_if(states, [](const State& state) { return state.loose_edges > 0; });
+  if (has == states.end()) return "";
+  const std::string edges = counted(has->loose_edges, "edge") + " without a triangle";
+  if (!has->has_triangles)
+    return edges +
+           " and nothing else: a state of curves can't be free of intersections or not; they may have passed through "
+           "each other on the way to it. "
+           "Only the motion tells: audit the run while it goes on (ogc run --audit every)";
+  return "of " + edges + ", whether they met a triangle is seen, but not whether they passed through each other";
+}
+
+struct Totals {
+  std::size_t intersections = 0, intersecting = 0;
+  std::string first;          ///< name of the first state that intersects
+  bool says_nothing = false;  ///< no state has a triangle
+};
+
+Totals totals_of(const std::vector<State>& states) {
+  Totals totals;
   for (const State& state : states) {
-    total += state.count;
-    json["states"].push_back(state.json);
+    totals.intersections += state.count;
+    if (state.count > 0 && totals.intersecting++ == 0) totals.first = state.name;
+  }
+  totals.says_nothing = std::ranges::none_of(states, &State::has_triangles);
+  return totals;
+}
+
+std::string headline(const Audits& audits, const Totals& totals) {
+  const std::string states = counted(audits.states.size(), "state");
+  std::string text = totals.says_nothing
+                         ? states + " read"
+                         : states + " audited exactly, " + counted(totals.intersections, "intersection");
+  if (totals.intersecting > 0 && audits.planned > 1)
+    text += " in " + counted(totals.intersecting, "state") + ", the first: " + totals.first;
+  return text + (interrupted() ? "; interrupted, the rest was not looked at" : "") + "\n";
+}
+
+void print(const Audits& audits, const Totals& totals, const std::string& left_out) {
+  std::string text;
+  for (const State& state : audits.states)
     if (state.count > 0) text += state.name + ": " + counted(state.count, "intersection") + "\n" + state.text + "\n";
-  }
-  json["intersections"] = total;
-  json["clean"] = total == 0;
-  json["complete"] = !interrupted();
+  text += headline(audits, totals);
+  if (!audits.stopped.empty())
+    text += counted(audits.planned - audits.states.size(), "further state") + " not audited: one can't be read\n";
+  if (const std::string note = unseen(audits.states); !note.empty()) text += note + "\n";
+  if (!left_out.empty()) text += "left out: " + left_out + "\n";
+  for (const std::string& line : audits.shown) text += line + "\n";
+  print_result(text + (audits.states.empty() ? "" : describe_distances(audits.states)));
+}
+
+void print_json(const Options& options, const Audits& audits, const Totals& totals, const std::string& left_out) {
+  const auto& paths = options.request.paths;
+  Json json{{"audited", paths.size() == 1 ? Json(paths.front()) : Json(paths)}, {"states", Json::array()}};
+  for (const State& state : audits.states) json["states"].push_back(state.json);
+  json["intersections"] = totals.intersections;
+  json["intersecting_states"] = totals.intersecting;
+  json["first_intersecting"] = totals.first.empty() ? Json(nullptr) : Json(totals.first);
+  json["clean"] = totals.says_nothing ? Json(nullptr) : Json(totals.intersections == 0);
+  json["complete"] = !interrupted() && audits.stopped.empty();
+  if (!audits.stopped.empty()) json["stopped"] = audits.stopped;
+  if (const std::string note = unseen(audits.states); !note.empty()) json["unseen"] = note;
   if (!left_out.empty()) json["left_out"] = left_out;
+  if (!options.show.empty()) json["shown"] = audits.shown;
+  print_result(json);
+}
+
+int run(const Options& options, const CommandContext& context) {
+  const std::unique_ptr<AuditSource> source = open_audit(options.request);
+  const Audits audits = audit_all(*source, options.show);
+  const Totals totals = totals_of(audits.states);
   if (context.json) {
-    print_result(json);
+    print_json(options, audits, totals, source->left_out());
   } else {
-    print_result(text + counted(states.size(), "state") + " audited exactly, " + counted(total, "intersection") +
-                 (interrupted() ? "; interrupted, the rest was not looked at" : "") + "\n" +
-                 (left_out.empty() ? "" : "left out: " + left_out + "\n") + (states.empty() ? "" : describe_distances(states)));
+    print(audits, totals, source->left_out());
   }
-  if (total > 0) return exit_check_failed;
+  if (!audits.stopped.empty()) log_line("ogc: " + audits.stopped);
+  if (totals.intersections > 0) return exit_check_failed;
+  if (!audits.stopped.empty()) return exit_bad_input;
   return interrupted() ? exit_interrupted : static_cast<int>(exit_success);
 }
 
 }  // namespace
 
 void add_audit_command(CLI::App& app, CommandContext& context) {
-  auto path = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("audit", "Exact self-intersection audit of a mesh, or of each frame of a run");
-  command->add_option("MESH|RUN", *path, "An .obj or .ply file, or a run folder")->required();
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "audit", "Exact self-intersection audit of a mesh, of a run, or of the frames of any other program");
+  command
+      ->add_option("MESH|FRAMES|RUN", options->request.paths,
+                   "A mesh (.obj, .ply, .vtp), several of them as frames, a folder of them, frames in one file (.npz, "
+                   ".npy, .pc2), or a run folder")
+      ->required();
+  command->add_option("--mesh", options->request.topology,
+                      "A mesh with the triangles of frames in a .npy or .pc2 file, or in a .npz without any");
+  command->add_option(
+      "--show", options->show,
+      "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
-  command->footer("An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a triangle without it; touching\n"
-                  "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded pairs, are left out. Exit status\n"
-                  "1: there is one.\n"
-                  "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are found exactly too, and\n"
-                  "rounded down; of pairs equally near the one with the lowest numbers is named.\n\n"
-                  "Examples:\n"
-                  "  ogc audit shirt.obj\n"
-                  "  ogc audit runs/twist-small-20250801-120000");
-  command->callback([path, &context] { context.status = run(*path, context); });
+  command->footer(
+      "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
+      "triangle without it; touching\n"
+      "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
+      "pairs, are left out. Exit status\n"
+      "1: there is one.\n"
+      "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are "
+      "found exactly too, and\n"
+      "rounded down; of pairs equally near the one with the lowest numbers is named.\n\n"
+      "Frames of whatever solver: files are taken in natural order (frame_2 before frame_10), and a pattern in quotes "
+      "is expanded here. A .npz\n"
+      "(numpy.savez) holds positions [frames, vertices, 3] (or x, vertices, points, verts) in float32 or float64, and "
+      "triangles [n, 3] (or faces)\n"
+      "and edges [n, 2] of whole numbers from 0. A .pc2 is a point cache, as Blender writes it. Numbers are audited as "
+      "they are stored, none is\n"
+      "rounded. Where a frame can't be read, those before it are reported, and the exit status is 2, or 1.\n\n"
+      "Examples:\n"
+      "  ogc audit shirt.obj\n"
+      "  ogc audit runs/twist-small-20250801-120000\n"
+      "  ogc audit their_run/*.ply --show pictures\n"
+      "  ogc audit frames.npz --json > verdict.json\n"
+      "  ogc audit cloth.pc2 --mesh cloth.obj");
+  command->callback([options, &context] { context.status = run(*options, context); });
 }
 
 }  // namespace ogc::experiments

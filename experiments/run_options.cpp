@@ -106,6 +106,7 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
   command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration, measured beside the run");
   command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
+  command.add_option("--show", options->show, "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
   command.add_option("--checkpoint", options->checkpoint_seconds, "Seconds between two checkpoints, at least; 0: at each state that is judged")
       ->check(CLI::NonNegativeNumber)->capture_default_str();
   return scene;
@@ -167,6 +168,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.profile = options.profile;
   const std::string scale = request.scale.empty() ? "" : "-" + request.scale;
   request.folder = options.out.empty() ? "runs/" + request.scene.name + scale + "-" + utc_stamp() : options.out;
+  request.show = options.show;
   request.command_line = context.command_line;
   return request;
 }

@@ -9,7 +9,7 @@
 namespace ogc::experiments {
 
 struct RunOptions {
-  std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out;
+  std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out, show;
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
   bool profile = false, iterations = false, condition = false, residual = false;

@@ -8,6 +8,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"
 #include "compare/record/steps_csv.hpp"
+#include "experiments/audits/offenders.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/resume.hpp"
@@ -123,9 +124,20 @@ void RunSession::start_state() {
 
 void RunSession::check_start() const {
   const compare::AuditResult result = judge_.audit(start_.positions);
-  if (result.count > 0)
-    throw compare::InputError("the scene '" + request_.scene.name + "' starts with " + counted(result.count, "intersection") +
-                              "; no method that starts from a penetration can promise to have none. Move these apart:\n" + judge_.describe(result));
+  if (result.count == 0) return;
+  throw compare::InputError("the scene '" + request_.scene.name + "' starts with " +
+                            counted(result.count, "intersection") + " " + show("start", start_, result) +
+                            "\nNo method that starts from a penetration can promise to have none. Move these apart:\n" +
+                            judge_.describe(result));
+}
+
+/// Where the intersections of a state are, and the picture, or how to get one.
+std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
+  const compare::Topology topology = build_topology(request_.scene);
+  const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
+  const std::string place = place_of(offenders_of(result, topology), topology, positions);
+  if (request_.show.empty()) return place + " (for a picture of them add --show DIR)";
+  return place + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 
 void RunSession::open_folder() {
@@ -328,8 +340,11 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
   mesh.positions = compare::to_double(snapshot.positions);
   const std::filesystem::path file = request_.folder / ("failed_step_" + std::to_string(verdict.step) + ".ply");
   compare::write_mesh(file, mesh);
-  summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() + "); the last good state is kept:\n" +
-                     judge_.describe(verdict);
+  const std::string state = "step_" + std::to_string(verdict.step);
+  const std::string shown =
+      verdict.intersections.count == 0 ? "" : "\nintersections " + show(state, snapshot, verdict.intersections);
+  summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() +
+                     "); the last good state is kept:" + shown + "\n" + judge_.describe(verdict);
 }
 
 void RunSession::store_frame(const Snapshot& snapshot) {

@@ -35,6 +35,7 @@ struct RunRequest {
   bool iterations = false, condition = false;  ///< see compare::SimulationOptions
   bool residual = false;              ///< the contestant was wrapped so (experiments/measured_simulation.hpp); for run.json
   std::filesystem::path folder;
+  std::filesystem::path show;         ///< folder for pictures of what an audit refuses; empty: none
   std::string command_line;
 };
 
@@ -72,6 +73,7 @@ class RunSession {
  private:
   void start_state();
   void check_start() const;
+  std::string show(const std::string& name, const compare::Snapshot& state, const compare::AuditResult& result) const;
   void open_folder();
   void begin_folder();
   void reopen_folder();

@@ -8,19 +8,21 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/obj.hpp"
 #include "compare/files/ply.hpp"
+#include "compare/files/vtp_parse.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
 namespace {
 
-enum class MeshFormat { obj, ply };
+enum class MeshFormat { obj, ply, vtp };
 
 MeshFormat format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".obj") return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
-  throw InputError(path.string() + ": '" + extension + "' is no mesh format; use .obj or .ply");
+  if (extension == ".vtp") return MeshFormat::vtp;
+  throw InputError(path.string() + ": '" + extension + "' is no mesh format; use .obj, .ply or .vtp");
 }
 
 }  // namespace
@@ -28,11 +30,18 @@ MeshFormat format_of(const std::filesystem::path& path) {
 Mesh read_mesh(const std::filesystem::path& path) {
   const MeshFormat format = format_of(path);
   const std::string bytes = read_bytes(path), name = path.string();
-  return format == MeshFormat::obj ? parse_obj(bytes, name) : parse_ply(bytes, name);
+  switch (format) {
+    case MeshFormat::obj: return parse_obj(bytes, name);
+    case MeshFormat::ply: return parse_ply(bytes, name);
+    case MeshFormat::vtp: break;
+  }
+  return parse_vtp(bytes, name);
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, PlyEncoding encoding) {
-  write_bytes(path, format_of(path) == MeshFormat::obj ? print_obj(mesh) : print_ply(mesh, encoding));
+  const MeshFormat format = format_of(path);
+  if (format == MeshFormat::vtp) throw InputError(path.string() + ": meshes are written as .obj or .ply");
+  write_bytes(path, format == MeshFormat::obj ? print_obj(mesh) : print_ply(mesh, encoding));
 }
 
 }  // namespace ogc::compare

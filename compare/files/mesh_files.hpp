@@ -1,4 +1,4 @@
-// OBJ and PLY meshes, read and written.
+// OBJ and PLY meshes, read and written, and VTP, read.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 namespace ogc::compare {
 
 /// Reads .obj (v, f with any number of corners' attributes ignored, polygons of more than three corners refused, l for loose edges) or .ply (ascii,
-/// binary little- and big-endian). Throws InputError that names the file, the line or element, and what is wrong: missing file, truncated data, index out of range, NaN.
+/// binary little- and big-endian), or .vtp (vtp_parse.hpp). Throws InputError that names the file, the line or element, and what is wrong: missing file, truncated data, index out of range, NaN.
 Mesh read_mesh(const std::filesystem::path& path);
 
 enum class PlyEncoding { ascii, binary };

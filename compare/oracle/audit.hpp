@@ -30,7 +30,8 @@ struct AuditResult {
 };
 
 /// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are left out beside those with a
-/// shared vertex. A collapsed triangle is the segment or point that it covers, an edge of length zero a point. A vertex on a triangle is listed
+/// shared vertex. A collapsed triangle is the segment or point that it covers, an edge of length zero a point. Isolated vertices belong to no surface and
+/// are left out. A vertex on a triangle is listed
 /// beside its edges, which touch the triangle too. Throws InputError where a position is not finite or sizes do not fit.
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});

@@ -8,7 +8,7 @@
 
 namespace ogc::compare {
 
-/// Smallest distances over pairs that share no vertex and do not lie inside one rigid group [m]; infinite, with -1, where there is no pair.
+/// Smallest distances over pairs that share no vertex and do not lie inside one rigid group, without isolated vertices [m]; infinite, with -1, where there is no pair.
 struct SmallestDistances {
   double vertex_triangle = std::numeric_limits<double>::infinity();
   Index vertex = -1, triangle = -1;

@@ -38,20 +38,46 @@ std::string cells(Appended& appended, const char* kind, const std::vector<std::a
          appended.array("Int32", "offsets", std::span<const Index>(ends)) + "</" + kind + ">\n";
 }
 
-}  // namespace
-
-std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame) {
-  Appended appended;
-  std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" header_type=\"UInt64\" byte_order=\"") + byte_order +
-                     "\">\n<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(frame.positions.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
-                     std::to_string(mesh.loose_edges.size()) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(mesh.triangles.size()) + "\">\n";
-  text += "<PointData Vectors=\"velocity\">" + appended.array("Float32", "velocity", as_floats(frame.velocities), 3) +
-          appended.array("Float32", "bound", std::span<const float>(frame.bounds)) + appended.array("Int32", "body", bodies) + "</PointData>\n";
-  text += "<Points>" + appended.array("Float32", "Points", as_floats(frame.positions), 3) + "</Points>\n";
+/// The whole file: `data` are the arrays of points and cells, `points` the array of the positions.
+std::string file_text(const Mesh& mesh, const std::string& data, const std::string& points, Appended& appended) {
+  std::string text =
+      std::string(
+          "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" header_type=\"UInt64\" byte_order=\"") +
+      byte_order + "\">\n<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(mesh.positions.size()) +
+      "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(mesh.loose_edges.size()) +
+      "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(mesh.triangles.size()) + "\">\n";
+  text += data + "<Points>" + points + "</Points>\n";
   text += cells(appended, "Lines", mesh.loose_edges);
   text += cells(appended, "Polys", mesh.triangles);
   text += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
   return text + appended.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame) {
+  Appended appended;
+  const std::string data = "<PointData Vectors=\"velocity\">" +
+                           appended.array("Float32", "velocity", as_floats(frame.velocities), 3) +
+                           appended.array("Float32", "bound", std::span<const float>(frame.bounds)) +
+                           appended.array("Int32", "body", bodies) + "</PointData>\n";
+  const std::string points = appended.array("Float32", "Points", as_floats(frame.positions), 3);
+  return file_text(mesh, data, points, appended);
+}
+
+std::string vtp_bytes(const LabelledMesh& part) {
+  Appended appended;
+  const auto labels = [&](const char* name, const std::vector<Index>& numbers) {
+    return appended.array("Int32", name, std::span<const Index>(numbers));
+  };
+  const std::string data = "<PointData>" + labels("vertex", part.vertex_numbers) + "</PointData>\n<CellData>" +
+                           labels("number", part.cell_numbers) + labels("intersections", part.cell_counts) +
+                           "</CellData>\n";
+  static_assert(sizeof(Vec3) == 3 * sizeof(double), "rows of three doubles");
+  const std::span<const double> coordinates(part.mesh.positions.empty() ? nullptr : &part.mesh.positions.front().x,
+                                            3 * part.mesh.positions.size());
+  const std::string points = appended.array("Float64", "Points", coordinates, 3);
+  return file_text(part.mesh, data, points, appended);
 }
 
 std::string pvd_text(const std::vector<std::pair<double, std::string>>& files) {

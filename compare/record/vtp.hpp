@@ -14,6 +14,18 @@ namespace ogc::compare {
 /// The bytes of a .vtp file: points, loose edges as lines, triangles as polygons; point data velocity, bound, body.
 std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame);
 
+/// A part of a mesh, with numbers that say what it is a part of.
+struct LabelledMesh {
+  Mesh mesh;
+  std::vector<Index> vertex_numbers;  ///< by vertex
+  std::vector<Index> cell_numbers;    ///< by loose edge, then by triangle
+  std::vector<Index> cell_counts;     ///< likewise: how many intersections it is named in
+};
+
+/// The bytes of its .vtp file: points in double, loose edges as lines, triangles; point data `vertex`, cell data
+/// `number`, `intersections`.
+std::string vtp_bytes(const LabelledMesh& part);
+
 /// The text of a .pvd index of (time [s], file relative to the index).
 std::string pvd_text(const std::vector<std::pair<double, std::string>>& files);
 

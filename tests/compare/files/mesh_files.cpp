@@ -202,7 +202,7 @@ TEST_CASE("missing files, folders, unknown formats and full disks are named", "[
   const Scratch scratch;
   CHECK_THROWS_AS(read_mesh(scratch / "none.ply"), InputError);
   CHECK_THROWS_WITH(read_mesh(scratch / "none.ply"), Contains("none.ply: no such file"));
-  CHECK_THROWS_WITH(read_mesh(scratch / "mesh.stl"), Contains("'.stl' is no mesh format; use .obj or .ply"));
+  CHECK_THROWS_WITH(read_mesh(scratch / "mesh.stl"), Contains("'.stl' is no mesh format; use .obj, .ply or .vtp"));
   std::filesystem::create_directories(scratch / "folder.obj");
   CHECK_THROWS_WITH(read_mesh(scratch / "folder.obj"), Contains("is a folder"));
   CHECK_THROWS_AS(write_mesh(scratch / "folder.obj", awkward_mesh()), ResourceError);

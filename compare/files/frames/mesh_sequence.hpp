@@ -1,0 +1,48 @@
+// Frames of a simulation by whatever program, one mesh at a time.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+class MeshSequence {
+ public:
+  virtual ~MeshSequence() = default;
+  virtual std::size_t size() const = 0;
+  /// Of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
+  virtual std::string name(std::size_t i) const = 0;
+  /// The next frame; the first call reads frame 0, at most size() calls are allowed. Every index names a vertex, every
+  /// coordinate is finite. Throws InputError that names file, frame, and byte or element.
+  virtual Mesh next() = 0;
+};
+
+using MeshReader = std::function<Mesh(const std::filesystem::path&)>;
+
+/// One mesh a file, each with triangles of its own, in the order given.
+std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::path> files, MeshReader read);
+
+/// The frames of an archive of NumPy arrays (numpy.savez, compressed or not): `positions` [frames, vertices, 3], or
+/// [vertices, 3] for one frame; `triangles` [n, 3] and `edges` [n, 2] (those without a triangle) of whole numbers.
+/// Other names that are taken: x, vertices, points, verts; faces. Faces and edges of `topology` are used where the
+/// archive has neither; its positions are not looked at.
+std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
+
+/// The same for one array of positions (numpy.save).
+std::unique_ptr<MeshSequence> npy_sequence(const std::filesystem::path& file, const Mesh* topology);
+
+/// The samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,
+/// little-endian).
+std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology);
+
+/// Files of a folder with one of these extensions (".obj"; in any case), in natural order. Throws InputError where
+/// there are several kinds of them or none.
+std::vector<std::filesystem::path> mesh_files_in(const std::filesystem::path& folder,
+                                                 const std::vector<std::string>& extensions);
+
+}  // namespace ogc::compare

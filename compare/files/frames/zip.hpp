@@ -1,0 +1,38 @@
+// Members of a .zip archive, read one after the other, unpacked piece by piece.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ogc::compare {
+
+class ZipFile {
+ public:
+  /// Throws InputError where it is no archive, ResourceError where this program was built without minizip.
+  explicit ZipFile(const std::filesystem::path& path);
+  ~ZipFile();
+  ZipFile(const ZipFile&) = delete;
+  ZipFile& operator=(const ZipFile&) = delete;
+  const std::vector<std::string>& members() const { return members_; }
+  /// Goes to the beginning of a member; bytes of another one can't be read until it is opened again. Throws InputError.
+  void open(const std::string& member);
+  /// Fills `bytes` from the open member. Throws InputError that names the archive, the member, `what` and the byte: it
+  /// ends before, or is damaged (every member has a checksum, which is held against the bytes where the member ends).
+  void read(std::span<char> bytes, const std::string& what);
+  /// Size of the open member, unpacked [bytes].
+  std::uint64_t size() const { return size_; }
+
+ private:
+  void check_end(const std::string& what);
+  struct Handle;
+  std::string name_, member_;
+  std::unique_ptr<Handle> handle_;
+  std::vector<std::string> members_;
+  std::uint64_t size_ = 0, position_ = 0;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,47 @@
+// What `ogc audit` looks at, one state after the other, whoever computed it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/oracle/audit.hpp"
+#include "compare/oracle/smallest_distances.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::experiments {
+
+/// One state, judged exactly.
+struct AuditedState {
+  std::string name;  ///< "step 12", a file, or "frame 3"
+  std::shared_ptr<const compare::Topology> topology;
+  std::vector<compare::Vec3> positions;  ///< [m]
+  compare::AuditResult result;
+  compare::SmallestDistances distances;
+  std::string text;  ///< the listed intersections in words, one line each
+};
+
+class AuditSource {
+ public:
+  virtual ~AuditSource() = default;
+  virtual std::size_t size() const = 0;
+  virtual std::string name(std::size_t i) const = 0;
+  /// Judges the next state. Throws compare::InputError where it can't be read; no further state can be asked for then.
+  virtual AuditedState next() = 0;
+  /// What is left out besides what touches by its topology, in words; empty where nothing.
+  virtual std::string left_out() const { return ""; }
+};
+
+struct AuditRequest {
+  std::vector<std::string>
+      paths;             ///< a run folder, a folder of meshes, meshes, patterns of them, one .npz, .npy or .pc2
+  std::string topology;  ///< mesh of the triangles, for files that hold positions alone; may be empty
+  std::size_t limit = compare::AuditOptions{}.limit;  ///< intersections that are listed of a state
+};
+
+/// Opens what the paths name. Several meshes are taken in natural order. Throws compare::InputError that says what
+/// could be named.
+std::unique_ptr<AuditSource> open_audit(const AuditRequest& request);
+
+}  // namespace ogc::experiments
