@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/files/numbers.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
@@ -52,9 +53,21 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
+/// k_c of every body; false where `key` names something else.
+bool set_stiffness(compare::Scene& scene, const std::string& key, const std::string& value) {
+  if (key != "contact_stiffness") return false;
+  const auto info = std::ranges::find(compare::material_table(), key, &compare::MaterialInfo::name);
+  double stiffness = 0;
+  if (!compare::parse_number(value, stiffness) || !(stiffness >= info->minimum && stiffness <= info->maximum))
+    throw compare::InputError(key + ": '" + value + "' is no number from " + number(info->minimum) + " to " +
+                              number(info->maximum) + " " + std::string(info->unit));
+  for (compare::Body& body : scene.bodies) body.material.contact_stiffness = stiffness;
+  return true;
+}
+
 void set(compare::Scene& scene, const std::string& key, const std::string& value) {
   using compare::Material;
-  if (!set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
+  if (!set_stiffness(scene, key, value) && !set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
       !set_model(scene, key, "bending", value, compare::bending_model_names(), &Material::bending))
     compare::set_setting(scene.settings, key, value);
 }
@@ -136,6 +149,7 @@ std::string settings_help() {
                     info.choices.empty() ? number(info.minimum) + " … " + number(info.maximum) : listed(info.choices), std::string(info.meaning)});
   rows.push_back({"  membrane", "1", "the scene's", listed(compare::membrane_model_names()), "model of every body that has a membrane energy"});
   rows.push_back({"  bending", "1", "the scene's", listed(compare::bending_model_names()), "model of every body that has a bending energy"});
+  rows.push_back({"  contact_stiffness", "N/m", "the scene's", "a material's", "k_c of every body"});
   rows.push_back({"  data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it"});
   return "Settings for --set (a scene brings its own values; defaults are those of a scene file that says nothing):\n" + table(rows, 5);
 }

@@ -95,7 +95,8 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
     : request_(checked(std::move(request))),
       settings_(request_.scene.settings),
       contestant_(std::move(contestant)),
-      judge_(request_.scene) {
+      judge_(request_.scene),
+      warnings_(request_.scene) {
   frame_steps_ = frame_steps(settings_);
   start_state();
   check_start();
@@ -154,13 +155,16 @@ void RunSession::open_folder() {
   summary_.smallest_distance = std::numeric_limits<double>::infinity();
   auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);
   last_good_ = start_;
+  for (const std::string& warning : warnings_.list()) log_line("warning: " + warning);
   if (request_.resume) return reopen_folder();
   begin_folder();
 }
 
 void RunSession::begin_folder() {
   last_good_.bounds.assign(start_.positions.size(), 0);
-  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, provenance(request_, summary_.device),
+  compare::Provenance origin = provenance(request_, summary_.device);
+  origin.warnings = warnings_.list();
+  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, origin,
                                                  request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
 }
 
@@ -275,6 +279,7 @@ void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
 
 void RunSession::count(const std::vector<StepMetrics>& rows) {
   for (const StepMetrics& row : rows) {
+    for (const std::string& warning : warnings_.look_at(row)) log_line("warning: " + warning);
     step_times_.push_back(row.wall_ms);
     if (row.wall_ms > summary_.worst_ms) summary_.worst_ms = row.wall_ms, summary_.worst_step = row.step;
     summary_.last_vertex_facet_contacts = row.vertex_facet_contacts;
@@ -365,6 +370,8 @@ void RunSession::finish() {
   summary_.status = failed() ? "failed: " + first_line : summary_.was_interrupted ? "interrupted" : "finished";
   summary_.median_ms = median(step_times_);
   if (step_times_.empty()) summary_.worst_ms = summary_.median_ms;
+  summary_.warnings = warnings_.list();
+  writer_->set_warnings(summary_.warnings);
   writer_->set_extra("final_hash", summary_.final_hash);
   writer_->set_extra("guarantee_kept", !summary_.guarantee_kept ? "not checked" : *summary_.guarantee_kept ? "yes" : "no");
   writer_->set_extra("audited_states", std::to_string(summary_.audited_states));

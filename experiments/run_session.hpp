@@ -15,6 +15,7 @@
 #include "experiments/auditor.hpp"
 #include "experiments/output.hpp"
 #include "experiments/pace.hpp"
+#include "experiments/warnings.hpp"
 
 namespace ogc::experiments {
 
@@ -42,6 +43,7 @@ struct RunRequest {
 /// What a run comes to. Times [ms]; not-a-number where no step was done.
 struct RunSummary {
   std::string scene, scale, solver, backend, device, folder, status;
+  std::vector<std::string> warnings;   ///< what can hardly be meant, in words (experiments/warnings.hpp)
   std::string left_out_of_audits;      ///< in words; empty where nothing is
   std::string failure;                 ///< what went wrong, naming primitives; empty where nothing did
   bool was_interrupted = false;
@@ -100,6 +102,7 @@ class RunSession {
   compare::Contestant contestant_;
   std::unique_ptr<compare::Simulation> simulation_;
   StateJudge judge_;
+  Warnings warnings_;
   std::unique_ptr<Auditor> auditor_;
   std::unique_ptr<compare::RunWriter> writer_;
   std::deque<compare::Snapshot> offered_;  ///< states that wait for their verdict

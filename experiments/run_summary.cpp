@@ -49,6 +49,7 @@ Json to_json(const RunSummary& summary) {
                    {"beyond_bound", summary.certificate_violations}, {"unsafe_bounds", summary.unsafe_bounds}};
   if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
   if (!summary.failure.empty()) json["failure"] = summary.failure;
+  json["warnings"] = summary.warnings;
   return json;
 }
 
@@ -73,7 +74,9 @@ std::string describe(const RunSummary& summary) {
       {"final state", summary.final_hash + " (FNV-1a of the positions' bits)"},
   };
   if (!summary.left_out_of_audits.empty()) rows.insert(rows.end() - 1, {"not audited", summary.left_out_of_audits});
-  return table(rows, 2);
+  std::string warnings;
+  for (const std::string& warning : summary.warnings) warnings += (warnings.empty() ? "warnings: " : "; ") + warning;
+  return table(rows, 2) + warnings + (warnings.empty() ? "" : "\n");
 }
 
 }  // namespace ogc::experiments

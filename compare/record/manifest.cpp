@@ -32,7 +32,8 @@ constexpr std::array<TextField, 11> text_fields{{{"status", &Provenance::status}
                                                  {"compiler", &Provenance::compiler},
                                                  {"cuda", &Provenance::cuda}}};
 
-constexpr std::array<std::string_view, 7> other_fields{"format", "format_version", "dirty", "seed", "scene", "settings", "stages"};
+constexpr std::array<std::string_view, 8> other_fields{"format", "format_version", "dirty",    "warnings",
+                                                       "seed",   "scene",          "settings", "stages"};
 
 bool is_known(std::string_view key) {
   return std::any_of(text_fields.begin(), text_fields.end(), [&](const TextField& entry) { return entry.name == key; }) ||
@@ -103,6 +104,7 @@ Provenance provenance_of(const Json& json) {
   Provenance provenance;
   for (const TextField& entry : text_fields) provenance.*entry.field = json.at(std::string(entry.name)).get<std::string>();
   provenance.dirty = json.at("dirty").get<bool>();
+  provenance.warnings = json.value("warnings", std::vector<std::string>{});
   for (const auto& [key, value] : json.items())
     if (!is_known(key)) provenance.extra[key] = extra_text(value);
   return provenance;
@@ -122,6 +124,7 @@ std::string manifest_text(const Manifest& manifest, const Scene& scene) {
   Json json = {{"format", "ogc run"}, {"format_version", run_format_version}};
   for (const TextField& entry : text_fields) json[std::string(entry.name)] = manifest.provenance.*entry.field;
   json["dirty"] = manifest.provenance.dirty;
+  json["warnings"] = manifest.provenance.warnings;
   for (const auto& [key, value] : manifest.provenance.extra) {
     if (is_known(key)) throw std::invalid_argument("run.json: '" + key + "' has a meaning of its own and can't be an extra entry");
     json[key] = extra_json(value);

@@ -19,6 +19,7 @@ struct Provenance {
   std::string version, commit, compiler, cuda;  ///< of the program
   bool dirty = false;
   std::string started, ended, status;           ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
+  std::vector<std::string> warnings;            ///< what can hardly be meant, in words
   std::map<std::string, std::string> extra;     ///< further entries of run.json; "yes" and "no" are truth values there
 };
 

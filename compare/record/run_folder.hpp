@@ -65,6 +65,8 @@ class RunWriter {
   void save(const Checkpoint& checkpoint) const;
   /// Sets an entry of Provenance::extra; the next manifest (at the latest that of finish) carries it.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
+  /// Replaces Provenance::warnings; the next manifest carries them.
+  void set_warnings(std::vector<std::string> warnings) { manifest_.provenance.warnings = std::move(warnings); }
   /// Writes the final run.json, then assembles trajectory.vtkhdf where there is a frame.
   void finish(const std::string& status);
   const std::filesystem::path& folder() const { return folder_; }
