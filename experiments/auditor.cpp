@@ -16,10 +16,6 @@ namespace {
 /// Two states wait while a third is judged: the simulation is never idle for want of a buffer, and memory stays a few states.
 constexpr std::size_t most_waiting = 2;
 
-std::string on_body(const std::vector<std::string>& bodies, compare::Index vertex) {
-  return vertex < 0 ? "" : " (body '" + bodies[static_cast<std::size_t>(vertex)] + "')";
-}
-
 constexpr std::array<std::string_view, 4> audit_names{"every", "frame", "end", "off"};  // by AuditMode
 
 }  // namespace
@@ -32,13 +28,6 @@ AuditMode audit_mode(const std::string& name) {
   return static_cast<AuditMode>(found - audit_names.begin());
 }
 
-std::vector<std::string> body_names(const compare::Scene& scene) {
-  std::vector<std::string> names(scene.mesh.positions.size());
-  for (const compare::Body& body : scene.bodies)
-    for (compare::Index i = 0; i < body.vertex_count; ++i) names[static_cast<std::size_t>(body.first_vertex + i)] = body.name;
-  return names;
-}
-
 std::string left_out_of_audits(const compare::Scene& scene) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
@@ -48,10 +37,11 @@ std::string left_out_of_audits(const compare::Scene& scene) {
   return text;
 }
 
-StateJudge::StateJudge(const compare::Scene& scene)
-    : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges)),
+StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& sources)
+    : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles,
+                                        scene.mesh.loose_edges)),
       exclusions_(compare::exclusions(scene)),
-      bodies_(body_names(scene)),
+      names_(scene, sources),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
 
@@ -88,17 +78,21 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
   return verdict;
 }
 
-std::string StateJudge::describe(const compare::AuditResult& result) const { return compare::describe(result, topology_, bodies_); }
+std::string StateJudge::describe(const compare::AuditResult& result) const {
+  return compare::describe(result, topology_, names_);
+}
 
 std::string StateJudge::describe(const Verdict& verdict) const {
   std::string text = verdict.intersections.count == 0 ? "" : describe(verdict.intersections);
   if (!text.empty() && text.back() != '\n') text += "\n";
   if (!verdict.motion.kept())
-    text += counted(verdict.motion.violations, "vertex position") + " beyond the bound; the worst: vertex " + std::to_string(verdict.motion.worst_vertex) +
-            on_body(bodies_, verdict.motion.worst_vertex) + " moved " + number(verdict.motion.worst_ratio, 9) + " times its bound\n";
+    text += counted(verdict.motion.violations, "vertex position") +
+            " beyond the bound; the worst: " + names_.vertex(verdict.motion.worst_vertex) + " moved " +
+            number(verdict.motion.worst_ratio, 9) + " times its bound\n";
   if (verdict.unsafe_bounds > 0)
-    text += counted(verdict.unsafe_bounds, "bound") + " larger than the exact one; the worst: vertex " + std::to_string(verdict.worst_vertex) +
-            on_body(bodies_, verdict.worst_vertex) + ", " + number(verdict.worst_bound, 9) + " m instead of " + number(verdict.exact_bound, 9) + " m\n";
+    text += counted(verdict.unsafe_bounds, "bound") +
+            " larger than the exact one; the worst: " + names_.vertex(verdict.worst_vertex) + ", " +
+            number(verdict.worst_bound, 9) + " m instead of " + number(verdict.exact_bound, 9) + " m\n";
   return text;
 }
 

@@ -16,6 +16,7 @@
 #include "compare/oracle/certificate.hpp"
 #include "compare/oracle/smallest_distances.hpp"
 #include "compare/problem/contestant.hpp"
+#include "compare/problem/element_names.hpp"
 
 namespace ogc::experiments {
 
@@ -24,9 +25,6 @@ enum class AuditMode { every, frame, end, off };
 std::string name_of(AuditMode mode);
 /// Throws compare::InputError where nothing is called so.
 AuditMode audit_mode(const std::string& name);
-
-/// A body's name for each vertex.
-std::vector<std::string> body_names(const compare::Scene& scene);
 
 /// What audits of a scene leave out beyond pairs inside fixed and rigidly moved bodies, in words; empty where nothing.
 std::string left_out_of_audits(const compare::Scene& scene);
@@ -45,7 +43,7 @@ struct Verdict {
 /// Judges states of one scene.
 class StateJudge {
  public:
-  explicit StateJudge(const compare::Scene& scene);
+  explicit StateJudge(const compare::Scene& scene, const compare::MeshSources& sources = {});
   /// A state without the certificate: a start, a frame of a file.
   compare::AuditResult audit(const std::vector<compare::Vec3f>& positions) const;
   /// How near it is to touching, without the pairs that the audit leaves out.
@@ -55,12 +53,14 @@ class StateJudge {
   /// Names what is wrong, one line a primitive; empty where nothing is.
   std::string describe(const Verdict& verdict) const;
   std::string describe(const compare::AuditResult& result) const;
+  /// What elements of the scene are called in all of these.
+  const compare::ElementNames& names() const { return names_; }
 
  private:
   std::vector<float> exact_bounds(const compare::Snapshot& snapshot) const;
   compare::Topology topology_;
   compare::Exclusions exclusions_;
-  std::vector<std::string> bodies_;
+  compare::ElementNames names_;
   float contact_radius_, bound_relaxation_;
 };
 

@@ -10,6 +10,7 @@
 #include "experiments/audits/offenders.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"
+#include "experiments/mesh_input.hpp"
 #include "experiments/output.hpp"
 #include "experiments/progress.hpp"
 
@@ -37,16 +38,23 @@ struct State {
   SmallestDistances distances;
 };
 
-Json to_json(const SmallestDistances& distances, const compare::Topology& topology) {
+Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
+             const compare::ElementNames& names) {
   Json json{{"vertex_triangle", nullptr}, {"edge_edge", nullptr}};
   if (distances.vertex >= 0) {
-    json["vertex_triangle"] = {{"distance", distances.vertex_triangle}, {"vertex", distances.vertex}, {"triangle", distances.triangle},
-                               {"triangle_vertices", topology.triangles[static_cast<std::size_t>(distances.triangle)]}};
+    const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(distances.triangle)];
+    json["vertex_triangle"] = {
+        {"distance", distances.vertex_triangle},
+        {"vertex", distances.vertex},
+        {"triangle", distances.triangle},
+        {"triangle_vertices", corners},
+        {"names", {names.vertex(distances.vertex), names.triangle(distances.triangle, corners)}}};
   }
   if (distances.edge >= 0) {
     const auto vertices = [&](compare::Index e) { return topology.edges[static_cast<std::size_t>(e)]; };
     json["edge_edge"] = {{"distance", distances.edge_edge}, {"edge", distances.edge}, {"edge_vertices", vertices(distances.edge)},
-                         {"other_edge", distances.other_edge}, {"other_edge_vertices", vertices(distances.other_edge)}};
+                         {"other_edge", distances.other_edge}, {"other_edge_vertices", vertices(distances.other_edge)},
+                         {"names", {names.edge(vertices(distances.edge)), names.edge(vertices(distances.other_edge))}}};
   }
   return json;
 }
@@ -60,7 +68,7 @@ State state_of(const AuditedState& audited) {
               .has_triangles = !topology.triangles.empty(),
               .distances = audited.distances};
   for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
-  state.json["smallest_distances"] = to_json(audited.distances, topology);
+  state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
   for (const compare::Intersection& pair : audited.result.intersections) {
     const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
     const auto first = static_cast<std::size_t>(pair.first);
@@ -73,6 +81,7 @@ State state_of(const AuditedState& audited) {
     }
     entry["triangle"] = pair.second;
     entry["triangle_vertices"] = topology.triangles[static_cast<std::size_t>(pair.second)];
+    entry["text"] = describe(pair, topology, audited.names);
     state.json["intersections"].push_back(entry);
   }
   return state;
@@ -110,31 +119,22 @@ Audits audit_all(AuditSource& source, const std::string& show) {
   return audits;
 }
 
-std::string list(std::span<const compare::Index> vertices) {
-  std::string text;
-  for (const compare::Index v : vertices) text += (text.empty() ? " (vertices " : ", ") + std::to_string(v);
-  return text + ")";
-}
-
 /// The smallest distances of all states, in words; of equal ones the first state's.
 std::string describe_distances(const std::vector<State>& states) {
-  const auto in_state = [&](const State& state) { return states.size() == 1 ? "" : ", " + state.name; };
-  const auto vertices = [](const Json& pair, const char* key) { return list(pair.at(key).get<std::vector<compare::Index>>()); };
-  const auto& facet = *std::ranges::min_element(states, {}, [](const State& state) { return state.distances.vertex_triangle; });
-  const auto& edges = *std::ranges::min_element(states, {}, [](const State& state) { return state.distances.edge_edge; });
-  std::string text = "smallest distance of a vertex to a triangle without it: ";
-  if (facet.distances.vertex < 0) {
-    text += "there is no such pair\n";
-  } else {
-    const Json& pair = facet.json.at("smallest_distances").at("vertex_triangle");
-    text += number(facet.distances.vertex_triangle, 9) + " m, vertex " + std::to_string(facet.distances.vertex) + " and triangle " +
-            std::to_string(facet.distances.triangle) + vertices(pair, "triangle_vertices") + in_state(facet) + "\n";
-  }
-  text += "smallest distance of two edges without a common vertex: ";
-  if (edges.distances.edge < 0) return text + "there is no such pair\n";
-  const Json& pair = edges.json.at("smallest_distances").at("edge_edge");
-  return text + number(edges.distances.edge_edge, 9) + " m, edge " + std::to_string(edges.distances.edge) + vertices(pair, "edge_vertices") + " and edge " +
-         std::to_string(edges.distances.other_edge) + vertices(pair, "other_edge_vertices") + in_state(edges) + "\n";
+  const auto describe_pair = [&](const std::string& what, const State& state, const char* key) {
+    const Json& pair = state.json.at("smallest_distances").at(key);
+    const std::string beginning = "smallest distance of " + what + ": ";
+    if (pair.is_null()) return beginning + "there is no such pair\n";
+    return beginning + number(pair.at("distance").get<double>(), 9) + " m, " +
+           pair.at("names").at(0).get<std::string>() + " and " + pair.at("names").at(1).get<std::string>() +
+           (states.size() == 1 ? "" : ", " + state.name) + "\n";
+  };
+  const auto& facet = *std::ranges::min_element(
+      states, {}, [](const State& state) { return state.distances.vertex_triangle; });
+  const auto& edges =
+      *std::ranges::min_element(states, {}, [](const State& state) { return state.distances.edge_edge; });
+  return describe_pair("a vertex to a triangle without it", facet, "vertex_triangle") +
+         describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
 
 /// Two states say nothing about curves (method.md §5), which pass through each other between them.
@@ -228,7 +228,7 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "audit", "Exact self-intersection audit of a mesh, of a run, or of the frames of any other program");
   command
       ->add_option("MESH|FRAMES|RUN", options->request.paths,
-                   "A mesh (.obj, .ply, .vtp), several of them as frames, a folder of them, frames in one file (.npz, "
+                   "A mesh (.obj, .ply, .vtp, .stl, .off, .gltf, .glb), several of them as frames, a folder of them, frames in one file (.npz, "
                    ".npy, .pc2), or a run folder")
       ->required();
   command->add_option("--mesh", options->request.topology,
@@ -236,6 +236,7 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   command->add_option(
       "--show", options->show,
       "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
+  add_mesh_options(*command, options->request.meshes);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
       "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
@@ -245,7 +246,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "1: there is one.\n"
       "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are "
       "found exactly too, and\n"
-      "rounded down; of pairs equally near the one with the lowest numbers is named.\n\n"
+      "rounded down; of pairs equally near the one with the lowest numbers is named.\n"
+      "Text names elements as the mesh's file counts them; numbers of the JSON are from 0, without unused vertices.\n\n"
       "Frames of whatever solver: files are taken in natural order (frame_2 before frame_10), and a pattern in quotes "
       "is expanded here. A .npz\n"
       "(numpy.savez) holds positions [frames, vertices, 3] (or x, vertices, points, verts) in float32 or float64, and "

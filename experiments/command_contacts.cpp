@@ -4,13 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/mesh_files.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/scene.hpp"
-#include "compare/problem/validate.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/contact_report.hpp"
+#include "experiments/mesh_input.hpp"
 
 namespace ogc::experiments {
 
@@ -24,19 +23,32 @@ constexpr double default_radius_ratio = 0.2;
 struct Options {
   std::string mesh, engine = "exact";
   double radius = 0, query_radius = 0;
+  compare::MeshOptions taken;
   FurtherSets further;
   bool schema = false, margins = true, squares = false;
 };
+
+/// What the file calls vertices and triangles, which the JSON numbers from 0.
+Json numbers_in_file(const MeshInput& input) {
+  const compare::MeshSource& source = input.source;
+  const auto listed = [&](const std::vector<compare::Index>& numbers, std::size_t count) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < count; ++i)
+      list.push_back((numbers.empty() ? static_cast<compare::Index>(i) : numbers[i]) + source.first);
+    return list;
+  };
+  Json json{{"face_in_file", listed(source.faces, input.mesh.triangles.size())}};
+  if (source.shares_vertices) json["vertex_in_file"] = listed(source.vertices, input.mesh.positions.size());
+  return json;
+}
 
 void run(const Options& options, const CommandContext& context) {
   if (options.schema) return print_result(contacts_schema());
   if (options.mesh.empty()) throw compare::InputError("ogc contacts needs a mesh, or --schema; see ogc contacts --help");
   if (options.engine != "exact" && (options.further.ipc || options.further.sdf))
     throw compare::InputError("--ipc and --sdf are answered by the reference; take --engine exact");
-  compare::Mesh mesh = compare::read_mesh(options.mesh);
-  mesh.positions = compare::to_double(compare::to_single(mesh.positions));
-  const std::string problems = compare::describe(compare::validate(mesh));
-  if (!problems.empty()) throw compare::InputError(options.mesh + ":\n" + problems);
+  const MeshInput input = read_mesh_input(options.mesh, options.taken);
+  const compare::Mesh& mesh = input.mesh;
   if (options.squares && (!context.json || options.engine != "exact"))
     throw compare::InputError("--squares adds to the JSON of the exact engine; give --json and --engine exact");
   const double radius = options.radius > 0 ? options.radius : default_radius_ratio * mean_edge_length(mesh);
@@ -50,9 +62,10 @@ void run(const Options& options, const CommandContext& context) {
   const std::size_t intersections = compare::audit(report.topology, mesh.positions).count;
   if (intersections > 0)
     log_line("ogc: " + options.mesh + " intersects itself (" + counted(intersections, "pair") + ", see ogc audit): these bounds keep nothing apart");
-  if (!context.json) return print_result(describe(report));
+  if (!context.json) return print_result(describe(report, input.names));
   Json head{{"format", "ogc contacts 2"}, {"mesh", options.mesh}, {"engine", options.engine}, {"bound_relaxation", bound_relaxation},
             {"intersections", intersections}};
+  head.update(numbers_in_file(input));
   if (options.squares) head.update(exact_squares(report, bound_relaxation));
   print_json(head, report, options.margins);
 }
@@ -62,7 +75,8 @@ void run(const Options& options, const CommandContext& context) {
 void add_contacts_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("contacts", "Contact sets, distances and conservative bounds of a mesh");
-  command->add_option("MESH", options->mesh, "An .obj or .ply file");
+  command->add_option("MESH", options->mesh, "An .obj, .ply, .stl, .off, .gltf or .glb file");
+  add_mesh_options(*command, options->taken);
   command->add_option("--radius", options->radius, "Contact radius r [m] (default: a fifth of the mean edge length)")->check(CLI::PositiveNumber);
   command->add_option("--query-radius", options->query_radius, "Query radius r_q ≥ r [m] (default: 4 r)")->check(CLI::PositiveNumber);
   command->add_option("--engine", options->engine, "exact (the reference), cpu or cuda (the fast path)")
@@ -75,7 +89,7 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
   command->add_flag("--json", context.json, "Print all contacts, sets by primitive, smallest distances and bounds as JSON on standard output");
   command->footer("The exact engine's JSON has the signed margins of every contact to the boundaries of its blocks and the kind of every vertex besides.\n"
                   "The schema says what each key means: experiments/contacts.md.\n"
-                  "Lengths are in metres; coordinates are rounded to single precision first.\n\n"
+                  "Lengths are in metres; dust among coordinates is taken as 0, and they are rounded to single precision first.\n\n"
                   "Examples:\n"
                   "  ogc contacts shirt.obj --radius 0.002\n"
                   "  ogc contacts shirt.ply --engine cpu --json > contacts.json");

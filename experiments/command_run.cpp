@@ -42,7 +42,8 @@ int run(const RunOptions& options, const std::string& resume, const CLI::App& co
   std::optional<tbb::global_control> limit;
   if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   if (options.scene.empty() && resume.empty())
-    throw compare::InputError("run needs a scene (" + scene_names() + "), a scene file, or --resume RUN; see ogc run --help");
+    throw compare::InputError("run needs a scene (" + scene_names() +
+                              "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
   ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)} : resumed(options, resume, command);
   catch_interrupts();
   const std::string text = introduction(run.request);
@@ -75,6 +76,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "  ogc run cloth_on_sphere --scale small --solver newton --set newton_tolerance=1e-3 --iterations\n"
                   "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
                   "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
+                  "  ogc run shirt.obj --ground 0 --steps 200\n"
                   "  ogc run --resume runs/twist-paper-20250801-120000\n"
                   "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
                   "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the exact one. On the CPU it takes\n"

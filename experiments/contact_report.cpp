@@ -79,21 +79,14 @@ void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::ve
   report.edge_edge_distance.assign(edges.begin(), edges.end());
 }
 
-std::vector<compare::Index> vertices_of(const Face& face, const Topology& topology) {
+std::string name(const Face& face, const Topology& topology, const compare::ElementNames& names) {
   const auto i = static_cast<std::size_t>(face.index);
-  if (face.kind == FaceKind::vertex) return {face.index};
-  if (face.kind == FaceKind::edge) return {topology.edges[i].begin(), topology.edges[i].end()};
-  return {topology.triangles[i].begin(), topology.triangles[i].end()};
-}
-
-const char* name(FaceKind kind) { return kind == FaceKind::vertex ? "vertex" : kind == FaceKind::edge ? "edge" : "triangle"; }
-
-std::string name(const Face& face, const Topology& topology) {
-  std::string text = std::string(name(face.kind)) + " " + std::to_string(face.index);
-  if (face.kind == FaceKind::vertex) return text;
-  std::string list;
-  for (const compare::Index vertex : vertices_of(face, topology)) list += (list.empty() ? "" : ", ") + std::to_string(vertex);
-  return text + " (vertices " + list + ")";
+  switch (face.kind) {
+    case FaceKind::vertex: return names.vertex(face.index);
+    case FaceKind::edge: return names.edge(topology.edges[i]);
+    case FaceKind::triangle: return names.triangle(face.index, topology.triangles[i]);
+  }
+  return {};
 }
 
 /// Counts over tenths of r_q, and of those that have nothing within it.
@@ -176,18 +169,19 @@ Json exact_squares(const ContactReport& report, float bound_relaxation) {
           {"bound_squared", std::move(squares.bound)}};
 }
 
-std::string describe(const ContactReport& report) {
+std::string describe(const ContactReport& report, const compare::ElementNames& names) {
   const Topology& topology = report.topology;
   const auto [least, most] = std::ranges::minmax(report.bound);
   std::string text = std::to_string(topology.vertex_count) + " vertices, " + std::to_string(topology.edges.size()) + " edges, " +
                      std::to_string(topology.triangles.size()) + " triangles; r = " + number(report.contact_radius, 6) + " m, r_q = " +
                      number(report.query_radius, 6) + " m\n\n" + counted(report.vertex_facet.contacts.size(), "vertex-facet contact") + "\n";
-  text += closest(report.vertex_facet.contacts, report.vertex_facet_distance, [&](const compare::VertexFacetContact& contact) {
-    return "vertex " + std::to_string(contact.vertex) + " and " + name(contact.face, topology);
-  });
+  text += closest(report.vertex_facet.contacts, report.vertex_facet_distance,
+                  [&](const compare::VertexFacetContact& contact) {
+                    return names.vertex(contact.vertex) + " and " + name(contact.face, topology, names);
+                  });
   text += counted(report.edge_edge.contacts.size(), "edge-edge contact") + "\n";
   text += closest(report.edge_edge.contacts, report.edge_edge_distance, [&](const compare::EdgeEdgeContact& contact) {
-    return name(contact.first, topology) + " and " + name(contact.second, topology);
+    return name(contact.first, topology, names) + " and " + name(contact.second, topology, names);
   });
   text += "\nsmallest distance of a vertex to a triangle without it\n" + distribution(report.vertex_facet.d_min_vertex, report.query_radius);
   text += "smallest distance of an edge to an edge without its ends\n" + distribution(report.edge_edge.d_min_edge, report.query_radius);

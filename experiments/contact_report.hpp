@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
@@ -52,6 +53,7 @@ Json exact_squares(const ContactReport& report, float bound_relaxation);
 void print_json(const Json& head, const ContactReport& report, bool with_margins);
 /// The JSON Schema of `ogc contacts --json` (contacts.schema.json).
 std::string contacts_schema();
-std::string describe(const ContactReport& report);
+/// `names`: what the mesh's elements are called.
+std::string describe(const ContactReport& report, const compare::ElementNames& names);
 
 }  // namespace ogc::experiments

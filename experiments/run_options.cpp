@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "compare/files/mesh_files.hpp"
 #include "compare/files/numbers.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/text.hpp"
 #include "experiments/measured_simulation.hpp"
+#include "experiments/mesh_scene.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
@@ -30,15 +32,31 @@ bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); 
 
 constexpr std::string_view data_key = "data=";
 
-compare::Scene load_scene(const RunOptions& options, std::string& scale) {
+void check_scene_options(const RunOptions& options, const std::string& data) {
+  const bool is_mesh = compare::is_mesh_file(options.scene);
+  if (!is_mesh && (options.ground || options.mesh != compare::MeshOptions{}))
+    throw compare::InputError(
+        "--ground, --weld, --no-triangulate and --no-drop-unused belong to a mesh file in place of the scene, "
+        "for example ogc run shirt.obj");
+  if (!is_mesh && !is_scene_file(options.scene)) return;
+  if (!data.empty())
+    throw compare::InputError("--set data=" + data + " belongs to the built-in scenes; a file names its meshes itself");
+  if (!options.scale.empty())
+    throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a file has one size");
+}
+
+/// The scene before --set, and its scale; says what was taken otherwise than its files have it.
+compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   const std::string data = data_folder(options.assignments);
+  check_scene_options(options, data);
+  if (compare::is_mesh_file(options.scene)) return mesh_scene(options.scene, options.mesh, options.ground);
   if (is_scene_file(options.scene)) {
-    if (!data.empty()) throw compare::InputError("--set data=" + data + " belongs to the built-in scenes; a scene file names its meshes itself");
-    if (!options.scale.empty()) throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a scene file has one size");
-    return compare::read_scene(options.scene);
+    compare::SceneFile file = compare::load_scene_file(options.scene);
+    for (const std::string& note : file.notes) log_line("ogc: " + note);
+    return file;
   }
   scale = options.scale.empty() ? "small" : options.scale;
-  return make_scene(options.scene, parse_scale(scale), data);
+  return {make_scene(options.scene, parse_scale(scale), data), {}, {}};
 }
 
 /// The model of that name for every body that has one; false where `key` names no model.
@@ -103,7 +121,12 @@ compare::Contestant solver_of(const RunOptions& options) {
 }  // namespace
 
 CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
-  CLI::Option* scene = command.add_option("SCENE|FILE.json", options->scene, "A built-in scene (" + scene_names() + ") or a scene file")->required();
+  const std::string kinds =
+      "A built-in scene (" + scene_names() + "), a scene file, or a mesh file: cloth that falls on a ground";
+  CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
+  command.add_option("--ground", options->ground,
+                     "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)");
+  add_mesh_options(command, options->mesh);
   command.add_option("--solver", options->solver, "How a step is solved")
       ->check(CLI::IsMember(solver_names))->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember(backend_names))->capture_default_str();
@@ -166,7 +189,9 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   if (options.solver == "ipc" && options.residual)
     throw compare::InputError("--solver ipc has a measure of its own in that column; leave --residual out");
   RunRequest request;
-  request.scene = load_scene(options, request.scale);
+  compare::SceneFile file = load_scene(options, request.scale);
+  request.scene = std::move(file.scene);
+  request.sources = std::move(file.sources);
   apply_settings(request.scene, options);
   if (options.solver == "vbd" && options.iterations && !request.scene.motions.empty())
     throw compare::InputError("--iterations with --solver vbd needs a scene without prescribed motions; take --residual, or --solver reference_vbd");

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "experiments/commands.hpp"
+#include "experiments/mesh_input.hpp"
 #include "experiments/run_session.hpp"
 
 namespace ogc::experiments {
@@ -13,6 +15,8 @@ struct RunOptions {
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
   bool profile = false, iterations = false, condition = false, residual = false;
+  compare::MeshOptions mesh;             ///< of a mesh file in place of a scene
+  std::optional<double> ground;          ///< height of the ground below it [m]
   int threads = 0;                       ///< 0: all
   double checkpoint_seconds = default_checkpoint_seconds;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "compare/files/mesh_files.hpp"
+#include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"
 #include "compare/record/steps_csv.hpp"
@@ -43,7 +44,11 @@ std::int64_t frame_steps(const compare::Settings& settings) {
 
 RunRequest checked(RunRequest request) {
   compare::round_to_single(request.scene);
-  const std::string problems = compare::describe(compare::validate(request.scene));
+  // Scenes of files have none left; what a frame holds is never looked at for it.
+  if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
+    log_line("ogc: " + request.scene.name + ": " + dust);
+  const std::string problems =
+      compare::describe(compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
   if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
   return request;
 }
@@ -95,7 +100,7 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
     : request_(checked(std::move(request))),
       settings_(request_.scene.settings),
       contestant_(std::move(contestant)),
-      judge_(request_.scene),
+      judge_(request_.scene, request_.sources),
       warnings_(request_.scene) {
   frame_steps_ = frame_steps(settings_);
   start_state();

@@ -24,6 +24,7 @@ inline constexpr double default_checkpoint_seconds = 60;
 
 struct RunRequest {
   compare::Scene scene;               ///< with all settings applied
+  compare::MeshSources sources;       ///< of its bodies' meshes, for messages
   std::string scale;                  ///< "smoke", …; empty for a scene file
   std::string solver = "vbd";
   std::string backend = "cpu";

@@ -16,17 +16,20 @@ namespace {
 
 using compare::Vec3;
 
-constexpr double gravity = 9.81;              ///< [m/s²]
-constexpr double edges_a_radius = 4;          ///< r is a quarter of an edge: the paper's cloths lie between a fifth (twist) and a whole one
-constexpr double least_edges_a_radius = 20;   ///< below that contacts are thinner than any mesh resolves
-constexpr double most_radii = 16;             ///< of r_q, whatever the edges: the lists of candidates grow with its square
-constexpr double weights_held = 10;           ///< layers that may lie on a vertex before its contact is pressed to half its radius
-constexpr double detections_a_step = 4;       ///< that a step at the speed of the fall may take
-constexpr double longest_step = 1.0 / 100;    ///< [s] of the paper's scenes
+constexpr double gravity = 9.81;  ///< [m/s²]
+/// r is a quarter of an edge: the paper's cloths lie between a fifth (twist) and a whole one.
+constexpr double edges_a_radius = 4;
+constexpr double least_edges_a_radius = 20;  ///< below that contacts are thinner than any mesh resolves
+constexpr double most_radii = 16;  ///< of r_q, whatever the edges: the lists of candidates grow with its square
+constexpr double weights_held =
+    10;  ///< layers that may lie on a vertex before its contact is pressed to half its radius
+constexpr double detections_a_step = 4;     ///< that a step at the speed of the fall may take
+constexpr double longest_step = 1.0 / 100;  ///< [s] of the paper's scenes
 constexpr double fewest_iterations = 10, most_iterations = 100;
 
 struct Measures {
-  double edge = 0;   ///< median length [m]
+  double edge = 0;  ///< length that stands for all edges [m]
+  std::string edge_name;
   double gap = 0;    ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
   double mass = 0;   ///< mean of a vertex [kg]
   double speed = 0;  ///< at the end of the fall [m/s]
@@ -45,13 +48,17 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
       compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
   std::vector<double> lengths;
   for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::ranges::nth_element(lengths, middle);
+  // Where a tenth of the edges is far shorter than most, like those around a can, they decide what may be called near.
+  std::ranges::sort(lengths);
+  const double middle = lengths[lengths.size() / 2], shortest = 2 * lengths[lengths.size() / 10];
   double whole = 0;
   for (const auto& [a, b, c] : mesh.triangles) whole += area(at(a), at(b), at(c));
   const compare::SmallestDistances gaps = compare::smallest_distances(topology, mesh.positions);
-  return {*middle, std::min(gaps.vertex_triangle, gaps.edge_edge),
-          material.density * whole / static_cast<double>(mesh.positions.size()), std::sqrt(2 * gravity * std::max(0.0, fall))};
+  return {std::min(middle, shortest),
+          middle <= shortest ? "the median edge" : "twice what a tenth of the edges is below",
+          std::min(gaps.vertex_triangle, gaps.edge_edge),
+          material.density * whole / static_cast<double>(mesh.positions.size()),
+          std::sqrt(2 * gravity * std::max(0.0, fall))};
 }
 
 /// `value` with two digits, not above it.
@@ -71,7 +78,8 @@ double round_number_above(double value) {
 /// `value` within the range that the program takes.
 SuggestedNumber within(double minimum, double maximum, SuggestedNumber suggested) {
   const double value = std::clamp(suggested.value, minimum, maximum);
-  if (value != suggested.value) suggested.reason += "; " + number(value) + " is the " + (value == minimum ? "smallest" : "largest") + " there is";
+  if (value != suggested.value)
+    suggested.reason += "; " + number(value) + " is the " + (value == minimum ? "smallest" : "largest") + " there is";
   return {value, suggested.reason};
 }
 
@@ -87,11 +95,13 @@ SuggestedNumber within_stiffnesses(SuggestedNumber suggested) {
 
 SuggestedNumber radius_of(const Measures& mesh) {
   const double wanted = mesh.edge / edges_a_radius, least = mesh.edge / least_edges_a_radius;
-  const std::string edge = "the median edge, " + number(mesh.edge) + " m";
+  const std::string edge = mesh.edge_name + ", " + number(mesh.edge) + " m";
   if (mesh.gap >= wanted)
-    return {two_digits(wanted), "a quarter of " + edge + "; nothing that shares no vertex is nearer (" + number(mesh.gap) + " m)"};
+    return {two_digits(wanted),
+            "a quarter of " + edge + "; nothing that shares no vertex is nearer (" + number(mesh.gap) + " m)"};
   if (mesh.gap > least)
-    return {two_digits(mesh.gap), "the smallest gap, so that nothing is in contact at the start; it is below a quarter of " + edge};
+    return {two_digits(mesh.gap),
+            "the smallest gap, so that nothing is in contact at the start; it is below a quarter of " + edge};
   return {two_digits(least), "a twentieth of " + edge + ": the smallest gap, " + number(mesh.gap) +
                                  " m, is below it, and what is nearer than r at the start is pushed apart"};
 }
@@ -99,40 +109,52 @@ SuggestedNumber radius_of(const Measures& mesh) {
 SuggestedNumber query_radius_of(const Measures& mesh, double radius) {
   const double least = compare::Settings{}.query_radius_cap * radius;
   const double value = std::clamp(two_digits(mesh.edge), least, most_radii * radius);
-  return {value, "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the lists stay short"};
+  return {
+      value,
+      "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the lists stay short"};
 }
 
 SuggestedNumber stiffness_of(const Measures& mesh, double radius) {
   const double held = weights_held * mesh.mass * gravity / (radius / 2);
   const double stopped = mesh.mass * mesh.speed * mesh.speed / (radius * radius / 4);
   const std::string vertex = "a vertex of " + number(mesh.mass) + " kg ";
-  if (held >= stopped) return {round_number_above(held), vertex + "with ten others on it is held at half of r: k_c r/2 ≥ 10 m g"};
-  return {round_number_above(stopped), vertex + "at " + number(mesh.speed) + " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
+  if (held >= stopped)
+    return {round_number_above(held), vertex + "with ten others on it is held at half of r: k_c r/2 ≥ 10 m g"};
+  return {round_number_above(stopped), vertex + "at " + number(mesh.speed) +
+                                           " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
 }
 
 SuggestedNumber time_step_of(const Measures& mesh, double query_radius) {
   const double way = detections_a_step * compare::Settings{}.bound_relaxation * query_radius;
-  if (mesh.speed * longest_step <= way) return {longest_step, "the paper's; at " + number(mesh.speed) + " m/s a step is shorter than 4 γ_p r_q"};
+  if (mesh.speed * longest_step <= way)
+    return {longest_step, "the paper's; at " + number(mesh.speed) + " m/s a step is shorter than 4 γ_p r_q"};
   return {1 / round_number_above(mesh.speed / way),
-          "at " + number(mesh.speed) + " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
+          "at " + number(mesh.speed) +
+              " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
 }
 
 SuggestedNumber iterations_of(const Measures& mesh, const compare::Material& material, double stiffness, double step) {
   const double rings = step * std::sqrt((2 * material.lame_mu + material.lame_lambda) / material.density) / mesh.edge;
   const double contacts = step * std::sqrt(stiffness / mesh.mass);
   const double wanted = 10 * std::ceil(2 * std::max(rings, contacts) / 10);
-  const std::string why = contacts > rings ? "h √(k_c/m) = " + number(contacts) + ": a contact is so much stiffer than inertia"
-                                           : number(rings) + " rings of triangles, the way of a stretch wave in a step";
-  const char* limits = wanted < fewest_iterations ? "; at least 10" : wanted > most_iterations ? "; at most 100, as a shorter step helps more" : "";
-  return {std::clamp(wanted, fewest_iterations, most_iterations), "twice " + why + ", and a sweep carries a change by a ring or more" + limits};
+  const std::string why = contacts > rings
+                              ? "h √(k_c/m) = " + number(contacts) + ": a contact is so much stiffer than inertia"
+                              : number(rings) + " rings of triangles, the way of a stretch wave in a step";
+  const char* limits = wanted < fewest_iterations ? "; at least 10"
+                       : wanted > most_iterations ? "; at most 100, as a shorter step helps more"
+                                                  : "";
+  return {std::clamp(wanted, fewest_iterations, most_iterations),
+          "twice " + why + ", and a sweep carries a change by a ring or more" + limits};
 }
 
 }  // namespace
 
 Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material, double fall) {
-  if (mesh.triangles.empty()) throw compare::InputError("the mesh has no triangle; settings of cloth follow from triangles");
+  if (mesh.triangles.empty())
+    throw compare::InputError("the mesh has no triangle; settings of cloth follow from triangles");
   const Measures measures = measure(mesh, material, fall);
   Suggestion result;
+  result.edge_length = measures.edge;
   result.contact_radius = within_setting("contact_radius", radius_of(measures));
   result.query_radius = query_radius_of(measures, result.contact_radius.value);
   result.contact_stiffness = within_stiffnesses(stiffness_of(measures, result.contact_radius.value));

@@ -1,5 +1,6 @@
-// What to run a mesh of cloth with where nobody says: numbers that follow from its edges, its gaps, its weight and the height that it falls from, each
-// with its reason. No search and no trial run: whoever asks gets the same answer at once.
+// What to run a mesh of cloth with where nobody says: numbers that follow from its edges, its gaps, its weight and the
+// height that it falls from, each with its reason. No search and no trial run: whoever asks gets the same answer at
+// once.
 #pragma once
 
 #include <string>
@@ -14,8 +15,10 @@ struct SuggestedNumber {
   std::string reason;
 };
 
-/// Values that are easy to say (two digits, or 1, 2, 5 times a power of ten), within the ranges of `setting_table` and `material_table`.
+/// Values that are easy to say (two digits, or 1, 2, 5 times a power of ten), within the ranges of `setting_table` and
+/// `material_table`.
 struct Suggestion {
+  double edge_length = 0;  ///< that all follows from: the median, or twice the tenth percentile if that is less [m]
   SuggestedNumber contact_radius;     ///< r [m]
   SuggestedNumber query_radius;       ///< the cap of r_q [m]
   SuggestedNumber contact_stiffness;  ///< k_c [N/m]
@@ -23,9 +26,10 @@ struct Suggestion {
   SuggestedNumber iterations;         ///< sweeps a step [1]
 };
 
-/// For a valid mesh with triangles, `material`'s density, membrane and g = 9.81 m/s². `fall`: from how high the mesh falls before it meets something
-/// [m]; 0: it does not. The smallest gap is found exactly (compare::smallest_distances), which takes a few seconds for a million triangles. Throws
-/// compare::InputError for a mesh without a triangle.
+/// For a valid mesh with triangles, `material`'s density, membrane and g = 9.81 m/s². `fall`: from how high the mesh
+/// falls before it meets something [m]; 0: it does not. The smallest gap is found exactly
+/// (compare::smallest_distances), which takes a few seconds for a million triangles. Throws compare::InputError for a
+/// mesh without a triangle.
 Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material, double fall);
 
 /// Sets r, the cap of r_q, h and the iterations of the scene, and k_c of all its bodies.

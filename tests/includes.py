@@ -47,6 +47,7 @@ FOREIGN = {
     "immintrin.h": ("reference", "fast/cpu"),
     "emmintrin.h": ("fast/cpu",),
     "suitesparse/": ("reference",),
+    "assimp/": ("compare/files/assimp_mesh.cpp",),
     "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),
     "hdf5": ("compare/files", "compare/record"),
     "H5": ("compare/files", "compare/record"),
@@ -256,6 +257,10 @@ PLANTED = {
     ),
     "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
     "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in", "fast/x.cpp:1"),
+    "assimp outside of its file": (
+        {"compare/files/x.cpp": "#include <assimp/scene.h>\n"},
+        "is allowed only in compare/files/assimp_mesh.cpp", "compare/files/x.cpp:1",
+    ),
     "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in", "compare/problem/x.cpp:1"),
     "dlopen outside of plugins": ({"experiments/x.cpp": "#include <dlfcn.h>\n"}, "<dlfcn.h> is allowed only in experiments/plugins", "experiments/x.cpp:1"),
     "CUDA outside of cuda": ({"fast/kernels/x.hpp": "#include <cuda_runtime.h>\n"}, "is allowed only in fast/cuda", "fast/kernels/x.hpp:1"),

@@ -2,9 +2,13 @@
 #include "compare/files/mesh_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "compare/files/assimp_mesh.hpp"
 #include "compare/files/bytes.hpp"
 #include "compare/files/obj.hpp"
 #include "compare/files/ply.hpp"
@@ -14,34 +18,58 @@
 namespace ogc::compare {
 namespace {
 
-enum class MeshFormat { obj, ply, vtp };
+enum class MeshFormat { obj, ply, vtp, stl, off, gltf, glb };
+constexpr std::array<std::string_view, 7> extensions{".obj", ".ply",  ".vtp", ".stl",
+                                                         ".off", ".gltf", ".glb"};  // by MeshFormat
 
-MeshFormat format_of(const std::filesystem::path& path) {
+std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".obj") return MeshFormat::obj;
-  if (extension == ".ply") return MeshFormat::ply;
-  if (extension == ".vtp") return MeshFormat::vtp;
-  throw InputError(path.string() + ": '" + extension + "' is no mesh format; use .obj, .ply or .vtp");
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::optional<MeshFormat> format_of(const std::filesystem::path& path) {
+  const auto found = std::ranges::find(extensions, lower_extension(path));
+  if (found == extensions.end()) return std::nullopt;
+  return static_cast<MeshFormat>(found - extensions.begin());
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw InputError(path.string() + ": '" + path.extension().string() + "' is no mesh format" + what);
 }
 
 }  // namespace
 
-Mesh read_mesh(const std::filesystem::path& path) {
-  const MeshFormat format = format_of(path);
+bool is_mesh_file(const std::filesystem::path& path) { return format_of(path).has_value(); }
+
+PolygonMesh read_polygon_mesh(const std::filesystem::path& path) {
+  const std::optional<MeshFormat> format = format_of(path);
+  if (!format) fail(path, "; use .obj, .ply, .vtp, .stl, .off, .gltf or .glb");
   const std::string bytes = read_bytes(path), name = path.string();
-  switch (format) {
+  switch (*format) {
     case MeshFormat::obj: return parse_obj(bytes, name);
     case MeshFormat::ply: return parse_ply(bytes, name);
-    case MeshFormat::vtp: break;
+    case MeshFormat::vtp: return parse_vtp(bytes, name);
+    case MeshFormat::stl:
+    case MeshFormat::gltf:
+    case MeshFormat::glb: return read_with_assimp(path, false);
+    case MeshFormat::off: return read_with_assimp(path, true);
   }
-  return parse_vtp(bytes, name);
+  fail(path, "");
 }
 
+LoadedMesh load_mesh(const std::filesystem::path& path, const MeshOptions& options) {
+  return make_mesh(read_polygon_mesh(path), options);
+}
+
+Mesh read_mesh(const std::filesystem::path& path) { return load_mesh(path).mesh; }
+
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, PlyEncoding encoding) {
-  const MeshFormat format = format_of(path);
-  if (format == MeshFormat::vtp) throw InputError(path.string() + ": meshes are written as .obj or .ply");
-  write_bytes(path, format == MeshFormat::obj ? print_obj(mesh) : print_ply(mesh, encoding));
+  const std::optional<MeshFormat> format = format_of(path);
+  if (format == MeshFormat::obj) return write_bytes(path, print_obj(mesh));
+  if (format == MeshFormat::ply) return write_bytes(path, print_ply(mesh, encoding));
+  fail(path, " that is written; use .obj or .ply");
 }
 
 }  // namespace ogc::compare

@@ -1,20 +1,31 @@
-// OBJ and PLY meshes, read and written, and VTP, read.
+// Meshes of files: OBJ and PLY read and written, others read.
 #pragma once
 
 #include <filesystem>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/files/polygon_mesh.hpp"
 
 namespace ogc::compare {
 
-/// Reads .obj (v, f with any number of corners' attributes ignored, polygons of more than three corners refused, l for loose edges) or .ply (ascii,
-/// binary little- and big-endian), or .vtp (vtp_parse.hpp). Throws InputError that names the file, the line or element, and what is wrong: missing file, truncated data, index out of range, NaN.
+/// Reads a mesh by extension: .obj (v, f and l), .ply (ascii, binary little- and big-endian), .vtp (vtp_parse.hpp), and
+/// .stl, .off, .gltf and .glb where the program was built with assimp. Corners' attributes, colours, normals and materials are left out.
+/// Throws InputError that names the file, the line or element, and what is wrong: missing file, truncated data, index
+/// out of range, NaN.
+PolygonMesh read_polygon_mesh(const std::filesystem::path& path);
+
+/// The same, made into a mesh of triangles and loose edges. Coordinates are those of the file, dust included.
+LoadedMesh load_mesh(const std::filesystem::path& path, const MeshOptions& options = {});
+
+/// The mesh alone.
 Mesh read_mesh(const std::filesystem::path& path);
+
+/// Whether the extension is one of a mesh file that can be read, in capitals or not.
+bool is_mesh_file(const std::filesystem::path& path);
 
 enum class PlyEncoding { ascii, binary };
 
-/// Writes by extension: .obj or .ply. Coordinates are printed so that reading gives the same double (OBJ, ascii) or stored as double (binary).
-/// Throws ResourceError where the disk does not take it.
+/// Writes by extension: .obj or .ply. Coordinates are printed so that reading gives the same double (OBJ, ascii) or
+/// stored as double (binary). Throws InputError for another extension, ResourceError where the disk does not take it.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, PlyEncoding encoding = PlyEncoding::binary);
 
 }  // namespace ogc::compare

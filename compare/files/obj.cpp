@@ -13,7 +13,8 @@
 namespace ogc::compare {
 namespace {
 
-constexpr std::array<std::string_view, 12> skipped{"vn", "vt", "vp", "o", "g", "s", "usemtl", "mtllib", "usemap", "maplib", "mg", "lod"};
+constexpr std::array<std::string_view, 13> skipped{"vn",     "vt",     "vp",     "p",      "o",  "g",  "s",
+                                                   "usemtl", "mtllib", "usemap", "maplib", "mg", "lod"};
 
 std::string_view next_word(std::string_view& line) {
   constexpr std::string_view blanks = " \t\r\f\v";
@@ -25,17 +26,20 @@ std::string_view next_word(std::string_view& line) {
 
 class ObjParser {
  public:
-  ObjParser(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+  ObjParser(std::string_view text, const std::string& name) : rest_(text), name_(name) {
+    mesh_.source.file = name;
+    mesh_.source.first = 1;
+  }
 
-  Mesh parse() {
+  PolygonMesh parse() {
     while (!rest_.empty()) {
       ++line_;
       std::string_view line = rest_.substr(0, rest_.find('\n'));
       rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
       statement(line.substr(0, line.find('#')));
     }
-    check(mesh_.triangles, triangle_lines_);
-    check(mesh_.loose_edges, edge_lines_);
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f) check(mesh_.face(f), mesh_.source.face_lines[f]);
+    for (std::size_t e = 0; e < mesh_.loose_edges.size(); ++e) check(mesh_.loose_edges[e], mesh_.source.edge_lines[e]);
     return std::move(mesh_);
   }
 
@@ -65,6 +69,7 @@ class ObjParser {
       }
     }
     mesh_.positions.push_back({x[0], x[1], x[2]});
+    mesh_.source.vertex_lines.push_back(line_);
   }
 
   // Zero-based; not yet checked against the number of vertices.
@@ -79,15 +84,11 @@ class ObjParser {
   }
 
   void face(std::string_view line) {
-    Triangle corners{};
-    for (Index& c : corners) {
-      const std::string_view word = next_word(line);
-      if (word.empty()) fail(line_, "a face has three corners");
-      c = corner(word);
-    }
-    if (!next_word(line).empty()) fail(line_, "a face has more than three corners; triangulate the mesh");
-    mesh_.triangles.push_back(corners);
-    triangle_lines_.push_back(line_);
+    face_.clear();
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) face_.push_back(corner(word));
+    if (face_.size() < 3) fail(line_, "a face has three corners or more");
+    mesh_.add_face(face_);
+    mesh_.source.face_lines.push_back(line_);
   }
 
   void polyline(std::string_view line) {
@@ -97,32 +98,29 @@ class ObjParser {
     for (std::string_view word = second; !word.empty(); word = next_word(line)) {
       const Index to = corner(word);
       mesh_.loose_edges.push_back({std::min(from, to), std::max(from, to)});
-      edge_lines_.push_back(line_);
+      mesh_.source.edge_lines.push_back(line_);
       from = to;
     }
   }
 
-  template <std::size_t corners>
-  void check(const std::vector<std::array<Index, corners>>& faces, const std::vector<std::size_t>& lines) const {
+  void check(std::span<const Index> face, std::size_t line) const {
     const std::size_t count = mesh_.positions.size();
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      for (const Index v : faces[i]) {
-        if (static_cast<std::size_t>(v) < count) continue;
-        fail(lines[i], "vertex " + std::to_string(v + 1) + " does not exist; the file has " + std::to_string(count));
-      }
+    for (const Index v : face) {
+      if (static_cast<std::size_t>(v) < count) continue;
+      fail(line, "vertex " + std::to_string(v + 1) + " does not exist; the file has " + std::to_string(count));
     }
   }
 
   std::string_view rest_;
   const std::string& name_;
   std::size_t line_ = 0;
-  Mesh mesh_;
-  std::vector<std::size_t> triangle_lines_, edge_lines_;
+  PolygonMesh mesh_;
+  std::vector<Index> face_;
 };
 
 }  // namespace
 
-Mesh parse_obj(std::string_view text, const std::string& name) { return ObjParser(text, name).parse(); }
+PolygonMesh parse_obj(std::string_view text, const std::string& name) { return ObjParser(text, name).parse(); }
 
 std::string print_obj(const Mesh& mesh) {
   std::string text;

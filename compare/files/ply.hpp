@@ -5,12 +5,14 @@
 #include <string_view>
 
 #include "compare/files/mesh_files.hpp"
+#include "compare/files/polygon_mesh.hpp"
 
 namespace ogc::compare {
 
-/// Parses vertices (x, y, z of any scalar type), faces (list vertex_indices or vertex_index, three entries each) and edges (vertex1, vertex2: the loose
-/// ones); other properties and elements are skipped, triangle strips refused. `name` stands in the errors. Throws InputError that names the element.
-Mesh parse_ply(std::string_view bytes, const std::string& name);
+/// Parses vertices (x, y, z of any scalar type), faces (list vertex_indices or vertex_index, three entries or more) and
+/// edges (vertex1, vertex2: the loose ones); other properties and elements are skipped, triangle strips refused. `name`
+/// stands in the errors. Throws InputError that names the element.
+PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 
 /// Positions as double; binary in the byte order of this machine.
 std::string print_ply(const Mesh& mesh, PlyEncoding encoding);

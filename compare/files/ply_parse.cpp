@@ -31,7 +31,8 @@ struct Element {
 struct Header {
   Format format = Format::ascii;
   std::vector<Element> elements;
-  std::size_t size = 0;  // bytes up to and with end_header
+  std::size_t size = 0;   // bytes up to and with end_header
+  std::size_t lines = 0;  // the same
 };
 
 std::string_view next_word(std::string_view& text) {
@@ -66,6 +67,7 @@ class HeaderParser {
       }
     }
     if (!has_format) fail("has no 'format' line");
+    header_.lines = line_;
     return std::move(header_);
   }
 
@@ -135,11 +137,11 @@ class HeaderParser {
 // The data after the header, one scalar at a time.
 class Scalars {
  public:
-  Scalars(std::string_view data, Format format) : data_(data), format_(format) {}
+  Scalars(std::string_view data, const Header& header) : data_(data), format_(header.format), line_(header.lines + 1) {}
 
   // False where the data ends or, in ascii, the word is no number.
   bool read(Scalar type, double& value) {
-    if (format_ == Format::ascii) return parse_number(next_word(data_), value);
+    if (format_ == Format::ascii) return parse_number(word(), value);
     switch (type) {
       case Scalar::int8: return read_binary<std::int8_t>(value);
       case Scalar::uint8: return read_binary<std::uint8_t>(value);
@@ -155,8 +157,25 @@ class Scalars {
 
   bool at_end() { return data_.find_first_not_of(" \t\r\n") == std::string_view::npos; }
   std::size_t bytes_left() const { return data_.size(); }
+  // Of the scalar that comes next, in ascii; called before it is read.
+  std::size_t next_line() {
+    skip_blanks();
+    return line_;
+  }
 
  private:
+  void skip_blanks() {
+    const std::size_t blanks = std::min(data_.find_first_not_of(" \t\r\n\f\v"), data_.size());
+    line_ +=
+        static_cast<std::size_t>(std::count(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(blanks), '\n'));
+    data_.remove_prefix(blanks);
+  }
+
+  std::string_view word() {
+    skip_blanks();
+    return next_word(data_);
+  }
+
   template <class Number>
   bool read_binary(double& value) {
     if (data_.size() < sizeof(Number)) return false;
@@ -171,13 +190,17 @@ class Scalars {
 
   std::string_view data_;
   Format format_;
+  std::size_t line_;
 };
 
 class BodyParser {
  public:
-  BodyParser(const Header& header, std::string_view data, const std::string& name) : header_(header), scalars_(data, header.format), name_(name) {}
+  BodyParser(const Header& header, std::string_view data, const std::string& name)
+      : header_(header), scalars_(data, header), name_(name) {
+    mesh_.source.file = name;
+  }
 
-  Mesh parse() {
+  PolygonMesh parse() {
     for (const Element& element : header_.elements) {
       check_properties(element);
       if (element.properties.empty()) continue;
@@ -185,8 +208,8 @@ class BodyParser {
     }
     if (!has_vertices_) throw InputError(name_ + ": has no element 'vertex'");
     if (!scalars_.at_end()) throw InputError(name_ + ": " + std::to_string(scalars_.bytes_left()) + " bytes follow the last element; header and data disagree");
-    check("face", mesh_.triangles);
-    check("edge", mesh_.loose_edges);
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f) check("face", f, mesh_.face(f));
+    for (std::size_t e = 0; e < mesh_.loose_edges.size(); ++e) check("edge", e, mesh_.loose_edges[e]);
     return std::move(mesh_);
   }
 
@@ -229,11 +252,12 @@ class BodyParser {
 
   void entry(const Element& element, std::size_t i) {
     Vec3 position;
-    Triangle corners{};
     Edge ends{};
+    face_.clear();
+    const std::size_t line = header_.format == Format::ascii ? scalars_.next_line() : 0;
     for (const Property& p : element.properties) {
       if (p.is_list) {
-        list(element, i, p, corners);
+        list(element, i, p);
         continue;
       }
       const double value = scalar(element, i, p.type);
@@ -244,18 +268,25 @@ class BodyParser {
       if (element.name == "edge" && p.name == "vertex2") ends[1] = index(element, i, value);
     }
     if (element.name == "vertex") add_vertex(element, i, position);
-    if (element.name == "face") mesh_.triangles.push_back(corners);
+    if (element.name == "face") mesh_.add_face(face_);
     if (element.name == "edge") mesh_.loose_edges.push_back({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
+    if (header_.format == Format::ascii) add_line(element, line);
   }
 
-  void list(const Element& element, std::size_t i, const Property& p, Triangle& corners) {
+  void add_line(const Element& element, std::size_t line) {
+    if (element.name == "vertex") mesh_.source.vertex_lines.push_back(line);
+    if (element.name == "face") mesh_.source.face_lines.push_back(line);
+    if (element.name == "edge") mesh_.source.edge_lines.push_back(line);
+  }
+
+  void list(const Element& element, std::size_t i, const Property& p) {
     const double count = scalar(element, i, p.count_type);
     if (!(count >= 0)) fail(element, i, "a list of negative length");
     const bool is_face = element.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
-    if (is_face && count != 3) fail(element, i, "has " + shortest(count) + " corners; triangulate the mesh");
+    if (is_face && count < 3) fail(element, i, "has " + shortest(count) + " corners; a face has three or more");
     for (std::size_t k = 0; static_cast<double>(k) < count; ++k) {
       const double value = scalar(element, i, p.type);
-      if (is_face) corners[k] = index(element, i, value);
+      if (is_face) face_.push_back(index(element, i, value));
     }
   }
 
@@ -266,27 +297,25 @@ class BodyParser {
     mesh_.positions.push_back(position);
   }
 
-  template <std::size_t corners>
-  void check(const char* element, const std::vector<std::array<Index, corners>>& faces) const {
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      for (const Index v : faces[i]) {
-        if (static_cast<std::size_t>(v) < mesh_.positions.size()) continue;
-        throw InputError(name_ + ": " + element + " " + std::to_string(i) + ": vertex " + std::to_string(v) + " does not exist; the file has " +
-                         std::to_string(mesh_.positions.size()) + ", numbered from 0");
-      }
+  void check(const char* element, std::size_t i, std::span<const Index> corners) const {
+    for (const Index v : corners) {
+      if (static_cast<std::size_t>(v) < mesh_.positions.size()) continue;
+      throw InputError(name_ + ": " + element + " " + std::to_string(i) + ": vertex " + std::to_string(v) +
+                       " does not exist; the file has " + std::to_string(mesh_.positions.size()) + ", numbered from 0");
     }
   }
 
   const Header& header_;
   Scalars scalars_;
   const std::string& name_;
-  Mesh mesh_;
+  PolygonMesh mesh_;
+  std::vector<Index> face_;
   bool has_vertices_ = false;
 };
 
 }  // namespace
 
-Mesh parse_ply(std::string_view bytes, const std::string& name) {
+PolygonMesh parse_ply(std::string_view bytes, const std::string& name) {
   const Header header = HeaderParser(bytes, name).parse();
   return BodyParser(header, bytes.substr(header.size), name).parse();
 }

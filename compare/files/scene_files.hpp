@@ -4,15 +4,28 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/scene.hpp"
 
 namespace ogc::compare {
 
 inline constexpr int scene_format_version = 1;
 
-/// Reads and validates a scene file. Throws InputError that lists every problem found.
+/// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that
+/// lists every problem found.
 Scene read_scene(const std::filesystem::path& file);
+
+/// What a scene file says beyond the scene.
+struct SceneFile {
+  Scene scene;
+  MeshSources sources;             ///< where the bodies' elements stand in their files
+  std::vector<std::string> notes;  ///< a sentence about whatever was taken otherwise than it stands
+};
+
+/// The same, with all of that.
+SceneFile load_scene_file(const std::filesystem::path& file);
 
 /// Writes `folder`/NAME.json and one PLY a body (positions and, where they differ, rest positions). Returns the path of the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);

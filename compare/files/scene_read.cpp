@@ -1,5 +1,6 @@
 // One pass over the document: bodies load their meshes as they are read, motions select from them, and every problem on the way is collected.
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "compare/files/bytes.hpp"
@@ -7,6 +8,8 @@
 #include "compare/files/keyframes.hpp"
 #include "compare/files/mesh_files.hpp"
 #include "compare/files/scene_files.hpp"
+#include "compare/problem/dust.hpp"
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/text.hpp"
@@ -64,7 +67,7 @@ class SceneReader {
   explicit SceneReader(const std::filesystem::path& file)
       : folder_(file.parent_path()), name_(file.string()), json_(parse_json(read_bytes(file), name_)), root_(json_, name_, "", problems_) {}
 
-  Scene read() {
+  SceneFile read() {
     check_version();
     JsonObject object(root_);
     object.required("format_version", [](const JsonNode&) {});
@@ -72,16 +75,17 @@ class SceneReader {
     object.optional_value("gravity", scene_.gravity);
     object.optional("settings", [&](const JsonNode& node) { read_settings(node, scene_.settings); });
     object.required("bodies", [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
+    note(describe(clear_dust(scene_)));
     object.optional("motions", [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
     object.optional("springs", [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
     object.optional("excluded_pairs", [&](const JsonNode& node) { each(node, [&](const JsonNode& pairs) { read_excluded(pairs); }); });
     object.finish();
     stop_at_problems();
     round_to_single(scene_);
-    problems_ = validate(scene_);
+    problems_ = validate(scene_, 10, ElementNames(scene_, sources_));
     for (Problem& problem : problems_) problem.where = name_ + ": " + problem.where;
     stop_at_problems();
-    return std::move(scene_);
+    return {std::move(scene_), std::move(sources_), std::move(notes_)};
   }
 
  private:
@@ -104,73 +108,101 @@ class SceneReader {
     if (!problems_.empty()) throw InputError(describe(problems_));
   }
 
+  void note(const std::string& text) {
+    if (!text.empty()) notes_.push_back(name_ + ": " + text);
+  }
+
   template <class Use>
   void each(const JsonNode& array, const Use& use) {
     if (!array.expect_array()) return;
     for (std::size_t i = 0; i < array.size(); ++i) use(array.child(i));
   }
 
-  // A mesh that stands by itself: read and validated; empty with problems noted where it can't be used.
-  std::optional<Mesh> read_mesh_file(const JsonNode& node) {
+  // Empty with problems noted where it can't be read.
+  std::optional<PolygonMesh> read_polygons(const JsonNode& node) {
     std::string text;
     node.read(text);
     if (!node.value().is_string()) return std::nullopt;
-    const std::filesystem::path path = folder_ / text;
     try {
-      return read_mesh(path);
+      return read_polygon_mesh(folder_ / text);
     } catch (const InputError& error) {
       node.fail(error.what(), "");
       return std::nullopt;
     }
   }
 
-  bool is_valid(const JsonNode& node, const Mesh& mesh) {
-    const std::vector<Problem> found = validate(mesh);
+  // What a body's mesh file says, and the mesh that it makes: of its rest shape and velocities the same triangles and
+  // vertices are taken.
+  struct BodyMesh {
+    PolygonMesh polygons;
+    LoadedMesh loaded;
+  };
+
+  // Read and validated; empty with problems noted where it can't be used.
+  std::optional<BodyMesh> read_body_mesh(const JsonNode& node) {
+    std::optional<PolygonMesh> polygons = read_polygons(node);
+    if (!polygons) return std::nullopt;
+    try {
+      BodyMesh body{*polygons, make_mesh(*polygons)};
+      if (!is_valid(node, body.loaded)) return std::nullopt;
+      notes_.insert(notes_.end(), body.loaded.notes.begin(), body.loaded.notes.end());
+      return body;
+    } catch (const InputError& error) {
+      node.fail(error.what(), "");
+      return std::nullopt;
+    }
+  }
+
+  bool is_valid(const JsonNode& node, const LoadedMesh& loaded) {
+    const std::vector<Problem> found = validate(loaded.mesh, 10, ElementNames(loaded.source));
     for (const Problem& problem : found) {
       problems_.push_back({node.where() + " (" + node.value().get<std::string>() + "): " + problem.where, problem.what, problem.remedy});
     }
     return found.empty();
   }
 
-  // Vertex data in the shape of a second mesh: rest positions or velocities.
-  std::vector<Vec3> read_like(const JsonNode& node, const Mesh& mesh) {
-    std::optional<Mesh> other = read_mesh_file(node);
+  // Vertex data in the shape of a second mesh file: rest positions or velocities.
+  std::vector<Vec3> read_like(const JsonNode& node, const BodyMesh& mesh) {
+    std::optional<PolygonMesh> other = read_polygons(node);
     if (!other) return {};
-    if (other->positions.size() != mesh.positions.size() || other->triangles != mesh.triangles || other->loose_edges != mesh.loose_edges) {
-      node.fail("has other vertices, triangles or edges than the body's mesh", "write both from one mesh");
+    const PolygonMesh& own = mesh.polygons;
+    if (other->positions.size() != own.positions.size() || other->corners != own.corners ||
+        other->face_ends != own.face_ends || other->loose_edges != own.loose_edges) {
+      node.fail("has other vertices, faces or edges than the body's mesh", "write both from one mesh");
       return {};
     }
-    return std::move(other->positions);
+    const std::vector<Index>& numbers = mesh.loaded.source.vertices;
+    if (numbers.empty()) return std::move(other->positions);
+    std::vector<Vec3> values;
+    for (const Index v : numbers) values.push_back(other->positions[static_cast<std::size_t>(v)]);
+    return values;
   }
 
   void read_body(const JsonNode& node) {
     JsonObject object(node);
     Body body;
-    Mesh mesh;
+    std::optional<BodyMesh> mesh;
     std::vector<Vec3> rest, velocities;
     object.required_value("name", body.name);
     object.optional_value("fixed", body.fixed);
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
-    object.required("mesh", [&](const JsonNode& value) {
-      std::optional<Mesh> read = read_mesh_file(value);
-      if (read && is_valid(value, *read)) mesh = std::move(*read);
-    });
-    const bool usable = !mesh.positions.empty();
+    object.required("mesh", [&](const JsonNode& value) { mesh = read_body_mesh(value); });
     object.optional("rest_mesh", [&](const JsonNode& value) {
-      if (usable) rest = read_like(value, mesh);
+      if (mesh) rest = read_like(value, *mesh);
     });
     object.optional("velocity", [&](const JsonNode& value) {
       Vec3 velocity;
       value.read(velocity);
-      velocities.assign(mesh.positions.size(), velocity);
+      if (mesh) velocities.assign(mesh->loaded.mesh.positions.size(), velocity);
     });
     object.optional("velocities", [&](const JsonNode& value) {
       if (object.has("velocity")) value.fail("stands beside 'velocity'", "keep one of them");
-      if (usable) velocities = read_like(value, mesh);
+      if (mesh) velocities = read_like(value, *mesh);
     });
     object.finish();
     const auto first = static_cast<std::ptrdiff_t>(scene_.mesh.positions.size());
-    append_body(scene_, std::move(body), mesh);
+    sources_.push_back(mesh ? std::make_shared<const MeshSource>(mesh->loaded.source) : nullptr);
+    append_body(scene_, std::move(body), mesh ? mesh->loaded.mesh : Mesh{});
     std::copy(rest.begin(), rest.end(), scene_.rest_positions.begin() + first);
     std::copy(velocities.begin(), velocities.end(), scene_.velocities.begin() + first);
   }
@@ -267,7 +299,8 @@ class SceneReader {
     return nullptr;
   }
 
-  // All vertices of a body, those in a box, or those listed; numbered within the body. Boxes see the positions as the mesh file gives them.
+  // All vertices of a body, those in a box, or those listed; numbered within the body. Boxes see the positions as the
+  // mesh file gives them, without dust.
   void read_selection(const JsonNode& node, std::vector<Index>& vertices) {
     JsonObject object(node);
     const Body* body = nullptr;
@@ -299,6 +332,15 @@ class SceneReader {
     Index i = -1;
     node.read(i);
     if (i < 0 || body == nullptr || body->vertex_count == 0) return;
+    const MeshSource& source = *sources_[static_cast<std::size_t>(body - scene_.bodies.data())];
+    const std::vector<Index>& numbers = source.vertices;
+    if (!numbers.empty() && source.shares_vertices) {
+      const auto found = std::ranges::lower_bound(numbers, i);
+      if (found != numbers.end() && *found == i)
+        return vertices.push_back(body->first_vertex + static_cast<Index>(found - numbers.begin()));
+      return node.fail("is " + std::to_string(i) + ", which no face or edge of " + source.file + " uses",
+                       "name a vertex of the body");
+    }
     if (i < body->vertex_count) return vertices.push_back(body->first_vertex + i);
     node.fail("is " + std::to_string(i), "body '" + body->name + "' has vertices 0 to " + std::to_string(body->vertex_count - 1));
   }
@@ -309,10 +351,14 @@ class SceneReader {
   std::vector<Problem> problems_;
   JsonNode root_;
   Scene scene_;
+  MeshSources sources_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) { return SceneReader(file).read(); }
+SceneFile load_scene_file(const std::filesystem::path& file) { return SceneReader(file).read(); }
+
+Scene read_scene(const std::filesystem::path& file) { return load_scene_file(file).scene; }
 
 }  // namespace ogc::compare

@@ -80,7 +80,7 @@ Json motion_schema() {
   const Json box = object({{"minimum", vector("[m]")}, {"maximum", vector("[m]")}}, {"minimum", "maximum"});
   const Json selection = object({{"body", value("string", "name of a body; all of its vertices unless 'box' or 'indices' says which")},
                                  {"box", box},
-                                 {"indices", array(value("integer", "number within the body, from 0"), "vertices")}},
+                                 {"indices", array(value("integer", "number in the body's mesh file, from 0"), "vertices")}},
                                 {"body"});
   const Json properties = {
       {"name", value("string", "letters, digits, _ and -")},
@@ -97,7 +97,7 @@ Json motion_schema() {
 }
 
 Json spring_schema() {
-  const Json end = object({{"body", value("string", "name of a body")}, {"index", value("integer", "vertex within the body, from 0")}}, {"body", "index"});
+  const Json end = object({{"body", value("string", "name of a body")}, {"index", value("integer", "vertex in the body's mesh file, from 0")}}, {"body", "index"});
   const auto number = [](const std::string& description) {
     Json json = value("number", description);
     json["minimum"] = 0;

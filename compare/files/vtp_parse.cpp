@@ -1,6 +1,7 @@
 #include "compare/files/vtp_parse.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compare/files/vtk_arrays.hpp"
@@ -12,20 +13,20 @@ namespace {
 
 class PieceReader {
  public:
-  PieceReader(const VtkDocument& document, const VtkPiece& piece, const std::string& name, Mesh& mesh)
+  PieceReader(const VtkDocument& document, const VtkPiece& piece, const std::string& name, PolygonMesh& mesh)
       : document_(document), piece_(piece), name_(name), mesh_(mesh), first_(mesh.positions.size()) {}
 
   void read() {
     points();
     cells("Polys", [&](std::size_t i, const std::vector<Index>& corners) {
-      if (corners.size() != 3)
-        fail("polygon", i, "has " + std::to_string(corners.size()) + " corners; triangulate the mesh");
-      mesh_.triangles.push_back({corners[0], corners[1], corners[2]});
+      if (corners.size() < 3)
+        fail("polygon", i, "has " + std::to_string(corners.size()) + " corners; a face has three or more");
+      mesh_.add_face(corners);
     });
     // Every second triangle of a strip is turned round.
     cells("Strips", [&](std::size_t, const std::vector<Index>& strip) {
       for (std::size_t k = 2; k < strip.size(); ++k)
-        mesh_.triangles.push_back({strip[k - 2], strip[k - 1 + k % 2], strip[k - k % 2]});
+        mesh_.add_face(std::array{strip[k - 2], strip[k - 1 + k % 2], strip[k - k % 2]});
     });
     cells("Lines", [&](std::size_t, const std::vector<Index>& line) {
       for (std::size_t k = 1; k < line.size(); ++k)
@@ -91,18 +92,19 @@ class PieceReader {
   const VtkDocument& document_;
   const VtkPiece& piece_;
   const std::string& name_;
-  Mesh& mesh_;
+  PolygonMesh& mesh_;
   std::size_t first_;  ///< vertex of this piece
 };
 
 }  // namespace
 
-Mesh parse_vtp(std::string_view bytes, const std::string& name) {
+PolygonMesh parse_vtp(std::string_view bytes, const std::string& name) {
   const VtkDocument document = parse_vtk_xml(bytes, name);
   if (const auto type = document.file.find("type"); type == document.file.end() || type->second != "PolyData")
     throw InputError(name + ": is a VTK file of type '" + (type == document.file.end() ? "" : type->second) +
                      "'; write it as PolyData (ParaView: Extract Surface)");
-  Mesh mesh;
+  PolygonMesh mesh;
+  mesh.source.file = name;
   for (const VtkPiece& piece : document.pieces) PieceReader(document, piece, name, mesh).read();
   if (mesh.positions.empty()) throw InputError(name + ": has no points");
   return mesh;

@@ -4,13 +4,13 @@
 #include <string>
 #include <string_view>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/files/polygon_mesh.hpp"
 
 namespace ogc::compare {
 
-/// Points, polygons of three corners, triangle strips (as triangles) and lines (as loose edges) of all pieces; other
+/// Points, polygons, triangle strips (as triangles) and lines (as loose edges) of all pieces; other
 /// data and single points are skipped. `name` stands in the errors. Throws InputError that names the array or cell,
 /// ResourceError where this program was built without expat.
-Mesh parse_vtp(std::string_view bytes, const std::string& name);
+PolygonMesh parse_vtp(std::string_view bytes, const std::string& name);
 
 }  // namespace ogc::compare

@@ -76,16 +76,6 @@ class Auditor {
   BoxTree tree_;
 };
 
-/// "edge 12 (vertices 3, 7; body 'cloth')"
-std::string name_primitive(const char* kind, Index number, std::span<const Index> vertices, const std::vector<std::string>& body_of_vertex) {
-  std::string details;
-  if (vertices.size() > 1) {
-    for (const Index v : vertices) details += (details.empty() ? "vertices " : ", ") + std::to_string(v);
-  }
-  if (at(vertices[0]) < body_of_vertex.size()) details += (details.empty() ? "body '" : "; body '") + body_of_vertex[at(vertices[0])] + "'";
-  return kind + std::to_string(number) + (details.empty() ? "" : " (" + details + ")");
-}
-
 }  // namespace
 
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions, const AuditOptions& options) {
@@ -99,15 +89,15 @@ AuditResult audit(const Topology& topology, std::span<const Vec3> positions, con
   return result;
 }
 
-std::string describe(const AuditResult& result, const Topology& topology, const std::vector<std::string>& body_of_vertex) {
+std::string describe(const Intersection& pair, const Topology& topology, const ElementNames& names) {
+  const std::string triangle = names.triangle(pair.second, topology.triangles[at(pair.second)]);
+  if (pair.kind == IntersectionKind::vertex_triangle) return names.vertex(pair.first) + " lies on " + triangle;
+  return names.edge(topology.edges[at(pair.first)]) + " meets " + triangle;
+}
+
+std::string describe(const AuditResult& result, const Topology& topology, const ElementNames& names) {
   std::string text;
-  for (const Intersection& i : result.intersections) {
-    if (i.kind == IntersectionKind::edge_triangle)
-      text += name_primitive("edge ", i.first, topology.edges[at(i.first)], body_of_vertex) + " meets ";
-    else
-      text += name_primitive("vertex ", i.first, std::span(&i.first, 1), body_of_vertex) + " lies on ";
-    text += name_primitive("triangle ", i.second, topology.triangles[at(i.second)], body_of_vertex) + "\n";
-  }
+  for (const Intersection& pair : result.intersections) text += describe(pair, topology, names) + "\n";
   if (result.count > result.intersections.size()) text += "and " + std::to_string(result.count - result.intersections.size()) + " more\n";
   return text;
 }

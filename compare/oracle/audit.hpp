@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/exclusions.hpp"
 
 namespace ogc::compare {
@@ -36,7 +37,9 @@ struct AuditResult {
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 
-/// "edge 12 (vertices 3, 7; body 'cloth') meets triangle 40 (…)", one line each. `names` maps a vertex to its body's name; may be empty.
-std::string describe(const AuditResult& result, const Topology& topology, const std::vector<std::string>& body_of_vertex = {});
+/// "edge of body 'cloth' (vertices 3, 7) meets face 40 of body 'floor' (…)".
+std::string describe(const Intersection& pair, const Topology& topology, const ElementNames& names = {});
+/// One line for each that is listed, and how many more there are.
+std::string describe(const AuditResult& result, const Topology& topology, const ElementNames& names = {});
 
 }  // namespace ogc::compare

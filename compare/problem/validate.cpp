@@ -73,7 +73,7 @@ bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
   return false;
 }
 
-void check_ownership(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+void check_ownership(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemSort foreign(problems, limit, "has vertices of another body", "give each body faces on its own vertices");
   const std::vector<Index> owner = body_of_vertex(scene);
   const auto owner_of = [&](Index v) { return owner[static_cast<std::size_t>(v)]; };
@@ -82,16 +82,17 @@ void check_ownership(std::vector<Problem>& problems, const Scene& scene, std::si
     for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
       const Triangle& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
       const bool own = std::all_of(corners.begin(), corners.end(), [&](Index v) { return owner_of(v) == static_cast<Index>(b); });
-      if (!own) foreign.add(numbered("triangle", static_cast<std::size_t>(t)), quoted("of body", body.name));
+      if (!own) foreign.add(names.triangle(t, corners), quoted("of body", body.name));
     }
   }
   for (std::size_t e = 0; e < scene.mesh.loose_edges.size(); ++e) {
-    const auto& [a, b] = scene.mesh.loose_edges[e];
-    if (owner_of(a) != owner_of(b)) foreign.add(numbered("loose edge", e));
+    const Edge& ends = scene.mesh.loose_edges[e];
+    if (owner_of(ends[0]) != owner_of(ends[1])) foreign.add(names.loose_edge(static_cast<Index>(e), ends));
   }
 }
 
-void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& motion, const std::string& where) {
+void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& motion, const ElementNames& names,
+                     const std::string& where) {
   const Keyframes& frames = motion.keyframes;
   if (frames.empty() && frames.positions.empty()) return;
   if (frames.times.size() < 2) problems.push_back({where, "has " + std::to_string(frames.times.size()) + " keyframes", "give at least two"});
@@ -107,15 +108,15 @@ void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& mot
                                     [&](const Vec3f& p) { return is_finite(Vec3{p.x, p.y, p.z}) && usable(p); });
   if (bad != frames.positions.end() && !motion.vertices.empty()) {
     const auto place = static_cast<std::size_t>(bad - frames.positions.begin());
-    problems.push_back({where + ", keyframe " + std::to_string(place / motion.vertices.size()) + ", vertex " +
-                            std::to_string(motion.vertices[place % motion.vertices.size()]),
+    problems.push_back({where + ", keyframe " + std::to_string(place / motion.vertices.size()) + ", " +
+                            names.vertex(motion.vertices[place % motion.vertices.size()]),
                         "position is not finite or beyond 2²⁰ m", "give three finite numbers [m]"});
   }
   if (motion.angular_velocity != 0 || motion.velocity != Vec3{})
     problems.push_back({where, "has keyframes and velocities", "give one of them"});
 }
 
-void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion& motion) {
+void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion& motion, const ElementNames& names) {
   const std::string where = quoted("motion", motion.name);
   const auto numbers = {motion.angular_velocity, motion.start, motion.end};
   const bool finite = is_finite(motion.centre) && is_finite(motion.axis) && is_finite(motion.velocity) &&
@@ -124,10 +125,11 @@ void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion
   if (motion.axis == Vec3{}) problems.push_back({where, "has a zero axis", "give a direction, e.g. [1, 0, 0]"});
   if (!(motion.start <= motion.end)) problems.push_back({where, "ends before it starts", "give start ≤ end [s]"});
   if (motion.vertices.empty()) problems.push_back({where, "moves no vertex", "list vertices or remove the motion"});
-  check_keyframes(problems, motion, where);
+  check_keyframes(problems, motion, names, where);
 }
 
-void check_motions(std::vector<Problem>& problems, const Scene& scene, bool covered, std::size_t limit) {
+void check_motions(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, bool covered,
+                   std::size_t limit) {
   const std::string last = std::to_string(scene.mesh.positions.size() - 1);
   ProblemSort unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + last);
   ProblemSort fixed(problems, limit, "moves a vertex of a fixed body", "leave the vertex out or make the body free");
@@ -135,14 +137,14 @@ void check_motions(std::vector<Problem>& problems, const Scene& scene, bool cove
   const std::vector<Index> body = covered ? body_of_vertex(scene) : std::vector<Index>{};
   std::vector<bool> prescribed(scene.mesh.positions.size());
   for (const PrescribedMotion& motion : scene.motions) {
-    check_motion_numbers(problems, motion);
+    check_motion_numbers(problems, motion, names);
     for (const Index v : motion.vertices) {
       const auto i = static_cast<std::size_t>(v);
-      const std::string where = quoted("motion", motion.name) + ", vertex " + std::to_string(v);
       if (v < 0 || i >= prescribed.size()) {
-        unknown.add(where);
+        unknown.add(quoted("motion", motion.name) + ", vertex " + std::to_string(v) + " of the scene");
         continue;
       }
+      const std::string where = quoted("motion", motion.name) + ", " + names.vertex(v);
       if (covered && scene.bodies[static_cast<std::size_t>(body[i])].fixed) fixed.add(where);
       if (prescribed[i]) twice.add(where);
       prescribed[i] = true;
@@ -150,8 +152,14 @@ void check_motions(std::vector<Problem>& problems, const Scene& scene, bool cove
   }
 }
 
+/// A vertex that there may not be.
+std::string point_name(const Scene& scene, const ElementNames& names, Index v) {
+  const bool exists = v >= 0 && static_cast<std::size_t>(v) < scene.mesh.positions.size();
+  return exists ? names.vertex(v) : "vertex " + std::to_string(v) + " of the scene, which does not exist";
+}
+
 /// Ranges as in the table of material constants.
-void check_springs(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+void check_springs(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemSort unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
   ProblemSort range(problems, limit, "has a number out of range",
                     "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ s, none below 0");
@@ -161,22 +169,26 @@ void check_springs(std::vector<Problem>& problems, const Scene& scene, std::size
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& s = scene.springs[i];
     const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
-    if (!known) unknown.add(numbered("spring", i), std::to_string(s.first) + ", " + std::to_string(s.second));
+    if (!known)
+      unknown.add(numbered("spring", i), point_name(scene, names, s.first) + ", " + point_name(scene, names, s.second));
     const bool has_third = s.third >= 0 && s.third < count && s.third != s.first && s.third != s.second;
     if (s.third == -1 ? s.ratio != 0 : !(has_third && s.ratio >= 0 && s.ratio <= 1))
-      place.add(numbered("spring", i), "third " + std::to_string(s.third) + ", ratio " + shortest(s.ratio));
+      place.add(numbered("spring", i),
+                (s.third == -1 ? "no third vertex" : "third " + point_name(scene, names, s.third)) + ", ratio " +
+                    shortest(s.ratio));
     const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
     if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
       range.add(numbered("spring", i), shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
   }
 }
 
-void check_excluded(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+void check_excluded(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemSort unknown(problems, limit, "does not name two vertices", "give two different vertices of the scene");
   const auto count = static_cast<Index>(scene.mesh.positions.size());
   for (std::size_t i = 0; i < scene.excluded_pairs.size(); ++i) {
     const auto& [a, b] = scene.excluded_pairs[i];
-    if (std::min(a, b) < 0 || std::max(a, b) >= count || a == b) unknown.add(numbered("excluded pair", i), std::to_string(a) + ", " + std::to_string(b));
+    if (std::min(a, b) >= 0 && std::max(a, b) < count && a != b) continue;
+    unknown.add(numbered("excluded pair", i), point_name(scene, names, a) + ", " + point_name(scene, names, b));
   }
 }
 
@@ -191,11 +203,12 @@ bool check_lengths(std::vector<Problem>& problems, const Scene& scene) {
   return check("velocities", scene.velocities.size()) && rest;
 }
 
-void check_velocities(std::vector<Problem>& problems, const Scene& scene, std::size_t limit) {
+void check_velocities(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
+                      std::size_t limit) {
   ProblemSort bad(problems, limit, "velocity is not finite or above 2²⁰ m/s", "give three finite numbers [m/s]");
   const auto usable = [](const Vec3& v) { return is_finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most_length; };
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
-    if (!usable(scene.velocities[v])) bad.add(numbered("vertex", v), printed(scene.velocities[v]));
+    if (!usable(scene.velocities[v])) bad.add(names.vertex(static_cast<Index>(v)), printed(scene.velocities[v]));
   }
   if (!usable(scene.gravity)) bad.add("gravity", printed(scene.gravity));
 }
@@ -203,21 +216,26 @@ void check_velocities(std::vector<Problem>& problems, const Scene& scene, std::s
 }  // namespace
 
 std::vector<Problem> validate(const Scene& scene, std::size_t limit) {
-  std::vector<Problem> problems = validate(scene.mesh, limit);
+  return validate(scene, limit, ElementNames(scene));
+}
+
+std::vector<Problem> validate(const Scene& scene, std::size_t limit, const ElementNames& names) {
+  std::vector<Problem> problems = validate(scene.mesh, limit, names);
   check_names(problems, scene);
   check_settings(problems, scene.settings);
   check_materials(problems, scene);
   if (scene.mesh.positions.empty()) return problems;
   std::vector<Problem> known;
-  const bool indices_are_valid = check_indices(scene.mesh, 0, known);
+  const bool indices_are_valid = check_indices({scene.mesh, names, 0, known});
   const bool has_rest = check_lengths(problems, scene) && scene.rest_positions != scene.mesh.positions;
-  if (indices_are_valid && has_rest) check_positions(scene.mesh, scene.rest_positions, "rest ", limit, problems);
-  check_velocities(problems, scene, limit);
+  if (indices_are_valid && has_rest)
+    check_positions({scene.mesh, names, limit, problems}, scene.rest_positions, "rest ");
+  check_velocities(problems, scene, names, limit);
   const bool covered = check_cover(problems, scene);
-  if (covered && indices_are_valid) check_ownership(problems, scene, limit);
-  check_motions(problems, scene, covered, limit);
-  check_springs(problems, scene, limit);
-  check_excluded(problems, scene, limit);
+  if (covered && indices_are_valid) check_ownership(problems, scene, names, limit);
+  check_motions(problems, scene, names, covered, limit);
+  check_springs(problems, scene, names, limit);
+  check_excluded(problems, scene, names, limit);
   return problems;
 }
 

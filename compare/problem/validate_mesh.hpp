@@ -8,14 +8,22 @@
 
 namespace ogc::compare {
 
-inline constexpr double least_length = 0x1p-20;  ///< [m] of a coordinate or length that is not zero (method.md §2)
-inline constexpr double most_length = 0x1p20;    ///< [m]
+inline constexpr double least_length = 0x1p-20;  ///< [m] of an edge (method.md §2)
+inline constexpr double most_length = 0x1p20;    ///< [m] of an edge, and of a coordinate
+
+/// What is checked, what its elements are called, and where problems go: at most `limit` of each sort, then a count.
+struct MeshCheck {
+  const Mesh& mesh;
+  const ElementNames& names;
+  std::size_t limit;
+  std::vector<Problem>& problems;
+};
 
 /// Whether all faces name existing, distinct vertices; lists those that do not.
-bool check_indices(const Mesh& mesh, std::size_t limit, std::vector<Problem>& problems);
+bool check_indices(const MeshCheck& check);
 
 /// Coordinates, edge lengths and areas of the mesh's faces on `positions`; indices are valid. `kind` stands before the nouns: "" or "rest ".
-void check_positions(const Mesh& mesh, const std::vector<Vec3>& positions, const std::string& kind, std::size_t limit, std::vector<Problem>& problems);
+void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind);
 
 /// Whether all three coordinates are finite.
 bool is_finite(const Vec3& v);

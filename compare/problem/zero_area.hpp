@@ -5,7 +5,9 @@
 
 namespace ogc::compare {
 
-/// Whether the triangle has exactly zero area. Coordinates are zero or within 2⁻²⁰ … 2²⁰ m, so that no product overflows or loses bits to underflow.
+/// Whether the triangle has exactly zero area. Coordinates are zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m, which those of single
+/// precision and those of meshes without dust are: no product overflows, and its rounding error, a multiple of 2⁻¹⁰⁰⁴,
+/// underflows not.
 bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace ogc::compare

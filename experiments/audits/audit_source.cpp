@@ -15,6 +15,8 @@
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/auditor.hpp"
+#include "experiments/mesh_input.hpp"
+#include "experiments/output.hpp"
 
 namespace ogc::experiments {
 
@@ -37,7 +39,7 @@ class RunSource : public AuditSource {
   AuditedState next() override {
     const compare::Frame frame = reader_.frame(next_);
     AuditedState state{
-        name(next_++), topology_, compare::to_double(frame.positions), judge_.audit(frame.positions), {}, ""};
+        name(next_++), topology_, compare::to_double(frame.positions), judge_.audit(frame.positions), {}, judge_.names(), ""};
     state.distances = judge_.smallest_distances(frame.positions);
     state.text = judge_.describe(state.result);
     return state;
@@ -74,16 +76,27 @@ class SequenceSource : public AuditSource {
   std::string name(std::size_t i) const override { return frames_->name(i); }
   AuditedState next() override {
     const std::string its_name = name(next_++);
-    compare::Mesh mesh = frames_->next();
+    compare::LoadedMesh loaded = frames_->next();
+    compare::Mesh& mesh = loaded.mesh;
+    say(loaded);
     take_topology(mesh, its_name);
-    AuditedState state{its_name, topology_, std::move(mesh.positions), {}, {}, ""};
+    AuditedState state{its_name, topology_, std::move(mesh.positions), {}, {}, {}, ""};
+    if (!loaded.source.file.empty()) state.names = compare::ElementNames(std::move(loaded.source));
     state.result = compare::audit(*topology_, state.positions, {}, {.limit = limit_});
     state.distances = compare::smallest_distances(*topology_, state.positions);
-    state.text = compare::describe(state.result, *topology_);
+    state.text = compare::describe(state.result, *topology_, state.names);
     return state;
   }
 
  private:
+  /// Of the first frame that there is something to say of: the others are most probably alike.
+  void say(const compare::LoadedMesh& loaded) {
+    if (has_spoken_) return;
+    const std::vector<std::string> words = words_about(loaded, "judged as they stand");
+    for (const std::string& word : words) log_line("ogc: " + word + (size() > 1 ? " (said of this frame alone)" : ""));
+    has_spoken_ = !words.empty();
+  }
+
   /// Frames of most sequences share it.
   void take_topology(const compare::Mesh& mesh, const std::string& its_name) {
     const bool is_known = topology_ && static_cast<std::size_t>(topology_->vertex_count) == mesh.positions.size() &&
@@ -99,6 +112,7 @@ class SequenceSource : public AuditSource {
   std::size_t limit_, next_ = 0;
   std::shared_ptr<const compare::Topology> topology_;
   std::vector<compare::Edge> loose_edges_;
+  bool has_spoken_ = false;
 };
 
 /// Without an exception for loops of links and names that are too long: whoever opens the path says what is wrong with
@@ -139,9 +153,16 @@ FrameReader reader_of(const std::string& path) {
   return found == readers.end() ? nullptr : found->second;
 }
 
+/// Positions of another file belong to all vertices of this one.
+compare::MeshOptions of_frames(compare::MeshOptions options) {
+  options.keep_unused = true;
+  options.weld = false;
+  return options;
+}
+
 std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) {
   std::optional<compare::Mesh> topology;
-  if (!request.topology.empty()) topology = compare::read_mesh(request.topology);
+  if (!request.topology.empty()) topology = compare::load_mesh(request.topology, of_frames(request.meshes)).mesh;
   const std::string& first = request.paths.front();
   if (const FrameReader reader = request.paths.size() == 1 ? reader_of(first) : nullptr)
     return reader(first, topology ? &*topology : nullptr);
@@ -150,7 +171,7 @@ std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) 
                      " belongs to one .npz, .npy or .pc2 file; meshes bring triangles of their own");
   std::vector<fs::path> files;
   if (request.paths.size() == 1 && type_of(first) == fs::file_type::directory) {
-    files = compare::mesh_files_in(first, {".obj", ".ply", ".vtp"});
+    files = compare::mesh_files_in(first, {".obj", ".ply", ".vtp", ".stl", ".off", ".gltf", ".glb"});
   } else {
     for (const std::string& path : request.paths) add_matching(path, files);
   }
@@ -159,7 +180,9 @@ std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) 
   for (const fs::path& file : files)
     if (files.size() > 1 && reader_of(file.string()) != nullptr)
       throw InputError(file.string() + ": holds many frames; name it alone");
-  return compare::mesh_files_sequence(std::move(files), compare::read_mesh);
+  return compare::mesh_files_sequence(std::move(files), [options = request.meshes](const fs::path& file) {
+    return compare::load_mesh(file, options);
+  });
 }
 
 }  // namespace

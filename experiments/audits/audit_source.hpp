@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "compare/files/polygon_mesh.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/smallest_distances.hpp"
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
 
 namespace ogc::experiments {
@@ -19,7 +21,8 @@ struct AuditedState {
   std::vector<compare::Vec3> positions;  ///< [m]
   compare::AuditResult result;
   compare::SmallestDistances distances;
-  std::string text;  ///< the listed intersections in words, one line each
+  compare::ElementNames names;  ///< as the mesh's file counts
+  std::string text;             ///< the listed intersections in words, one line each
 };
 
 class AuditSource {
@@ -37,6 +40,7 @@ struct AuditRequest {
   std::vector<std::string>
       paths;             ///< a run folder, a folder of meshes, meshes, patterns of them, one .npz, .npy or .pc2
   std::string topology;  ///< mesh of the triangles, for files that hold positions alone; may be empty
+  compare::MeshOptions meshes;  ///< what is taken of mesh files
   std::size_t limit = compare::AuditOptions{}.limit;  ///< intersections that are listed of a state
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
 #include "fast/kernels/rest_state.hpp"
 
@@ -71,8 +72,10 @@ void add_masses(const compare::Scene& scene, RestState& rest) {
   for (std::size_t v = 0; v < mass.size(); ++v) {
     rest.mass.push_back(static_cast<float>(mass[v]));
     if (rest.mobility[v] == Mobility::free && !(rest.mass[v] > 0)) {
-      throw compare::InputError("vertex " + std::to_string(v) + " of body '" + scene.bodies[at(rest.body[v])].name +
-                                "' moves but has no mass: give it a triangle and a density above zero, or hold it by a motion or a fixed body");
+      throw compare::InputError(
+          compare::ElementNames(scene).vertex(static_cast<compare::Index>(v)) +
+          " moves but has no mass: give it a triangle and a density above zero, "
+          "or hold it by a motion or a fixed body");
     }
   }
 }

@@ -38,12 +38,10 @@ bool meet(const Segment& segment, const std::array<Point, 3>& corner) {
 
 }  // namespace
 
-std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting) {
-  const compare::Edge& e = topology.edges[static_cast<std::size_t>(meeting.edge)];
-  const compare::Triangle& t = topology.triangles[static_cast<std::size_t>(meeting.triangle)];
-  const auto number = [](Index i) { return std::to_string(i); };
-  return "edge " + number(meeting.edge) + " (vertices " + number(e[0]) + ", " + number(e[1]) + ") and triangle " + number(meeting.triangle) + " (vertices " +
-         number(t[0]) + ", " + number(t[1]) + ", " + number(t[2]) + ")";
+std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting,
+                     const compare::ElementNames& names) {
+  return names.edge(topology.edges[static_cast<std::size_t>(meeting.edge)]) + " and " +
+         names.triangle(meeting.triangle, topology.triangles[static_cast<std::size_t>(meeting.triangle)]);
 }
 
 std::vector<EdgeThroughTriangle> intersections(const PairMesh& mesh, const State& x) {

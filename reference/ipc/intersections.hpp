@@ -11,8 +11,9 @@ struct EdgeThroughTriangle {
   compare::Index edge = -1, triangle = -1;
   friend auto operator<=>(const EdgeThroughTriangle&, const EdgeThroughTriangle&) = default;
 };
-/// "edge 12 (vertices 3, 7) and triangle 40 (vertices 1, 2, 5)"
-std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting);
+/// "edge (vertices 3, 7) and triangle 40 (vertices 1, 2, 5)"
+std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting,
+                     const compare::ElementNames& names = {});
 
 /// Ascending; touching counts. Pairs inside one rigid group are left out.
 std::vector<EdgeThroughTriangle> intersections(const PairMesh& mesh, const State& x);

@@ -118,13 +118,10 @@ std::array<Index, 4> vertices_of(const Topology& topology, const PrimitivePair& 
   return {pair.first, t[0], t[1], t[2]};
 }
 
-std::string describe(const Topology& topology, const PrimitivePair& pair) {
-  const auto v = vertices_of(topology, pair);
-  const auto number = [](Index i) { return std::to_string(i); };
+std::string describe(const Topology& topology, const PrimitivePair& pair, const compare::ElementNames& names) {
   if (pair.sides == ContactSides::edge_edge)
-    return "edge " + number(pair.first) + " (vertices " + number(v[0]) + ", " + number(v[1]) + ") and edge " + number(pair.second) + " (vertices " +
-           number(v[2]) + ", " + number(v[3]) + ")";
-  return "vertex " + number(v[0]) + " and triangle " + number(pair.second) + " (vertices " + number(v[1]) + ", " + number(v[2]) + ", " + number(v[3]) + ")";
+    return names.edge(topology.edges[at(pair.first)]) + " and " + names.edge(topology.edges[at(pair.second)]);
+  return names.vertex(pair.first) + " and " + names.triangle(pair.second, topology.triangles[at(pair.second)]);
 }
 
 std::array<Triple<double>, 4> corners_of(const std::array<Index, 4>& vertex, const State& x) {

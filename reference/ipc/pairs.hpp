@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
 #include "reference/ipc/barrier.hpp"
 #include "reference/solvers/newton_potential.hpp"
@@ -29,7 +30,8 @@ std::array<compare::Index, 4> vertices_of(const compare::Topology& topology, con
 /// What `values` holds for four vertices.
 std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& vertex, const State& values);
 /// "vertex 3 and triangle 7 (vertices 4, 5, 6)"
-std::string describe(const compare::Topology& topology, const PrimitivePair& pair);
+std::string describe(const compare::Topology& topology, const PrimitivePair& pair,
+                     const compare::ElementNames& names = {});
 
 /// All pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of each other on the straight ways from `from` to
 /// `to`: each box holds its primitive's whole way. Ascending; threads change nothing.

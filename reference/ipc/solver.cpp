@@ -98,11 +98,13 @@ auto IpcSolver::timed(IpcStage stage, Work work) {
 }
 
 void IpcSolver::check_start(const State& x) const {
+  const compare::ElementNames names(scene_);
   std::vector<std::string> wrong;
-  for (const EdgeThroughTriangle& meeting : intersections(mesh_, x)) wrong.push_back(describe(topology_, meeting) + " intersect");
+  for (const EdgeThroughTriangle& meeting : intersections(mesh_, x))
+    wrong.push_back(describe(topology_, meeting, names) + " intersect");
   if (wrong.empty())
     for (const PrimitivePair& pair : barriers_at(mesh_, shape_, near_pairs(mesh_, x, x, shape_.reach()), x).touching)
-      wrong.push_back(describe(topology_, pair) + " have no gap");
+      wrong.push_back(describe(topology_, pair, names) + " have no gap");
   if (wrong.empty()) return;
   const std::string beyond = shape_.thickness > 0 ? " beyond the thickness" : "";
   std::string text = "IPC can't start: barriers keep gaps open and can't make any" + beyond + ". Move apart:";
@@ -227,8 +229,11 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
     const double share = searched(*p, bound);
     if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(*p);
     if (share < smallest_share) {
-      note((descend_ ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) + " of itself" +
-           (bound.pair ? ", held by " + describe(topology_, *bound.pair) : std::string()) + (descend_ ? "" : "; the next one follows the gradient"));
+      note((descend_ ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) +
+           " of itself" +
+           (bound.pair ? ", held by " + describe(topology_, *bound.pair, compare::ElementNames(scene_))
+                       : std::string()) +
+           (descend_ ? "" : "; the next one follows the gradient"));
       if (descend_) return Outcome::stuck;
       descend_ = true;
     } else {
@@ -352,7 +357,8 @@ void IpcSolver::adapt_stiffness() {
   const std::optional<PrimitivePair> pair = guard_.came_closer(set_);
   if (!pair || settings_.ipc_stiffness > 0) return;
   if (stiffness_ >= bounds_.upper)
-    note("κ is at its bound of " + number(bounds_.upper) + " J/m⁴ while " + describe(topology_, *pair) + " still come closer; it stays there");
+    note("κ is at its bound of " + number(bounds_.upper) + " J/m⁴ while " +
+         describe(topology_, *pair, compare::ElementNames(scene_)) + " still come closer; it stays there");
   stiffness_ = std::min(bounds_.upper, 2 * stiffness_);
 }
 

@@ -8,13 +8,14 @@
 using namespace ogc;
 using namespace ogc::tests;
 
-// The edges from vertex 3 (below) to 4 and to 5 (above) cross the plane z = 0 inside triangle 0; edges are sorted by vertices: (3,4) is 3, (3,5) is 4.
+// The edges from vertex 3 (below) to 4 and to 5 (above) cross the plane z = 0 inside triangle 0; OBJ counts from 1.
 TEST_CASE("ogc audit of crossing triangles exits 1 and lists the pairs", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("crossing.obj", crossing_triangles_obj).string();
   const ProgramResult text = run_ogc("audit " + mesh), result = run_ogc("audit --json " + mesh);
   CHECK(text.status == 1);
-  CHECK(contains(text.out, {"edge 3", "edge 4", "triangle 0", "2 intersections"}));
+  CHECK(contains(text.out, {"edge (vertices 4, 5; lines 4, 5) meets face 1 (vertices 1, 2, 3; line 7)",
+                            "edge (vertices 4, 6; lines 4, 6)", "2 intersections"}));
   CHECK(result.status == 1);
   const nlohmann::json json = nlohmann::json::parse(result.out);
   CHECK(json.at("clean") == false);
@@ -45,7 +46,9 @@ TEST_CASE("ogc audit gives the smallest distances with their primitives, in word
   CHECK(distances.at("edge_edge").at("edge") == 0);
   CHECK(distances.at("edge_edge").at("other_edge") == 3);
   CHECK(distances.at("edge_edge").at("other_edge_vertices") == nlohmann::json{3, 4});
-  CHECK(contains(run_ogc("audit " + mesh).out, {"0.001 m, vertex 0 and triangle 1 (vertices 3, 4, 5)", "0.001 m, edge 0 (vertices 0, 1) and edge 3 (vertices 3, 4)"}));
+  CHECK(contains(run_ogc("audit " + mesh).out,
+                 {"0.001 m, vertex 1 (line 1) and face 2 (vertices 4, 5, 6; line 8)",
+                  "0.001 m, edge (vertices 1, 2; lines 1, 2) and edge (vertices 4, 5; lines 4, 5)"}));
 }
 
 TEST_CASE("ogc audit of a single triangle says that there is no pair", "[unit]") {

@@ -39,7 +39,7 @@ TEST_CASE("what can't be resumed to the same bits is refused, and the message sa
   };
   refused({"finished run (3 steps)", "--from-state", "frame_000003.h5"});
   rewritten("run.json", "\"finished\"", "\"running\"");
-  refused({"leave out: SCENE|FILE.json, --steps"}, " --steps 9 -- twist");
+  refused({"leave out: SCENE|FILE.json|MESH, --steps"}, " --steps 9 -- twist");
   const std::string scene = compare::read_bytes(run / "scene/cloth_on_sphere.json"), checkpoint = compare::read_bytes(run / "checkpoint.h5"),
                     manifest = compare::read_bytes(run / "run.json");
   rewritten("scene/cloth_on_sphere.json", "\"steps\": 3", "\"steps\": 4");

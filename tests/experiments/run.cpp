@@ -141,7 +141,9 @@ TEST_CASE("a start that intersects exits 2 and names each pair and body, before 
   const ProgramResult result = run_ogc("run " + file + " --out " + (folder / "run").string());
   INFO(result.err);
   CHECK(result.status == 2);
-  CHECK(contains(result.err, {"2 intersections", "edge 3", "edge 4", "triangle 0", "lower", "upper"}));
+  CHECK(contains(result.err,
+                 {"2 intersections", "edge of body 'upper' (vertices 0, 1; ", "edge of body 'upper' (vertices 0, 2; ",
+                  "face 0 of body 'lower' (vertices 0, 1, 2; ", "lower.ply", "upper.ply"}));
   CHECK(!std::filesystem::exists(folder / "run"));
 }
 

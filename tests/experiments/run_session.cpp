@@ -118,8 +118,10 @@ TEST_CASE("a run without fault audits what it was asked to and stores every fram
 }
 
 TEST_CASE("the audit catches each planted fault, names it, and keeps the last good state", "[property]") {
-  const auto [fault, words] = GENERATE(table<Fault, std::string>({
-      {Fault::crossing, "upper"}, {Fault::beyond_bound, "vertex 4"}, {Fault::unsafe_bound, "vertex 5"}}));
+  const auto [fault, words] =
+      GENERATE(table<Fault, std::string>({{Fault::crossing, "upper"},
+                                          {Fault::beyond_bound, "vertex 1 of body 'upper' (4 in the scene)"},
+                                          {Fault::unsafe_bound, "vertex 2 of body 'upper' (5 in the scene)"}}));
   const bool beside = GENERATE(false, true);
   const tests::TemporaryFolder folder;
   const experiments::RunSummary summary = run(fault, folder, experiments::AuditMode::every, beside);

@@ -1,4 +1,5 @@
-// What a suggestion promises is an inequality between its numbers and the mesh; each is checked on meshes that differ in one respect.
+// What a suggestion promises is an inequality between its numbers and the mesh; each is checked on meshes that differ
+// in one respect.
 #include "experiments/suggestion.hpp"
 
 #include <cmath>
@@ -31,7 +32,8 @@ compare::Mesh layers(double gap) {
 
 }  // namespace
 
-TEST_CASE("a suggested radius is below a quarter of the median edge and, where that is a twentieth or more, not above the smallest gap", "[unit]") {
+TEST_CASE("a suggested radius is below a quarter of the median edge and not above gaps of a twentieth and more",
+          "[unit]") {
   const double edge = 1.0 / 19;
   const auto radius = [](const compare::Mesh& mesh) { return suggest(mesh, layer_cloth(), 1).contact_radius; };
   CHECK(radius(sheet()).value == Approx(edge / 4).epsilon(0.1));
@@ -47,7 +49,8 @@ TEST_CASE("the suggested stiffness holds ten layers and stops a falling vertex w
   const compare::Material cloth = layer_cloth();
   for (const double fall : {0.0, 0.01, 1.0, 50.0}) {
     const Suggestion found = suggest(sheet(), cloth, fall);
-    const double mass = cloth.density / 400, half = found.contact_radius.value / 2, stiffness = found.contact_stiffness.value;
+    const double mass = cloth.density / 400, half = found.contact_radius.value / 2,
+                 stiffness = found.contact_stiffness.value;
     INFO(fall << " m");
     CHECK(stiffness * half >= 10 * mass * gravity);
     CHECK(stiffness * half * half >= mass * std::pow(speed_after(fall), 2) * (1 - 1e-9));
@@ -55,12 +58,13 @@ TEST_CASE("the suggested stiffness holds ten layers and stops a falling vertex w
   }
 }
 
-TEST_CASE("a suggested step is at most a hundredth of a second, and at the speed of the fall four detections are enough for it", "[property]") {
+TEST_CASE("four detections are enough for a suggested step at the speed of the fall", "[property]") {
   for (const double fall : {0.0, 0.01, 1.0, 50.0}) {
     const Suggestion found = suggest(sheet(), layer_cloth(), fall);
     INFO(fall << " m");
     CHECK(found.time_step.value <= 0.01);
-    CHECK(found.time_step.value * speed_after(fall) <= 4 * compare::Settings{}.bound_relaxation * found.query_radius.value * (1 + 1e-9));
+    CHECK(found.time_step.value * speed_after(fall) <=
+          4 * compare::Settings{}.bound_relaxation * found.query_radius.value * (1 + 1e-9));
     CHECK(found.iterations.value >= 10);
     CHECK(found.iterations.value <= 100);
   }
@@ -81,6 +85,12 @@ TEST_CASE("suggested numbers scale with the mesh, and are legal for the smallest
     CHECK(found.contact_radius.value == Approx(std::max(0x1p-20, scale / 76)).epsilon(0.1));
     CHECK(scene.bodies[0].material.contact_stiffness == Approx(found.contact_stiffness.value));
   }
+}
+
+TEST_CASE("where a tenth of the edges is far shorter than most, they decide", "[unit]") {
+  const Suggestion found = suggest(cylinder({.around = 100, .along = 2, .cap = 0}, 0.5, 1, {}), layer_cloth(), 1);
+  CHECK(found.edge_length == Approx(2 * std::sin(std::acos(-1.0) / 100)).epsilon(0.01));
+  CHECK_THAT(found.contact_radius.reason, Catch::Matchers::Contains("a tenth of the edges"));
 }
 
 TEST_CASE("a mesh without a triangle gets no suggestion", "[unit]") {

@@ -55,7 +55,7 @@ class FrameArray : public MeshSequence {
   std::size_t size() const override { return layout_.frames; }
   std::string name(std::size_t i) const override { return "frame " + std::to_string(i); }
 
-  Mesh next() override {
+  LoadedMesh next() override {
     const std::string frame = name(next_++);
     std::string bytes(layout_.frame_bytes(), '\0');
     source_(bytes, frame);
@@ -71,7 +71,7 @@ class FrameArray : public MeshSequence {
           !std::isfinite(mesh.positions[v].z))
         throw InputError(where_ + ": " + frame + ": vertex " + std::to_string(v) + ": a coordinate is not finite");
     }
-    return mesh;
+    return {std::move(mesh), {}, {}};
   }
 
  private:

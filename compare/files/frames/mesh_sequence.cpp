@@ -18,7 +18,7 @@ class MeshFiles : public MeshSequence {
       : files_(std::move(files)), read_(std::move(read)) {}
   std::size_t size() const override { return files_.size(); }
   std::string name(std::size_t i) const override { return files_.at(i).string(); }
-  Mesh next() override { return read_(files_.at(next_++)); }
+  LoadedMesh next() override { return read_(files_.at(next_++)); }
 
  private:
   std::vector<std::filesystem::path> files_;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/problem/mesh.hpp"
+#include "compare/files/polygon_mesh.hpp"
 
 namespace ogc::compare {
 
@@ -18,11 +18,11 @@ class MeshSequence {
   /// Of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
   virtual std::string name(std::size_t i) const = 0;
   /// The next frame; the first call reads frame 0, at most size() calls are allowed. Every index names a vertex, every
-  /// coordinate is finite. Throws InputError that names file, frame, and byte or element.
-  virtual Mesh next() = 0;
+  /// coordinate is finite. An array's frame has no source: its elements are counted from 0. Throws InputError that names file, frame, and byte or element.
+  virtual LoadedMesh next() = 0;
 };
 
-using MeshReader = std::function<Mesh(const std::filesystem::path&)>;
+using MeshReader = std::function<LoadedMesh(const std::filesystem::path&)>;
 
 /// One mesh a file, each with triangles of its own, in the order given.
 std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::path> files, MeshReader read);

@@ -154,7 +154,7 @@ TEST_CASE("bad keyframes are named with their file, their path and a remedy", "[
   SECTION("a position that is none") {
     Keyframes bad = good;
     bad.positions[3].z = std::numeric_limits<float>::quiet_NaN();
-    CHECK_THAT(with(bad), Contains("motion 'path', keyframe 1, vertex 1: position is not finite"));
+    CHECK_THAT(with(bad), Contains("motion 'path', keyframe 1, vertex 1 of body 'sheet' (") && Contains("): position is not finite"));
   }
   SECTION("velocities besides") {
     edited.content["motions"][0]["velocity"] = {0, 1, 0};
@@ -167,15 +167,16 @@ TEST_CASE("bad stitches and excluded pairs are named with their path and a remed
   json& content = edited.content;
   SECTION("a ratio beyond the edge") {
     content["springs"][2]["ratio"] = 1.5;
-    CHECK_THAT(edited.error(), Contains("spring 2: has no such point on the line of its second and third vertex: third 6, ratio 1.5"));
+    CHECK_THAT(edited.error(), Contains("spring 2: has no such point on the line of its second and third vertex: third vertex 2 of body 'floor' (") &&
+                                       Contains("6 in the scene), ratio 1.5"));
   }
   SECTION("a ratio without a third vertex") {
     content["springs"][2].erase("third");
-    CHECK_THAT(edited.error(), Contains("spring 2") && Contains("third -1"));
+    CHECK_THAT(edited.error(), Contains("spring 2") && Contains("no third vertex"));
   }
   SECTION("an edge that is none") {
     content["springs"][2]["third"] = content["springs"][2]["second"];
-    CHECK_THAT(edited.error(), Contains("spring 2") && Contains("third 5"));
+    CHECK_THAT(edited.error(), Contains("spring 2") && Contains("third vertex 1 of body 'floor'"));
   }
   SECTION("a pair of unknown bodies") {
     content["excluded_pairs"][0]["bodies"][1] = "flor";
@@ -191,7 +192,7 @@ TEST_CASE("bad stitches and excluded pairs are named with their path and a remed
   }
   SECTION("a vertex beside itself") {
     content["excluded_pairs"][1]["vertices"][0] = {1, 1};
-    CHECK_THAT(edited.error(), Contains("excluded pair 2: does not name two vertices: 1, 1"));
+    CHECK_THAT(edited.error(), Contains("excluded pair 2: does not name two vertices: vertex 1 of body 'sheet' ("));
   }
 }
 
@@ -361,7 +362,7 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
   }
   SECTION("rest mesh with other faces") {
     content["bodies"][0]["rest_mesh"] = content["bodies"][1]["mesh"];
-    CHECK_THAT(edited.error(), Contains("/bodies/0/rest_mesh: has other vertices, triangles or edges"));
+    CHECK_THAT(edited.error(), Contains("/bodies/0/rest_mesh: has other vertices, faces or edges"));
   }
   SECTION("two sorts of velocity") {
     content["bodies"][0]["velocity"] = {0, 0, 0};
@@ -385,7 +386,8 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
   }
   SECTION("fixed vertex moved") {
     content["motions"][0]["vertices"][0] = {{"body", "floor"}};
-    CHECK_THAT(edited.error(), Contains("small.json: motion 'left', vertex 4: moves a vertex of a fixed body"));
+    CHECK_THAT(edited.error(), Contains("small.json: motion 'left', vertex 0 of body 'floor' (") &&
+                                   Contains("4 in the scene): moves a vertex of a fixed body"));
   }
   SECTION("several problems at once") {
     content["settings"]["lanes"] = 3;
@@ -401,19 +403,31 @@ TEST_CASE("what is wrong with a mesh is said of the body that names it", "[unit]
   const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
   SECTION("duplicate face") {
     write({corners, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}}, {}});
-    CHECK_THAT(edited.error(), Contains("/bodies/0/mesh (small_sheet.ply): triangle 2: has the same vertices as another triangle: triangle 0"));
+    CHECK_THAT(
+        edited.error(),
+        Contains(
+            "/bodies/0/mesh (small_sheet.ply): face 2 (vertices 2, 1, 0): has the same vertices as another triangle: face 0 (vertices 0, 1, 2)"));
   }
   SECTION("degenerate triangle") {
     write({{{0, 0, 0}, {1, 0, 1}, {2, 0, 2}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}, {}});
-    CHECK_THAT(edited.error(), Contains("triangle 0: triangle of zero area"));
+    CHECK_THAT(edited.error(), Contains("face 0 (vertices 0, 1, 2): triangle of zero area"));
   }
   SECTION("degenerate edge") {
     write({{{0, 0, 0}, {1, 0, 1}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 3}, {0, 2, 3}}, {{1, 2}}});
-    CHECK_THAT(edited.error(), Contains("loose edge 0: edge of zero length: vertices 1 and 2"));
+    CHECK_THAT(edited.error(), Contains("loose edge 0 (vertices 1, 2): edge of zero length: vertices 1, 2"));
   }
-  SECTION("isolated vertex") {
-    write({corners, {{0, 1, 2}}, {}});
-    CHECK_THAT(edited.error(), Contains("vertex 3: belongs to no triangle"));
+  SECTION("an unused vertex is left out, and nothing may name it") {
+    write({{{5, 5, 5}, corners[1], corners[2], corners[3]}, {{1, 2, 3}}, {}});
+    CHECK_THAT(edited.error(), Contains("/motions/0/vertices/0/indices/0: is 0, which no face or edge of ") &&
+                                   Contains("small_sheet.ply uses"));
+    edited.content["motions"] = json::array();
+    CHECK(edited.error() == "");
+    const SceneFile loaded = load_scene_file(edited.file());
+    CHECK(loaded.scene.bodies[0].vertex_count == 3);
+    REQUIRE(loaded.notes.size() == 1);
+    CHECK_THAT(
+        loaded.notes[0],
+        Contains("small_sheet.ply: 1 vertex position that no face and no edge uses was left out, the first: vertex 0"));
   }
   SECTION("not a number") {
     write({{{0, 0, std::numeric_limits<double>::quiet_NaN()}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}, {}});
@@ -427,7 +441,8 @@ TEST_CASE("what is wrong with a mesh is said of the body that names it", "[unit]
     write({{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 0, 1 + 0x1p-19}}, {{0, 1, 2}, {0, 2, 3}}, {}});
     CHECK(edited.error().empty());
     write({{{512, 0, 0}, {513, 0, 0}, {513, 0, 1024}, {513, 0, 1024 + 0x1p-19}}, {{0, 1, 2}, {0, 2, 3}}, {}});
-    CHECK_THAT(edited.error(), Contains("small.json: triangle 1: edge of zero length"));
+    CHECK_THAT(edited.error(), Contains("small.json: face 1 of body 'sheet' (vertices 0, 2, 3; ") &&
+                                   Contains("small_sheet.ply): edge of zero length: vertices 2, 3"));
   }
 }
 

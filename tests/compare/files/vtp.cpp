@@ -48,7 +48,7 @@ TEST_CASE("a mesh that this program wrote as VTP comes back bit for bit", "[unit
   const ogc::tests::Scratch scratch;
   const std::string bytes =
       vtp_bytes({.mesh = mesh, .vertex_numbers = {4, 5, 6, 7}, .cell_numbers = {1, 2, 3}, .cell_counts = {1, 0, 1}});
-  CHECK(parse_vtp(bytes, "labelled") == mesh);
+  CHECK(make_mesh(parse_vtp(bytes, "labelled")).mesh == mesh);
   CHECK_THROWS_WITH(write_mesh(scratch / "mesh.vtp", mesh), Contains(".obj or .ply"));
 }
 
@@ -57,8 +57,9 @@ TEST_CASE("pieces are put together, strips become triangles of one sense, lines 
   const std::string strip = cells("Strips", "0 1 3 2", "4"), line = cells("Lines", "2 1 0", "3"),
                     vertices = cells("Verts", "0 1", "1 2");
   const std::string colours = "<PointData>" + array("Float32", "colour", "0 0 0 1") + "</PointData>";
-  const Mesh found = parse_vtp(
+  const PolygonMesh polygons = parse_vtp(
       file(piece(square, colours + cells("Polys", "0 1 2", "3")) + piece(square, vertices + line + strip)), "pieces");
+  const Mesh found = make_mesh(polygons, {.keep_unused = true}).mesh;
   CHECK(found.positions.size() == 8);
   CHECK(found.triangles == std::vector<Triangle>{{0, 1, 2}, {4, 5, 7}, {5, 6, 7}});
   CHECK(found.loose_edges == std::vector<Edge>{{5, 6}, {4, 5}});
@@ -73,7 +74,7 @@ TEST_CASE("broken VTP files are refused with the array or cell and the reason", 
   refuses(file(piece(square + " 7", "")), "13 numbers are no rows of three");
   refuses(file(piece("0 0 0  1 nan 0", "")), "point 1: a coordinate is not finite");
   refuses(file(piece("0 0 zero", "")), "value 2, 'zero', is no number");
-  refuses(file(piece(square, cells("Polys", "0 1 2 3", "4"))), "polygon 0: has 4 corners; triangulate");
+  refuses(file(piece(square, cells("Polys", "0 1", "2"))), "polygon 0: has 2 corners; a face has three or more");
   refuses(file(piece(square, cells("Polys", "0 1 4", "3"))), "Polys 0: vertex 4 does not exist");
   refuses(file(piece(square, cells("Polys", "0 1 2", "4"))), "Polys 0: its offset");
   refuses(file("<Piece><Points><DataArray type=\"Text\" format=\"ascii\"/></Points></Piece>"), "unknown type 'Text'");

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/oracle/rational_intersection.hpp"
 
@@ -172,16 +173,39 @@ TEST_CASE("a state that is not finite, or of another mesh, is refused with the v
   CHECK_THROWS_AS(TwoTriangles({1, 1, 1}).audit(std::vector<Index>(3, 0)), InputError);
 }
 
-TEST_CASE("a description names kinds, numbers, vertices and bodies", "[unit]") {
+TEST_CASE("a description names kinds, numbers, vertices, bodies, files and lines", "[unit]") {
   const TwoTriangles mesh({1, 1, 0});
   AuditResult result = mesh.audit();
   CHECK(describe(result, mesh.topology) ==
-        "edge 3 (vertices 3, 4) meets triangle 0 (vertices 0, 1, 2)\n"
-        "edge 4 (vertices 3, 5) meets triangle 0 (vertices 0, 1, 2)\n"
+        "edge (vertices 3, 4) meets triangle 0 (vertices 0, 1, 2)\n"
+        "edge (vertices 3, 5) meets triangle 0 (vertices 0, 1, 2)\n"
         "vertex 3 lies on triangle 0 (vertices 0, 1, 2)\n");
   result.intersections.erase(result.intersections.begin(), result.intersections.begin() + 2);
-  CHECK(describe(result, mesh.topology, {"floor", "floor", "floor", "cloth", "cloth", "cloth"}) ==
-        "vertex 3 (body 'cloth') lies on triangle 0 (vertices 0, 1, 2; body 'floor')\nand 2 more\n");
+  Scene scene;
+  scene.bodies = {{.name = "floor", .vertex_count = 3, .triangle_count = 1, .material = {}},
+                  {.name = "cloth",
+                   .first_vertex = 3,
+                   .vertex_count = 3,
+                   .first_triangle = 1,
+                   .triangle_count = 1,
+                   .material = {}}};
+  CHECK(
+      describe(result, mesh.topology, ElementNames(scene)) ==
+      "vertex 0 of body 'cloth' (3 in the scene) lies on triangle 0 of body 'floor' (vertices 0, 1, 2)\nand 2 more\n");
+  MeshSource obj{.file = "x.obj",
+                 .first = 1,
+                 .vertices = {},
+                 .first_faces = {},
+                 .faces = {4, 6},
+                 .vertex_lines = {1, 2, 3, 4, 6, 7},
+                 .face_lines = {8, 9, 10, 11, 12, 13, 14},
+                 .edge_lines = {}};
+  CHECK(describe(result, mesh.topology, ElementNames(obj)) ==
+        "vertex 4 (line 4) lies on face 5 (vertices 1, 2, 3; line 12)\nand 2 more\n");
+  obj.shares_vertices = false;
+  obj.first_faces = {4, 4, 4, 6, 6, 6};
+  obj.face_lines.clear();
+  CHECK(describe(result, mesh.topology, ElementNames(obj)) == "a vertex of face 7 lies on face 5\nand 2 more\n");
   CHECK(describe(AuditResult{}, mesh.topology).empty());
 }
 

@@ -1,0 +1,52 @@
+// What a mesh file says before it is a mesh: faces of any number of corners, vertices that nothing uses, corners that
+// are written once a face. What is harmless becomes a mesh, with a word for each change; who wants none says so.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/problem/element_names.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+/// All indices are valid; positions are finite.
+struct PolygonMesh {
+  std::vector<Vec3> positions;     ///< [m]
+  std::vector<Index> corners;      ///< of all faces, one after the other, each in its own order
+  std::vector<Index> face_ends{};  ///< by face: end of its corners
+  std::vector<Edge> loose_edges;
+  MeshSource source;  ///< file, first number, lines; the numbers of vertices and faces are still the file's
+
+  std::size_t face_count() const { return face_ends.size(); }
+  std::span<const Index> face(std::size_t f) const {
+    const auto begin = static_cast<std::size_t>(f == 0 ? 0 : face_ends[f - 1]);
+    return std::span(corners).subspan(begin, static_cast<std::size_t>(face_ends[f]) - begin);
+  }
+  void add_face(std::span<const Index> face);
+};
+
+/// What may be changed. What may not be is refused, and the message names the option of `ogc` that allows it.
+struct MeshOptions {
+  bool triangulate = true;  ///< cut faces of four corners and more (compare/files/triangulate.hpp)
+  bool drop_unused = true;  ///< leave out vertices that belong to no face and no edge
+  bool weld = false;  ///< merge vertices with exactly equal coordinates; formats without shared vertices (STL, glTF)
+                      ///< are always welded
+  bool keep_unused = false;  ///< neither leave them out nor refuse them: where another file counts the vertices of this one
+  friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
+};
+
+/// A mesh, where its elements stand in the file, and a sentence for each thing that was taken otherwise than it stands
+/// there.
+struct LoadedMesh {
+  Mesh mesh;
+  MeshSource source;
+  std::vector<std::string> notes;
+};
+
+/// Throws InputError that names the first face or vertex that the options do not take, and faces that can't be cut.
+LoadedMesh make_mesh(PolygonMesh polygons, const MeshOptions& options = {});
+
+}  // namespace ogc::compare
