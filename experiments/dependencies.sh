@@ -69,8 +69,8 @@ find_python() {
 
 seconds_between_lines=30  # of a build that nobody watches
 
-# Says how far a build is until it is killed or the shell that began it ends: watch_build <log>. On a terminal one line that is
-# redrawn, else lines.
+# Says how far a build is until it is killed or the shell that began it ends: watch_build <log>. On a terminal one
+# line that is redrawn, else lines.
 watch_build() {
   local log=$1 begun=$SECONDS said=$SECONDS line count left
   while sleep 1 && kill -0 $$ 2>/dev/null; do

@@ -33,8 +33,10 @@ def relative(text):
 
 
 def manifests(folder):
-    """(run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts as one beside it."""
-    return [("_".join(path.parent.relative_to(folder).parts), manifest_at(path)) for path in sorted(folder.rglob("run.json"))]
+    """(run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts as one
+    beside it."""
+    paths = sorted(folder.rglob("run.json"))
+    return [("_".join(path.parent.relative_to(folder).parts), manifest_at(path)) for path in paths]
 
 
 def manifest_at(path):
@@ -131,7 +133,8 @@ def run_files(path, stem):
     """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
     manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
-    names = [name for name in ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT) if path.with_name(name).is_file()]
+    kept = ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT)
+    names = [name for name in kept if path.with_name(name).is_file()]
     rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
 

@@ -1,8 +1,8 @@
-"""Audits the stored states of a finished run exactly, after the run: what the audit takes is no part of the time that the run took.
+"""Audits the stored states of a finished run exactly, after the run: what the audit takes is no part of the run's time.
 Where time runs out it stops after the state at hand, and goes on with the next ones when it is called again.
 
-Usage: python3 -m paper_figures.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit status 0: no state of the
-run has an intersection, 1: one has, 2: it can't be audited, 75: time ran out. Python's own library is enough.
+Usage: python3 -m paper_figures.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit status 0: no
+state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Python's own library is enough.
 """
 
 import argparse
@@ -88,8 +88,11 @@ def audit(program, run, seconds=None):
 
 
 def in_words(found):
-    words = "no intersection" if found["clean"] else f"{found['intersections']} INTERSECTIONS, the first in step {found['intersecting_steps'][0]}"
-    return f"{found['states']} states audited in {found['seconds']:.1f} s: {words}" + ("" if found["complete"] else "; not all yet")
+    words = "no intersection"
+    if not found["clean"]:
+        words = f"{found['intersections']} INTERSECTIONS, the first in step {found['intersecting_steps'][0]}"
+    rest = "" if found["complete"] else "; not all yet"
+    return f"{found['states']} states audited in {found['seconds']:.1f} s: {words}{rest}"
 
 
 def main():

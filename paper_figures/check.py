@@ -4,7 +4,7 @@
   bands    otherwise it has as many steps, keeps the guarantee, and the means of its columns lie within results/bands.json of the accepted ones
   claims   a claim that the accepted results reproduce is reproduced again, and what was set as printed is so again; at
            a smaller scale than the claim's, its number lies in the claim's band, moved from the printed number to the
-           accepted one. Times are not held against an accepted run's: they say more about the hour than about the program
+           accepted one. Times are not held against an accepted run's: they say more about the hour than the program
 """
 
 import gzip

@@ -79,7 +79,7 @@ def parts(scale, backend):
                 "fig02_ipc": Part(figure("fig02"), tuple((window,) for window in half_turn_by_ipc), frames=2, gpu=False),
                 "fig20_ipc": Part(figure("fig20"), ((ipc,),), frames=25, gpu=False),
                 "fig17_double": Part(figure("fig17"), tuple((job,) for job in double), frames=0, last=1, gpu=False),
-                # A figure of the CPU, as its recipe says: a ratio of two solvers is of the same cores, and of nothing beside them.
+                # A figure of the CPU, as its recipe says: a ratio is of the same cores, and of nothing beside them.
                 "fig18_solvers": Part(f"fig18_solvers-{scale}-cpu", frames=21, solvers=solvers)}
     cores = os.cpu_count() or 1
     over = {name: Part(figure("growth"), (tuple(jobs),), frames=0, gpu=name == "growth_cuda", prepare=growth.scenes_of(jobs))
@@ -173,7 +173,8 @@ class Machine:
             print(f"{name:24} not begun: no time is left; call again to go on")
             return False
         try:
-            end = self.table(part, limit) if part.row else self.in_parts(part, limit) if part.solvers else self.chains(part, limit)
+            make_part = self.table if part.row else self.in_parts if part.solvers else self.chains
+            end = make_part(part, limit)
         except RunFailure as problem:
             end, words = FAILED, f"\n  {problem}"
         print(f"{name:24} {time.monotonic() - begun:7.1f} s  {end}{words}", flush=True)
@@ -203,7 +204,8 @@ def files_of(out, part):
     """What is packed of a part."""
     for folder in run_folders(out, part):
         frames = chosen_frames(folder, part)
-        yield from (folder / name for name in ("run.json", "steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT) if (folder / name).is_file())
+        names = ("run.json", "steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT)
+        yield from (folder / name for name in names if (folder / name).is_file())
         yield from frames
         if frames:
             yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())

@@ -189,7 +189,7 @@ def ended_of(path):
 
 
 class Evidence:
-    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program as well."""
+    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program too."""
 
     def __init__(self, folder=RESULTS, changed=False):
         folder = Path(folder)
@@ -244,7 +244,8 @@ class Evidence:
         a, b = alike[-1]
         first, second = value_of(a, spec["ratio"][0]), value_of(b, spec["ratio"][1])
         found = a.measured(first / second)
-        on = f"{a.manifest['device']} over {b.manifest['device']}" if spec.get("devices") == "differ" else f"each on {found.device}"
+        devices = found.device, b.manifest["device"]
+        on = f"each on {devices[0]}" if len(set(devices)) == 1 else " over ".join(devices)
         ended = max(a.manifest["ended"], b.manifest["ended"])
         return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on)
 

@@ -1,5 +1,5 @@
-"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames of the first run, and the ratios
-beside the paper's, each with the threads and devices that it is of.
+"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames of
+the first run, and the ratios beside the paper's, each with the threads and devices that it is of.
 
 VBD-OGC on CUDA is a fourth curve where its run lies in the folder (or with --cuda). Where a command may last so long only, the runs are made in parts:
 
@@ -107,7 +107,8 @@ def summary(runs):
 def unequal(runs):
     """A warning where solvers of the CPU ran on different numbers of threads; none where they ran on the same."""
     threads = sorted({run.manifest["device"] for run in runs if run.manifest["backend"] == "cpu"})
-    return [f"NOT ON THE SAME CORES ({', '.join(threads)}): a ratio of these says little about the methods"] if len(threads) > 1 else []
+    warning = f"NOT ON THE SAME CORES ({', '.join(threads)}): a ratio of these says little about the methods"
+    return [warning] if len(threads) > 1 else []
 
 
 def rows(runs):

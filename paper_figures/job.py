@@ -1,7 +1,7 @@
 """Runs the command of one step with a log; where it fails, shows the command and the log's last lines. Beside the log it writes how long the command took.
 
 Usage: python3 -m paper_figures.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is removed first, if it is a run folder.
-Where OGC_EVENTS names a file, it is told there when the step begins and how it ends (progress.py); its name is the log's.
+Where OGC_EVENTS names a file, it is told there when the step begins and how it ends (progress.py), by the log's name.
 """
 
 import json

@@ -1,11 +1,11 @@
-"""Runs the workflow and says in our own words how far it is: which figure, which step of how many, how long yet. What the workflow
-itself prints goes to RUNS/reproduce.log.
+"""Runs the workflow and says in our own words how far it is: which figure, which step of how many, how long yet. What the
+workflow itself prints goes to RUNS/reproduce.log.
 
 Usage: python3 -m paper_figures.progress RUNS SCALE BACKEND [FIGURE …] -- COMMAND …; the exit status is the command's.
 
-The steps tell what they do in a file (job.py); which of them are due the workflow says itself: Snakemake in its table of jobs,
-`in_order` in that file. Times are those that a step took here before, or the figure's on another machine (results/*/durations.csv),
-or follow from how far the running program says it is.
+The steps tell what they do in a file (job.py); which of them are due the workflow says itself: Snakemake in its table of
+jobs, `in_order` in that file. Times are those that a step took here before, or the figure's on another machine
+(results/*/durations.csv), or follow from how far the running program says it is.
 """
 
 import json
@@ -21,7 +21,8 @@ from paper_figures import recipes
 from paper_figures.job import EVENTS, LINES
 
 LOG = "reproduce.log"
-LOOK, SAY = 0.3, 30  # seconds between looks at the steps (and redraws of a terminal's line), and between lines where nobody watches
+LOOK = 0.3  # seconds between looks at the steps, and redraws of a terminal's line
+SAY = 30  # seconds between lines where nobody watches
 JOBS = re.compile(r"^Job stats:\n[^\n]*\n[- ]+\n(.*?)^total +\d+$", re.S | re.M)
 FAR = re.compile(r"\b(\d+)/(\d+)\b")
 REPORT = "report"
@@ -42,11 +43,13 @@ def verb(step, recipe, points):
 
 
 class Known:
-    """What is known of the steps that may be due, by name: figure, words, log, and how long it takes [s], None where nobody knows."""
+    """What is known of the steps that may be due, by name: figure, words, log, and how long it takes [s], None where
+    nobody knows."""
 
     def __init__(self, runs, scale, backend, names):
         measured = recipes.measured_times()
-        self.figure, self.words, self.logs, self.seconds = {REPORT: REPORT}, {REPORT: "making the page"}, {}, {REPORT: None}
+        self.figure, self.words = {REPORT: REPORT}, {REPORT: "making the page"}
+        self.logs, self.seconds = {}, {REPORT: None}
         for recipe in recipes.choose(names, recipes.load(), backend):
             steps = recipes.steps(recipe, scale, backend, "ogc")
             drawn = "illustration" in recipe.body
@@ -78,7 +81,8 @@ class Course:
         self.begun.pop(name, None)
         (self.done if event["what"] == "ends" else self.failed).append(name)
         if event["what"] == "ends":
-            return f"{self.place(name, len(self.done))}: {self.known.words.get(name, name)} took {recipes.in_words(event['seconds'])}"
+            took = recipes.in_words(event["seconds"])
+            return f"{self.place(name, len(self.done))}: {self.known.words.get(name, name)} took {took}"
         return f"{self.known.figure.get(name, name)}: {event['words']}"
 
     def place(self, name, number):
@@ -125,7 +129,7 @@ class Screen:
     """A line that is redrawn where a person watches, plain lines every SAY seconds where a file does."""
 
     def __init__(self, stream):
-        self.stream, self.terminal, self.said, self.drawn, self.last = stream, stream.isatty(), time.monotonic(), False, ""
+        self.stream, self.terminal, self.said, self.drawn = stream, stream.isatty(), time.monotonic(), False
 
     def keep(self, line):
         self.clear()
@@ -157,7 +161,8 @@ def tail(path, size):
 def due_by_snakemake(text):
     """Names of the steps in Snakemake's table of jobs, None before it is printed."""
     table = JOBS.search(text)
-    return [line.split()[0] for line in table[1].splitlines() if line.split() and line.split()[0] != "all"] if table else None
+    names = [line.split()[0] for line in table[1].splitlines() if line.split()] if table else None
+    return table and [name for name in names if name != "all"]
 
 
 def watch(process, course, screen, events, log):
@@ -184,11 +189,13 @@ def watch(process, course, screen, events, log):
 
 def epilogue(status, course, log, seconds):
     """How it ended, in words."""
+    failed, done = len(course.failed), len(course.done)
     if status == 0:
-        return f"All {len(course.done)} steps done in {recipes.in_words(seconds)}" if course.done else "Nothing is missing or changed"
-    if course.failed:
-        return f"{len(course.failed)} of {len(course.due)} steps FAILED, {len(course.done)} done; what the workflow said: {log}"
-    return "The workflow failed:\n  " + "\n  ".join(tail(log, 4000).splitlines()[-LINES:]) + f"\n  (the whole log: {log})"
+        return f"All {done} steps done in {recipes.in_words(seconds)}" if done else "Nothing is missing or changed"
+    if failed:
+        return f"{failed} of {len(course.due)} steps FAILED, {done} done; what the workflow said: {log}"
+    last = "\n  ".join(tail(log, 4000).splitlines()[-LINES:])
+    return f"The workflow failed:\n  {last}\n  (the whole log: {log})"
 
 
 def run(runs, scale, backend, names, command, stream=sys.stderr):
@@ -198,7 +205,8 @@ def run(runs, scale, backend, names, command, stream=sys.stderr):
     events.write_text("")
     course, screen = Course(Known(runs, scale, backend, names)), Screen(stream)
     with log.open("w") as file:
-        process = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, env={**os.environ, EVENTS: str(events)})
+        environment = {**os.environ, EVENTS: str(events)}
+        process = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, env=environment)
         try:
             watch(process, course, screen, events, log)
         except KeyboardInterrupt:

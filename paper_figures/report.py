@@ -1,8 +1,8 @@
 """The report: index.html with every figure, table and claim, and a page a scene with its curves; each file holds its pictures and style itself and needs no network.
 
-It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which a test
-holds it to. Runs that were just made stand beside the accepted ones: their numbers, judged where they are of the size that the
-claim needs, their pictures and their curves.
+It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which
+a test holds it to. Runs that were just made stand beside the accepted ones: their numbers, judged where they are of the
+size that the claim needs, their pictures and their curves.
 """
 
 import argparse
@@ -133,8 +133,9 @@ def pictures_just_made(figure, mine, fresh):
         return ""
     how = f"{escape(fresh.scale)}, {escape(fresh.backend)}</small></figcaption></figure>"
     found = ((recipe.name, fresh.picture(recipe)) for recipe in mine)
-    return "".join(f'<figure class="fresh">{shown(path, f"{figure}, just made")}<figcaption><small>just made: {escape(name)}, {how}'
-                   for name, path in found if path)
+    images = ((name, shown(path, f"{figure}, just made")) for name, path in found if path)
+    return "".join(f'<figure class="fresh">{image}<figcaption><small>just made: {escape(name)}, {how}'
+                   for name, image in images)
 
 
 def commands_of(evidence, scene):
@@ -224,14 +225,14 @@ def scene_page(scene, judgements, evidence, fresh=None):
                  None: "not audited"}[run.guarantee_kept]
         mark = "Just made: " if run in made else ""
         commit = m["commit"][:10] + (", with uncommitted changes" if m.get("dirty") else "")
-        parts.append(f"<h2>{mark}{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>{escape(m['device'])}, "
-                     f"commit {escape(commit)}, {len(run.column('step'))} steps, {audit}</p>"
+        parts.append(f"<h2>{mark}{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>"
+                     f"{escape(m['device'])}, commit {escape(commit)}, {len(run.column('step'))} steps, {audit}</p>"
                      f"{embedded(curves(run), 'curves of ' + run.source) if from_the_start(run) else ''}<details><summary>Settings</summary><p>{settings}</p></details>")
     return page(scene, "\n".join(parts if len(parts) > 2 else [*parts, "<p>No accepted run yet.</p>"]))
 
 
 def write(out, evidence=None, fresh=None):
-    """index.html at `out` and the scenes' pages beside it, with what was just made (JustMade) if given. Returns the paths."""
+    """index.html at `out` and the scenes' pages beside it, with what was just made (JustMade) if given. Returns paths."""
     evidence, book, out = evidence or Evidence(), recipes.load(), Path(out)
     judgements = verdicts.judge_all(evidence)
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book) or any(j.claim["figures"][0] == f for j in judgements)]
@@ -239,7 +240,8 @@ def write(out, evidence=None, fresh=None):
     contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
     sections = [figure_section(figure, book, judgements, evidence, fresh) for figure in figures]
     beside = (f'<p id="fresh">Beside the accepted results stand {len(fresh.evidence.runs)} finished runs of '
-              f"{escape(fresh.folder)}, asked for at scale {escape(fresh.scale)} on {escape(fresh.backend)}.</p>" if fresh else "")
+              f"{escape(fresh.folder)}, asked for at scale {escape(fresh.scale)} on {escape(fresh.backend)}.</p>"
+              if fresh else "")
     body = (f'<p id="counts">{verdicts.headline(judgements)}</p><h1>Offset Geometric Contact: what the paper says, and what we measured</h1>'
             "<p>A band is fixed before the run that it judges; "
             f"where a run that answers the claim was known, the row is marked{LATE}. "
@@ -259,7 +261,7 @@ def write(out, evidence=None, fresh=None):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", default=recipes.HERE / "report/index.html", help="the page; the scenes' pages go beside it")
-    parser.add_argument("--runs", type=Path, metavar="FOLDER", help="run folders just made, to stand beside the accepted results")
+    parser.add_argument("--runs", type=Path, metavar="FOLDER", help="run folders just made, to stand beside the accepted")
     parser.add_argument("--scale", default="small", choices=recipes.SCALES, help="of these runs")
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of these runs")
     options = parser.parse_args()

@@ -93,7 +93,8 @@ def cpu_row(scene, windows, wanted):
                      + ([f"{WINDOWS - len(windows)} of {WINDOWS} not run"] if len(windows) < WINDOWS else []))
     return {"scene": scene, "backend": "cpu", **origin(windows[-1]), **sizes(windows[-1]), **beside(windows[-1], statistics.fmean(averages), max(maxima)),
             "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows), "windows [ms]": each,
-            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found), "audited states": "windows: not audited", "audit [s]": "",
+            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
+            "audited states": "windows: not audited", "audit [s]": "",
             "device memory [MiB]": ""}
 
 
@@ -119,7 +120,8 @@ def text(value):
 
 
 SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
-         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states", "audit [s]", "device memory [MiB]", "device",
+         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states",
+         "audit [s]", "device memory [MiB]", "device",
          "paper's machine", "status", "commit")
 
 NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in the average, not in the maximum. "

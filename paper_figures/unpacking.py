@@ -1,5 +1,6 @@
-"""Unpacks an archive that came from elsewhere: everything in it is looked at before anything is written, and what would leave the folder, or fill the disk,
-is refused by name. Checks of our own, because Python's data filter names no sizes and is not in every Python 3.11.
+"""Unpacks an archive that came from elsewhere: everything in it is looked at before anything is written, and what would
+leave the folder, or fill the disk, is refused by name. Checks of our own, because Python's data filter looks at no sizes
+and is not in every Python 3.11.
 """
 
 import shutil
@@ -32,8 +33,8 @@ def check_link(member, parts):
 
 
 def check(members, largest, total):
-    """Throws UnpackError for the first member that is no plain file, folder or link to something inside, is above `largest`, or brings all above `total`
-    [bytes]; and where two have one name, or one would be written through a link."""
+    """Throws UnpackError for the first member that is no plain file, folder or link to something inside, is above
+    `largest`, or brings all above `total` [bytes]; and where two have one name, or one would be written through a link."""
     links, seen, size = set(), set(), 0
     for member in members:
         parts = place(member.name)
@@ -47,8 +48,8 @@ def check(members, largest, total):
         seen.add(parts)
         size += member.size
         if not 0 <= member.size <= largest or size > total:
-            raise UnpackError(f"'{member.name}' has {member.size:,} bytes, with what is before it {size:,}: more than is ever packed "
-                              f"({largest:,} a file, {total:,} in all)")
+            raise UnpackError(f"'{member.name}' has {member.size:,} bytes, with what is before it {size:,}: "
+                              f"more than is ever packed ({largest:,} a file, {total:,} in all)")
     for parts in seen:
         if any(parts[:n] in links for n in range(1, len(parts))):
             raise UnpackError(f"'{'/'.join(parts)}' would be written through a link")
@@ -68,7 +69,7 @@ def extract(archive, out, largest, total):
 
 
 def write(archive, member, path):
-    """One member; neither its owner nor its permissions are taken over, and what a link of that name led to stays as it is."""
+    """One member; neither its owner nor its permissions are taken over, and what a link of that name led to stays."""
     if member.isdir():
         return path.mkdir(parents=True, exist_ok=True)
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -121,7 +121,8 @@ def draw_movie(run, camera, out, most=160, frames_per_second=24, shortest=5):
 def headline(run):
     wall = run.column("wall")[1:] if len(run.column("wall")) > 1 else run.column("wall")
     m = run.manifest
-    kept = {True: f"exact audit of {m.get('audited_states')} states: no intersection", False: "exact audit: FAILED"}.get(m.get("guarantee_kept"), "not audited")
+    words = {True: f"exact audit of {m.get('audited_states')} states: no intersection", False: "exact audit: FAILED"}
+    kept = words.get(m.get("guarantee_kept"), "not audited")
     return (f"{m['scene']['name']}, {m['backend']} ({m['device']}), {len(run.column('step'))} steps: median {np.median(wall):.3g} ms, "
             f"worst {wall.max():.3g} ms a step; {kept}; {commits_in_words([run])}")
 

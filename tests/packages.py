@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be included, imported or called somewhere.
+"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be included,
+imported or called somewhere.
 
-    tests/packages.py SOURCE_DIR     the self-test, then one line for each package that is not; exit status 1 where there is any
+    tests/packages.py SOURCE_DIR     the self-test, then one line for each package that is not; exit status 1 for any
 
-What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones, other systems).
+What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones, other
+systems).
 """
 
 import re
@@ -20,7 +22,8 @@ STATED = {
     "libgmp-dev": ("CGAL's exact numbers", r"find_package\(CGAL"),
     "libmpfr-dev": ("CGAL's exact numbers", r"find_package\(CGAL"),
     "libopenblas-dev": ("CHOLMOD's dense blocks", r"find_library\(CHOLMOD"),
-    **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"), ("PyVista draws without a screen", r"import pyvista")),
+    **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"),
+                    ("PyVista draws without a screen", r"import pyvista")),
 }
 IMPORTED_AS = {"PyYAML": "yaml", "vtk": "vtkmodules"}
 INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
@@ -30,7 +33,8 @@ EXECUTOR = re.compile(r"^executor: (\w+)", re.M)
 
 def arrays(script):
     """name -> words of the arrays `name=(…)` of a shell script."""
-    return {name: re.sub(r"#[^\n]*", "", body).split() for name, body in re.findall(r"^(\w+)=\((.*?)\)$", script, re.M | re.S)}
+    found = re.findall(r"^(\w+)=\((.*?)\)$", script, re.M | re.S)
+    return {name: re.sub(r"#[^\n]*", "", body).split() for name, body in found}
 
 
 def said(*command):
@@ -42,10 +46,11 @@ def said(*command):
 
 
 def files_of(package, deep=True):
-    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies stands for;
-    none where it is not installed."""
+    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies stands
+    for; none where it is not installed."""
     listed = said("dpkg", "-L", package).splitlines()
-    found = [path for path in listed if path.startswith(("/usr/include/", "/usr/bin/", "/usr/lib/python3/dist-packages/"))]
+    places = ("/usr/include/", "/usr/bin/", "/usr/lib/python3/dist-packages/")
+    found = [path for path in listed if path.startswith(places)]
     if found or not listed or not deep:
         return found
     depends = said("dpkg-query", "-W", "-f=${Depends}", package)
@@ -74,7 +79,7 @@ def imported(tree):
 
 
 def unused(dependencies, requirements, tree, files=files_of):
-    """Sentences about packages of either file that nothing in the tree uses, and about entries of STATED that no package needs."""
+    """Sentences about packages of either file that nothing in the tree uses."""
     found, lists = [], arrays(dependencies)
     for package in dict.fromkeys(lists.get("packages", []) + lists.get("optional_packages", [])):
         if package in STATED:
@@ -98,14 +103,15 @@ def unused(dependencies, requirements, tree, files=files_of):
 def self_test():
     """Sentences about planted packages that are judged wrongly."""
     modules = "/usr/lib/python3/dist-packages"
-    brought = {"libused-dev": ["/usr/include/used/all.hpp"], "tool": ["/usr/bin/tool"], "python3-used": [f"{modules}/used/x.py"],
-               "libidle-dev": ["/usr/include/idle.h"], "idler": ["/usr/bin/idler"], "python3-idle": [f"{modules}/idle/x.py"]}
-    tree = {"a.cpp": "#include <used/all.hpp>\n// idler\n", "b.sh": "tool --all\npython3 -m called\n", "c.py": "import used\n",
-            "d.yaml": "executor: slurm\n"}
+    brought = {"libused-dev": ["/usr/include/used/all.hpp"], "tool": ["/usr/bin/tool"],
+               "python3-used": [f"{modules}/used/x.py"], "libidle-dev": ["/usr/include/idle.h"],
+               "idler": ["/usr/bin/idler"], "python3-idle": [f"{modules}/idle/x.py"]}
+    tree = {"a.cpp": "#include <used/all.hpp>\n// idler\n", "b.sh": "tool --all\npython3 -m called\n",
+            "c.py": "import used\n", "d.yaml": "executor: slurm\n"}
     sound = unused("packages=(libused-dev tool python3-used  # words\n not-installed)",
                    "used==1\ncalled==1\nsnakemake-executor-plugin-slurm==2\n", tree, lambda name: brought.get(name, []))
-    planted = unused("packages=(libidle-dev idler)\noptional_packages=(python3-idle)\nfallback_packages=(python3-idle)", "idle==1\n",
-                     tree, lambda name: brought[name])
+    lists = "packages=(libidle-dev idler)\noptional_packages=(python3-idle)\nfallback_packages=(python3-idle)"
+    planted = unused(lists, "idle==1\n", tree, lambda name: brought[name])
     wrong = [f"a used package is called unused: {finding}" for finding in sound]
     return wrong + ([] if len(planted) == 5 else [f"of five planted packages {len(planted)} are found: {planted}"])
 
@@ -119,9 +125,11 @@ def main(arguments):
     kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle|measure|table1))$")
     texts = filter(kinds.search, names)
     ours = {"experiments/dependencies.sh", "plots/requirements.txt", "tests/packages.py"}
-    tree = {name: (root / name).read_text(errors="replace") for name in texts if name not in ours and (root / name).is_file()}
+    there = (name for name in texts if name not in ours and (root / name).is_file())
+    tree = {name: (root / name).read_text(errors="replace") for name in there}
     dependencies = (root / "experiments/dependencies.sh").read_text()
-    tree["experiments/dependencies.sh"] = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # how it installs, not what
+    how = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # it installs, not what
+    tree["experiments/dependencies.sh"] = how
     findings = self_test() + unused(dependencies, (root / "plots/requirements.txt").read_text(), tree)
     print("\n".join(findings))
     return 1 if findings else 0

@@ -133,12 +133,6 @@ std::vector<Index> body_of_vertex(const Scene& scene) {
   return result;
 }
 
-std::vector<std::string> body_name_of_vertex(const Scene& scene) {
-  std::vector<std::string> names(scene.mesh.positions.size());
-  for (const Body& body : scene.bodies) std::fill_n(names.begin() + body.first_vertex, body.vertex_count, body.name);
-  return names;
-}
-
 Topology build_topology(const Scene& scene) {
   return build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges);
 }

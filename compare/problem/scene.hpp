@@ -110,9 +110,6 @@ std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion
 /// Number of the body of each vertex; -1 where no body covers it. Length: vertex count.
 std::vector<Index> body_of_vertex(const Scene& scene);
 
-/// Name of the body of each vertex, for messages of the oracle. Length: vertex count.
-std::vector<std::string> body_name_of_vertex(const Scene& scene);
-
 /// The topology of the scene's mesh.
 Topology build_topology(const Scene& scene);
 

@@ -83,7 +83,6 @@ void look_ahead(const UpdateVertex<Gather>& f, int i) {
 
 class CpuBackend {
  public:
-  static constexpr bool is_device = false;
   template <class T>
   using Buffer = CpuBuffer<T>;
 

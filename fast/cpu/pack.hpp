@@ -131,7 +131,6 @@ struct PackOf {
 
 /// What nodes and searches take.
 using Pack = PackOf<4>;
-using PackMask = PackMaskOf<4>;
 
 /// As wide as registers are.
 #if defined(__AVX2__)

@@ -119,7 +119,6 @@ class CudaRecording {
 
 class CudaBackend {
  public:
-  static constexpr bool is_device = true;
   template <class T>
   using Buffer = CudaBuffer<T>;
   using Recording = CudaRecording;

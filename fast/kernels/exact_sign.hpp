@@ -129,10 +129,4 @@ OGC_HD int exact_sign(const Polynomial& polynomial) {
   return exact_sign_in_double(polynomial);
 }
 
-/// The sign in plain double: for distances, which do not jump where a sign is doubtful.
-template <class Polynomial>
-OGC_HD int rounded_sign(const Polynomial& polynomial) {
-  return sign_of(polynomial.template value<Rounded>().value);
-}
-
 }  // namespace ogc::fast

@@ -25,7 +25,6 @@
 //                                        // body enqueues the same calls with the same arguments every time; step numbers are counted on the device
 //   replay_milliseconds()                // time of each repetition of the last replay [ms]; after synchronize
 //   synchronize()                        // host only, once a frame
-//   static constexpr bool is_device
 //
 // Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies waits. Functors get raw pointers and
 // values, never a Buffer. Atomics: fast/kernels/atomic.hpp, whose result no order can change.

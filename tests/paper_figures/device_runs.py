@@ -96,7 +96,7 @@ class Parts(Scratch):
             self.assertTrue((path / "trajectory.vtkhdf").is_file() and not path.is_symlink(), path)
         rows = table1.rows_of(home / "table1-smoke-cpu")
         self.assertEqual([(row["scene"], row["backend"]) for row in rows], [("cloth_on_sphere", "cpu")] * 2)
-        self.assertEqual(rows[0]["audited states"], "31, no intersection", "all states, though not all frames came along")
+        self.assertEqual(rows[0]["audited states"], "31, no intersection", "all, though not all frames came along")
 
     def test_solvers_side_by_side_in_parts_are_kept_and_packed_with_their_processor_time(self):
         there, home = self.folder / "there", self.folder / "home"

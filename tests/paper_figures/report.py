@@ -135,8 +135,8 @@ def check_faults_are_found(folder):
 
 
 def check_just_made(folder):
-    """Runs just made stand beside the accepted ones: number and verdict where they are of the claim's size, else the number
-    alone; picture; curves."""
+    """Runs just made stand beside the accepted ones: number and verdict where they are of the claim's size, else the
+    number alone; picture; curves."""
     runs = Path(folder)
     for scale, scene in (("paper", "cloth_on_sphere"), ("small", "knot")):
         run = runs / f"{'fig18' if scale == 'paper' else 'fig11'}-{scale}-cuda/run"
@@ -155,7 +155,7 @@ def check_just_made(folder):
     assert row.count("<td") == report.claim_row(claims["cloth_on_sphere.cuda_steady"]).count("<td") + 1
     smaller = report.JustMade(runs, "small", "cuda", fresh.evidence)
     assert "small, not judged" in report.claim_row(claims["knot.cuda_steady"], smaller)
-    assert 'class="number"></td>' in report.claim_row(claims["dress.cuda_steady"], fresh), "no run says anything about it"
+    assert 'class="number"></td>' in report.claim_row(claims["dress.cuda_steady"], fresh), "no run is about it"
     book = {name: recipe for name, recipe in report.recipes.load().items() if name == "fig18"}
     section = Page(report.figure_section("fig18", book, [], fresh.evidence, fresh))
     assert len(section.pictures) == len(Page(report.figure_section("fig18", book, [], fresh.evidence)).pictures) + 1

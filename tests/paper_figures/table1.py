@@ -131,7 +131,8 @@ class Afterwards(unittest.TestCase):
     def test_what_was_audited_is_not_audited_again(self):
         run = self.run_of((0, 5, 10, 15, 20))
         os.environ["OGC_SLOW"] = "yes"
-        for status, states, words in ((75, 2, "not all yet"), (75, 4, "not all yet"), (0, 5, "no intersection"), (0, 5, "no intersection")):
+        for status, states, words in ((75, 2, "not all yet"), (75, 4, "not all yet"), (0, 5, "no intersection"),
+                                      (0, 5, "no intersection")):
             os.environ["OGC_SLOW"] = "yes" if status else ""
             ended, found = audited.audit(self.program, run, 0.5 if status else None)
             self.assertEqual((ended, found["states"]), (status, states))

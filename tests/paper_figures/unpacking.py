@@ -1,4 +1,5 @@
-"""What an archive from elsewhere may not do is refused by name before anything is written; a sound one is unpacked as it was packed.
+"""What an archive from elsewhere may not do is refused by name before anything is written; a sound one is unpacked as it
+was packed.
 
 Usage: unpacking.py SOURCE_DIR. The standard library is enough.
 """
@@ -29,9 +30,11 @@ def sound():
 
 
 REFUSED = {"/tmp/x": member("/tmp/x"), "../x": member("../x"), "a/../../x": member("a/../../x"), "b\\x": member("b\\x"),
-           "etc": member("etc", b"", tarfile.SYMTYPE, "/etc"), "up": member("up", b"", tarfile.SYMTYPE, "../.."), "in/out": member("in/out", b"", tarfile.SYMTYPE, "../a/../../b"),
+           "etc": member("etc", b"", tarfile.SYMTYPE, "/etc"), "up": member("up", b"", tarfile.SYMTYPE, "../.."),
+           "in/out": member("in/out", b"", tarfile.SYMTYPE, "../a/../../b"),
            "hard": member("hard", b"", tarfile.LNKTYPE, "a/run/run.json"), "pipe": member("pipe", b"", tarfile.FIFOTYPE),
-           "disk": member("disk", b"", tarfile.BLKTYPE), "fig/run/frames/f.h5": member("fig/run/frames/f.h5"), "a/run/run.json": member("a/run/run.json"),
+           "disk": member("disk", b"", tarfile.BLKTYPE), "fig/run/frames/f.h5": member("fig/run/frames/f.h5"),
+           "a/run/run.json": member("a/run/run.json"),
            "large": member("large", b"x" * 101)}
 
 
@@ -54,13 +57,15 @@ class Unpacking(unittest.TestCase):
         return unpacking.extract_file(self.packed(members), self.out, largest, total)
 
     def written(self):
-        return sorted(path.relative_to(self.folder).as_posix() for path in self.folder.rglob("*") if path.name != "packed.tar.gz")
+        paths = (path for path in self.folder.rglob("*") if path.name != "packed.tar.gz")
+        return sorted(path.relative_to(self.folder).as_posix() for path in paths)
 
     def test_what_was_packed_comes_back_with_plain_permissions(self):
         self.unpack(sound())
         self.assertEqual((self.out / "fig/run/frames/f.h5").read_bytes(), b"12345")
         self.assertTrue((self.out / "fig/run").is_symlink())
-        self.assertEqual((self.out / "a/run/run.json").stat().st_mode & 0o7111, 0, "neither executable nor with another's rights")
+        mode = (self.out / "a/run/run.json").stat().st_mode
+        self.assertEqual(mode & 0o7111, 0, "neither executable nor with another's rights")
 
     def test_what_leads_outside_or_is_absurd_is_refused_by_name_and_nothing_is_written(self):
         for name, bad in REFUSED.items():
@@ -77,7 +82,8 @@ class Unpacking(unittest.TestCase):
         elsewhere = self.folder / "elsewhere"
         elsewhere.mkdir()
         (self.out / "a").symlink_to(elsewhere)
-        with self.assertRaisesRegex(unpacking.UnpackError, "'a/run/run.json' would be written through a link that is already in"):
+        words = "'a/run/run.json' would be written through a link that is already in"
+        with self.assertRaisesRegex(unpacking.UnpackError, words):
             self.unpack(sound()[1:])
         self.assertEqual(list(elsewhere.iterdir()), [])
 
@@ -94,7 +100,8 @@ class Unpacking(unittest.TestCase):
         command = [sys.executable, "-m", "paper_figures.device_runs", "--out", self.out, "--unpack", pieces]
         said = subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True, check=False)
         self.assertEqual(said.returncode, 1)
-        self.assertIn(f"device_runs: {pieces}: '../x' would be written outside the folder; nothing is unpacked", said.stderr)
+        words = f"device_runs: {pieces}: '../x' would be written outside the folder; nothing is unpacked"
+        self.assertIn(words, said.stderr)
         self.assertEqual(list(self.out.iterdir()), [])
 
 
