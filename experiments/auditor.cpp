@@ -45,8 +45,8 @@ StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& 
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
 
-compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions) const {
-  return compare::audit(topology_, compare::to_double(positions), exclusions_);
+compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions, std::size_t limit) const {
+  return compare::audit(topology_, compare::to_double(positions), exclusions_, {.limit = limit});
 }
 
 compare::SmallestDistances StateJudge::smallest_distances(const std::vector<compare::Vec3f>& positions) const {

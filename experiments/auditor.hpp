@@ -44,8 +44,9 @@ struct Verdict {
 class StateJudge {
  public:
   explicit StateJudge(const compare::Scene& scene, const compare::MeshSources& sources = {});
-  /// A state without the certificate: a start, a frame of a file.
-  compare::AuditResult audit(const std::vector<compare::Vec3f>& positions) const;
+  /// A state without the certificate: a start, a frame of a file. `limit`: as of compare::AuditOptions.
+  compare::AuditResult audit(const std::vector<compare::Vec3f>& positions,
+                             std::size_t limit = compare::AuditOptions{}.limit) const;
   /// How near it is to touching, without the pairs that the audit leaves out.
   compare::SmallestDistances smallest_distances(const std::vector<compare::Vec3f>& positions) const;
   /// A state with the certificate of the last detection before it.

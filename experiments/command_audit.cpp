@@ -11,6 +11,7 @@
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/mesh_input.hpp"
+#include "experiments/option_checks.hpp"
 #include "experiments/output.hpp"
 #include "experiments/progress.hpp"
 
@@ -237,6 +238,11 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "--show", options->show,
       "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
   add_mesh_options(*command, options->request.meshes);
+  command
+      ->add_option("--limit", options->request.limit,
+                   "Intersections of a state to list at most; all of them are counted")
+      ->check(whole_number(0, most_counted))
+      ->capture_default_str();
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
       "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
@@ -259,7 +265,7 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "  ogc audit shirt.obj\n"
       "  ogc audit runs/twist-small-20250801-120000\n"
       "  ogc audit their_run/*.ply --show pictures\n"
-      "  ogc audit frames.npz --json > verdict.json\n"
+      "  ogc audit frames.npz --json --limit 20 > verdict.json\n"
       "  ogc audit cloth.pc2 --mesh cloth.obj");
   command->callback([options, &context] { context.status = run(*options, context); });
 }

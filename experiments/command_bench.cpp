@@ -4,7 +4,6 @@
 
 #include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
@@ -14,12 +13,16 @@
 #include "experiments/bench/scene_benchmarks.hpp"
 #include "experiments/bench/stage_benchmarks.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/option_checks.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "experiments/version.hpp"
 
 namespace ogc::experiments {
 
 namespace {
+
+/// Samples that are kept.
+constexpr std::uint64_t most_repetitions = 1'000'000;
 
 struct CommandOptions {
   BenchOptions bench;
@@ -115,8 +118,7 @@ void measure(const CommandOptions& options) {
 }
 
 int bench(CommandOptions options, const CommandContext& context) {
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  const auto limit = limited_threads(options.threads);
   parse_scale(options.bench.scale);
   std::optional<BenchResults> before;
   if (!options.against.empty()) before = read_results(options.against);
@@ -145,11 +147,13 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   command->add_option("--scale", options->bench.scale, "smoke, small, paper")->capture_default_str();
   command->add_option("--from-state", options->bench.states, "Steps from a frame of a run (RUN/frames/…) instead of the scenes' starts; repeatable")
       ->take_all()->type_size(1)->expected(1);
-  command->add_option("--steps", options->bench.steps, "Steps of a window, one window a repetition")->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_option("--repetitions", options->bench.repetitions, "Of each benchmark in a process")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--steps", options->bench.steps, "Steps of a window, one window a repetition")
+      ->check(whole_number(1, most_counted))->capture_default_str();
+  command->add_option("--repetitions", options->bench.repetitions, "Of each benchmark in a process")
+      ->check(whole_number(1, most_repetitions))->capture_default_str();
   command->add_option("--processes", options->processes, "With --json: measure in so many processes, one after the other; each is one sample of a comparison")
-      ->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_option("--threads", options->threads, "Threads of the CPU (default: all)")->check(CLI::PositiveNumber);
+      ->check(whole_number(1, most_repetitions))->capture_default_str();
+  add_threads_option(*command, options->threads);
   command->add_flag("--list", options->list, "Print the names and stop");
   command->add_option("--json", options->json, "Write the result to this file, as Google Benchmark does: every repetition, counters, machine, commit");
   command->add_option("--against", options->against, "Say what changed since this earlier file. Exit status 1: something is slower beyond noise");

@@ -1,6 +1,7 @@
 // `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and saved failures.
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "compare/judge/states.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/option_checks.hpp"
 #include "experiments/output.hpp"
 #include "experiments/plugins/contestant.hpp"
 #include "experiments/plugins/report.hpp"
@@ -38,6 +40,8 @@ constexpr std::size_t printed_mismatches = 3;
 constexpr std::ptrdiff_t saved_cases = 4;
 // Of all failing cases together, and of one [s].
 constexpr double shrinking_seconds = 30, shrinking_one = 2;
+// At 10⁷ cases a second more than a day of judging.
+constexpr std::uint64_t most_cases = 1'000'000'000'000;
 
 struct CompareOptions {
   std::vector<std::string> stages;
@@ -244,6 +248,8 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
 
 int run(CompareOptions options, const CommandContext& context) {
   if (options.list) return list_stages(options);
+  if (!options.report.empty())
+    std::filesystem::create_directories(options.report);  // a wrong path is told before the cases are judged
   if (options.determinism) return judge_bits(options, context);
   const Judged judged = judged_of(options);
   if (judged.plugin) choose_stages_of_plugin(options, judged);
@@ -287,8 +293,10 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   command->add_option("--backend", options->backend, "cpu or cuda")->capture_default_str();
   command->add_option("--cases", options->cases, "Cases a stage; for meshes a case is a vertex or an edge, for steps a vertex at an event")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", options->seed, "Of the generators")->capture_default_str();
+      ->check(whole_number(1, most_cases));
+  command->add_option("--seed", options->seed, "Of the generators")
+      ->capture_default_str()
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command->add_option("--generator", options->generator, "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
   command->add_option("--states", options->states, "A run folder, whose frames become cases too");
   auto* problem = command->add_option("--problem", options->problem, "One case by its problem string, as printed in messages");
@@ -299,7 +307,7 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   command->add_option("--plugin", options->plugin, "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
   command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")
       ->capture_default_str()
-      ->check(CLI::Range(1, 3600));
+      ->check(whole_number(1, 3600));
   command->add_option("--report", options->report, "Folder for report.html, report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
   command->add_flag("--determinism", options->determinism,
                     "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of threads? The digests of two machines or builds "

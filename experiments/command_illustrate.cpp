@@ -1,11 +1,10 @@
 // `ogc illustrate`: the data of the paper's drawings as JSON, one file each, for paper_figures/illustrations.py.
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "compare/problem/error.hpp"
+#include "compare/files/bytes.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/output.hpp"
 #include "reference/contestant.hpp"
@@ -43,12 +42,8 @@ void run(const Options& options, const CommandContext& context) {
   Json written = Json::array();
   for (const std::string& figure : figures) {
     const Json json = to_json(figure, figure == "fig21d" ? reference::activation_drawing() : reference::illustration(figure));
-    std::filesystem::create_directories(options.folder);
     const std::string path = (std::filesystem::path(options.folder) / (figure + ".json")).string();
-    std::ofstream file(path);
-    file << json.dump() << '\n';
-    file.close();
-    if (!file) throw compare::ResourceError(path + " can't be written; choose another folder with --out or make room");
+    compare::write_bytes(path, json.dump() + "\n");
     written.push_back(path);
     if (!context.json) print_result(path + "\n");
   }

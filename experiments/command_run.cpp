@@ -4,11 +4,11 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
-#include <tbb/global_control.h>
 
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"
+#include "experiments/option_checks.hpp"
 #include "experiments/resume.hpp"
 
 namespace ogc::experiments {
@@ -39,8 +39,7 @@ ResumedRun resumed(const RunOptions& options, const std::string& folder, const C
 }
 
 int run(const RunOptions& options, const std::string& resume, const CLI::App& command, const CommandContext& context) {
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  const auto limit = limited_threads(options.threads);
   if (options.scene.empty() && resume.empty())
     throw compare::InputError("run needs a scene (" + scene_names() +
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
@@ -68,7 +67,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   add_run_options(*command, options)->required(false);
   auto resume = std::make_shared<std::string>();
   command->add_option("--resume", *resume, "Go on with a run that was cut off, in its own folder, to the same bits; takes no scene, no settings");
-  command->add_option("--threads", options->threads, "Threads of the CPU (default: all); changes no bit of the result")->check(CLI::PositiveNumber);
+  add_threads_option(*command, options->threads);
   command->add_flag("--json", context.json, "Print the summary as JSON on standard output");
   command->footer(settings_help() +
                   "\nExamples:\n"
@@ -85,7 +84,8 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "ends the run: a signal, kill -9, a full disk, power. --resume goes on from checkpoint.h5 (every\n"
                   "--checkpoint seconds, and at each end that leaves time for it), which the same program and scene take\n"
                   "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
-                  "state. Not with --solver ipc.\n"
+                  "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a run\n"
+                  "that still goes on) it says before it computes anything.\n"
                   "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than half of its momentum are\n"
                   "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
                   "Exit status 1: a penetration, a broken bound, a number that is not finite.");

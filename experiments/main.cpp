@@ -2,10 +2,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 
+#include "compare/files/bytes.hpp"
 #include "compare/problem/contestant.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/output.hpp"
 #include "experiments/plugins/worker.hpp"
@@ -48,7 +51,8 @@ void run_nothing(CLI::App& app) {
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
   std::string command;
   for (const CLI::App* used : app.get_subcommands()) command = " " + used->get_name();
-  experiments::log_line("ogc: " + std::string(error.what()) + "; see ogc" + command + " --help");
+  constexpr std::size_t most_shown = 400;  // it may repeat a word of any length
+  experiments::log_line("ogc: " + compare::shown(error.what(), most_shown) + "; see ogc" + command + " --help");
   return experiments::exit_bad_input;
 }
 
@@ -77,6 +81,17 @@ int failure(const std::string& what, int status) {
   return status;
 }
 
+/// A path that the system refuses, wherever it was looked at.
+int path_failure(const std::filesystem::filesystem_error& error) {
+  try {
+    compare::refuse_path(error.path1(), "use the path", error.code());
+  } catch (const compare::InputError& refused) {
+    return failure(refused.what(), experiments::exit_bad_input);
+  } catch (const compare::ResourceError& refused) {
+    return failure(refused.what(), experiments::exit_out_of_resource);
+  }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -90,6 +105,8 @@ int main(int count, char** words) {
     return failure(error.what(), experiments::exit_out_of_resource);
   } catch (const compare::ContestantFailure& failed) {
     return failure("the plug-in can't be judged: " + std::string(failed.what()), experiments::exit_check_failed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return path_failure(error);
   } catch (const std::bad_alloc&) {
     return failure("out of memory; take a smaller scale or mesh", experiments::exit_out_of_resource);
   } catch (const std::exception& error) {

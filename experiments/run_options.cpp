@@ -1,15 +1,18 @@
 #include "experiments/run_options.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "compare/files/mesh_files.hpp"
 #include "compare/files/numbers.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
 #include "experiments/measured_simulation.hpp"
 #include "experiments/mesh_scene.hpp"
+#include "experiments/option_checks.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
@@ -22,15 +25,11 @@ std::string value_text(const compare::Settings& settings, const compare::Setting
   return info.choices.empty() ? number(compare::get_setting(settings, info)) : compare::setting_text(settings, info);
 }
 
-std::string listed(std::span<const std::string_view> names) {
-  std::string text;
-  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
-
 bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
 
 constexpr std::string_view data_key = "data=";
+/// A day.
+constexpr double most_checkpoint_seconds = 86400;
 
 void check_scene_options(const RunOptions& options, const std::string& data) {
   const bool is_mesh = compare::is_mesh_file(options.scene);
@@ -71,21 +70,32 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
+const compare::MaterialInfo& contact_stiffness() {
+  return *std::ranges::find(compare::material_table(), "contact_stiffness", &compare::MaterialInfo::name);
+}
+
 /// k_c of every body; false where `key` names something else.
 bool set_stiffness(compare::Scene& scene, const std::string& key, const std::string& value) {
   if (key != "contact_stiffness") return false;
-  const auto info = std::ranges::find(compare::material_table(), key, &compare::MaterialInfo::name);
   double stiffness = 0;
-  if (!compare::parse_number(value, stiffness) || !(stiffness >= info->minimum && stiffness <= info->maximum))
-    throw compare::InputError(key + ": '" + value + "' is no number from " + number(info->minimum) + " to " +
-                              number(info->maximum) + " " + std::string(info->unit));
+  if (!compare::parse_number(value, stiffness) || !in_range(contact_stiffness(), stiffness))
+    throw compare::InputError(key + ": '" + compare::shown(value) + "' is not " + describe_range(contact_stiffness()));
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = stiffness;
   return true;
 }
 
+/// Of what --set can be given.
+void expect_setting(const std::string& key) {
+  std::vector<std::string_view> names{"membrane", "bending", "contact_stiffness"};
+  for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
+  if (std::ranges::find(names, key) == names.end()) throw compare::InputError(compare::unknown_name("setting", key, names));
+}
+
 void set(compare::Scene& scene, const std::string& key, const std::string& value) {
   using compare::Material;
-  if (!set_stiffness(scene, key, value) && !set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
+  expect_setting(key);
+  if (!set_stiffness(scene, key, value) &&
+      !set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
       !set_model(scene, key, "bending", value, compare::bending_model_names(), &Material::bending))
     compare::set_setting(scene.settings, key, value);
 }
@@ -100,7 +110,7 @@ void apply_settings(compare::Scene& scene, const RunOptions& options) {
   if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
 
-const std::vector<std::string> solver_names{"vbd", "newton", "reference_vbd", "ipc", "penalty"};
+const std::vector<std::string> solver_names{"vbd", "newton", "reference_vbd", "ipc"};
 const std::vector<std::string> backend_names{"cpu", "cuda"};
 
 /// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one iteration.
@@ -131,7 +141,8 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       ->check(CLI::IsMember(solver_names))->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember(backend_names))->capture_default_str();
   command.add_option("--scale", options->scale, "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
-  command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")->check(CLI::PositiveNumber);
+  command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")
+      ->check(whole_number(1, most_counted));
   command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")->take_all()->type_size(1)->expected(1);
   command.add_option("--audit", options->audit,
                       "Which states are judged: each step, stored frames, the last one, none")
@@ -144,7 +155,7 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
   command.add_option("--show", options->show, "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
   command.add_option("--checkpoint", options->checkpoint_seconds, "Seconds between two checkpoints, at least; 0: at each state that is judged")
-      ->check(CLI::NonNegativeNumber)->capture_default_str();
+      ->check(real_number(1e-3, most_checkpoint_seconds, "s", true))->capture_default_str();
   return scene;
 }
 
@@ -165,20 +176,33 @@ std::string scene_names() {
 }
 
 std::string settings_help() {
-  std::vector<std::vector<std::string>> rows{{"  setting", "unit", "default", "range", "meaning"}};
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> meanings;
+  const auto add = [&](std::string_view name, std::string_view unit, std::string_view value, const std::string& range,
+                       std::string_view meaning) {
+    rows.push_back({"  " + std::string(name), std::string(unit), std::string(value), range});
+    meanings.emplace_back(meaning);
+  };
+  add("setting", "unit", "default", "range", "what it means");
   const compare::Settings defaults;
   for (const compare::SettingInfo& info : compare::setting_table())
-    rows.push_back({"  " + std::string(info.name), std::string(info.unit), value_text(defaults, info),
-                    info.choices.empty() ? number(info.minimum) + " … " + number(info.maximum) : listed(info.choices), std::string(info.meaning)});
-  rows.push_back({"  membrane", "1", "the scene's", listed(compare::membrane_model_names()), "model of every body that has a membrane energy"});
-  rows.push_back({"  bending", "1", "the scene's", listed(compare::bending_model_names()), "model of every body that has a bending energy"});
-  rows.push_back({"  contact_stiffness", "N/m", "the scene's", "a material's", "k_c of every body"});
-  rows.push_back({"  data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it"});
-  return "Settings for --set (a scene brings its own values; defaults are those of a scene file that says nothing):\n" + table(rows, 5);
+    add(info.name, info.unit, value_text(defaults, info), compare::range_text(info), info.meaning);
+  add("membrane", "1", "the scene's", compare::joined(compare::membrane_model_names()),
+      "how cloth resists stretch: the model of every body that does");
+  add("bending", "1", "the scene's", compare::joined(compare::bending_model_names()),
+      "how cloth resists bending: the model of every body that does");
+  add("contact_stiffness", "N/m", "the scene's", compare::range_text(contact_stiffness()),
+      "force of a contact for each metre that it is too near, k_c: of every body");
+  add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
+  std::istringstream lines(table(rows, 4));
+  const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file that ";
+  std::string text = head + "says nothing):\n", line;
+  for (const std::string& meaning : meanings) text += (std::getline(lines, line), line) + "\n      " + meaning + "\n";
+  return text;
 }
 
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
-  if (options.solver == "penalty" || !std::ranges::count(solver_names, options.solver))
+  if (!std::ranges::count(solver_names, options.solver))
     throw compare::InputError("--solver " + options.solver +
                               " does not exist; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact), "
                               "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");

@@ -8,16 +8,18 @@
 #include <cstring>
 #include <string>
 
+#include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
 namespace {
 
+/// A folder that is gone, or a disk that takes no more writing, was there when the program began to write: the machine
+/// failed, not the user.
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* action, int error) {
-  std::string remedy;
-  if (error == ENOSPC || error == EDQUOT || error == EFBIG) remedy = ": free space there, or choose a folder on another disk";
-  if (error == EACCES || error == EROFS || error == EPERM) remedy = ": choose a folder that you may write to";
-  throw ResourceError(path.string() + ": can't " + action + " (" + std::strerror(error) + ")" + remedy);
+  if (error != ENOENT && error != EROFS) refuse_path(path, action, {error, std::generic_category()});
+  throw ResourceError(path.string() + ": can't " + action + " (" + std::strerror(error) +
+                      "): its folder or disk was taken away");
 }
 
 /// An open file that is closed on every way out.
@@ -43,7 +45,20 @@ int write_all(int descriptor, std::string_view bytes) {
   return ::fsync(descriptor) == 0 ? 0 : errno;
 }
 
+/// False where another process has it; a file system without locks has no process to tell of.
+bool take_lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
+
+[[noreturn]] void refuse_locked(const std::filesystem::path& path) {
+  throw InputError(path.string() +
+                   ": another process writes to it: the run is still going on; wait for it, or stop it");
+}
+
 }  // namespace
+
+void expect_no_appender(const std::filesystem::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  if (!take_lock(file.number)) refuse_locked(path);
+}
 
 std::filesystem::path partial_name(const std::filesystem::path& path) { return path.string() + ".partial"; }
 
@@ -88,16 +103,15 @@ void write_and_reserve(const std::filesystem::path& path, std::string_view bytes
 LineAppender::LineAppender(const std::filesystem::path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) refuse(path, "open the file", errno);
-  // A file system without locks has no process to tell of.
-  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  take_lock(descriptor_);
 }
 
 LineAppender::LineAppender(const std::filesystem::path& path, std::size_t length)
     : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)), length_(length) {
   if (descriptor_ < 0) refuse(path, "open the file", errno);
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  if (!take_lock(descriptor_)) {
     ::close(descriptor_);
-    throw InputError(path.string() + ": another process writes to it: the run is still going on; wait for it, or stop it");
+    refuse_locked(path);
   }
   if (::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) return;
   const int error = errno;

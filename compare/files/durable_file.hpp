@@ -10,7 +10,9 @@ namespace ogc::compare {
 /// Where a file is written before it gets its name: `path` with ".partial" behind it.
 std::filesystem::path partial_name(const std::filesystem::path& path);
 
-/// Writes all of `bytes` under the partial name and commits it. Throws ResourceError with the path where the disk does not take it; then neither name is left.
+/// Writes all of `bytes` under the partial name and commits it. Throws ResourceError with the path where the disk does
+/// not take it; then neither name is left. Throws InputError where another path or right would do
+/// (compare/files/bytes.hpp), as all of these do.
 void write_durably(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes `bytes` to a new file and reserves `size` bytes of disk for it, so that whoever fills it meets no full disk. Throws ResourceError, and leaves no
@@ -22,6 +24,9 @@ void commit_partial(const std::filesystem::path& path);
 
 /// Syncs a file or folder that stands under its name already. Throws ResourceError.
 void sync_to_disk(const std::filesystem::path& path);
+
+/// Throws InputError where a LineAppender of another process has the file.
+void expect_no_appender(const std::filesystem::path& path);
 
 /// Appends to a file by whole lines, and holds a lock on it that ends with the process, however that ends.
 class LineAppender {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compare/problem/error.hpp"
+#include "compare/files/bytes.hpp"
 #include "compare/files/durable_file.hpp"
 
 namespace ogc::compare {
@@ -114,6 +115,7 @@ Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& name) {
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   silence();
+  if (std::filesystem::exists(path)) expect_regular_file(path);
   Hdf5File file(path, {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose});
   if (!file.file_.valid()) file.refuse_read(std::filesystem::exists(path) ? "can't be opened" : "is missing");
   return file;

@@ -11,8 +11,13 @@
 namespace ogc::compare {
 
 Json parse_json(std::string_view text, const std::string& file) {
+  // Far above what any format of ours has; whoever walks over a value does so by recursion.
+  constexpr int most_levels = 64;
   std::vector<std::set<std::string>> open_objects;
-  const auto refuse_repeated_keys = [&](int, Json::parse_event_t event, Json& parsed) {
+  const auto refuse_repeated_keys = [&](int level, Json::parse_event_t event, Json& parsed) {
+    if (level > most_levels)
+      throw InputError(file + ": nests arrays and objects more than " + std::to_string(most_levels) +
+                       " levels deep; no format has so many");
     if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
     if (event == Json::parse_event_t::object_end) open_objects.pop_back();
     if (event == Json::parse_event_t::key && !open_objects.back().insert(parsed.get<std::string>()).second) {
@@ -23,7 +28,8 @@ Json parse_json(std::string_view text, const std::string& file) {
   try {
     return Json::parse(text, refuse_repeated_keys);
   } catch (const Json::exception& error) {
-    throw InputError(file + ": no valid JSON: " + error.what());
+    constexpr std::size_t most_shown = 200;  // it repeats a number of any length
+    throw InputError(file + ": no valid JSON: " + shown(error.what(), most_shown));
   }
 }
 
@@ -36,9 +42,8 @@ void JsonNode::fail(const std::string& what, const std::string& remedy) const { 
 
 void JsonNode::wrong_type(const std::string& wanted) const {
   constexpr std::size_t most_shown = 40;
-  std::string shown = value_->dump();
-  if (shown.size() > most_shown) shown = value_->type_name();
-  fail("is " + shown, "give " + wanted);
+  const std::string text = value_->dump();
+  fail("is " + (text.size() > most_shown ? value_->type_name() : text), "give " + wanted);
 }
 
 void JsonNode::read(bool& target) const { value_->is_boolean() ? void(target = value_->get<bool>()) : wrong_type("true or false"); }

@@ -13,7 +13,8 @@ namespace ogc::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// Parses one JSON document. Throws InputError that names `file` and the line: bad syntax, a key twice in one object, a number beyond double.
+/// Parses one JSON document. Throws InputError that names `file` and the line: bad syntax, a key twice in one object, a
+/// number beyond double, more than 64 levels of arrays and objects.
 Json parse_json(std::string_view text, const std::string& file);
 
 /// A value, its path in the document ("/bodies/0/material"), and the list to which its problems go.

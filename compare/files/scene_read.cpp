@@ -1,5 +1,6 @@
 // One pass over the document: bodies load their meshes as they are read, motions select from them, and every problem on the way is collected.
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {
@@ -20,7 +22,8 @@ namespace {
 void read_choice(const JsonNode& node, const SettingInfo& info, Settings& settings) {
   std::string name = setting_text(settings, info);
   node.read(name);
-  if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) return node.fail("is '" + name + "'", "give " + describe_range(info));
+  if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end())
+    return node.fail("is '" + shown(name) + "'", "give " + describe_range(info));
   set_setting(settings, info.name, name);
 }
 
@@ -53,13 +56,20 @@ void read_material(const JsonNode& node, Material& material) {
     object.optional(std::string(info.name), [&](const JsonNode& value) {
       double& number = material.*info.field;
       value.read(number);
-      if (number >= info.minimum && number <= info.maximum) return;
-      value.fail("is " + shortest(number), "give a number from " + shortest(info.minimum) + " to " + shortest(info.maximum) + " " + std::string(info.unit));
+      if (!in_range(info, number)) value.fail("is " + shortest(number), "give " + describe_range(info));
     });
   }
   object.optional("membrane", [&](const JsonNode& value) { read_model(value, membrane_model_names(), material.membrane); });
   object.optional("bending", [&](const JsonNode& value) { read_model(value, bending_model_names(), material.bending); });
   object.finish();
+}
+
+/// The file's own name with '_' for what names may not have.
+std::string name_of_file(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_' && c != '-'; }, '_');
+  return name;
 }
 
 class SceneReader {
@@ -71,7 +81,8 @@ class SceneReader {
     check_version();
     JsonObject object(root_);
     object.required("format_version", [](const JsonNode&) {});
-    object.required_value("name", scene_.name);
+    scene_.name = name_of_file(name_);
+    object.optional_value("name", scene_.name);
     object.optional_value("gravity", scene_.gravity);
     object.optional("settings", [&](const JsonNode& node) { read_settings(node, scene_.settings); });
     object.required("bodies", [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
@@ -183,10 +194,13 @@ class SceneReader {
     Body body;
     std::optional<BodyMesh> mesh;
     std::vector<Vec3> rest, velocities;
-    object.required_value("name", body.name);
+    object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
-    object.required("mesh", [&](const JsonNode& value) { mesh = read_body_mesh(value); });
+    object.required("mesh", [&](const JsonNode& value) {
+      if (!object.has("name") && value.value().is_string()) body.name = name_of_file(value.value().get<std::string>());
+      mesh = read_body_mesh(value);
+    });
     object.optional("rest_mesh", [&](const JsonNode& value) {
       if (mesh) rest = read_like(value, *mesh);
     });

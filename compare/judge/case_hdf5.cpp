@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "compare/files/bytes.hpp"
+#include "compare/files/json_reader.hpp"
 #include "compare/judge/numbers_json.hpp"
 #include "compare/files/hdf5.hpp"
 
@@ -126,7 +127,7 @@ void write_case_hdf5(const std::filesystem::path& path, const Json& json) {
 
 Json read_case_hdf5(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open(path);
-  return taken_out(file, Json::parse(file.read_text("case")));
+  return taken_out(file, parse_json(file.read_text("case"), path.string()));
 }
 
 }  // namespace ogc::compare

@@ -1,9 +1,10 @@
 #include "compare/judge/corpus.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 #include "compare/files/bytes.hpp"
+#include "compare/files/json_reader.hpp"
 #include "compare/judge/case_hdf5.hpp"
 #include "compare/judge/corpus_forces.hpp"
 #include "compare/judge/corpus_rest.hpp"
@@ -132,7 +133,7 @@ TestCase load_case(const std::filesystem::path& path) {
   const bool is_text = path.extension() == ".json";
   const std::string text = is_text ? read_bytes(path) : "";
   try {
-    const Json json = is_text ? Json::parse(text) : read_case_hdf5(path);
+    const Json json = is_text ? parse_json(text, path.string()) : read_case_hdf5(path);
     const int format = json.at("format").get<int>();
     if (format != case_format_version)
       throw InputError("format " + std::to_string(format) + " is not the one this program reads (" + std::to_string(case_format_version) + ")");
@@ -149,8 +150,7 @@ TestCase load_case(const std::filesystem::path& path) {
 }
 
 std::vector<CaseName> load_batch(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path.string() + ": cannot be read; give a file with one problem string a line");
+  std::istringstream file(read_bytes(path));
   std::vector<CaseName> names;
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {

@@ -4,48 +4,86 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace ogc::compare {
 namespace {
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](char c) { return lower(c); });
+  return result;
+}
+
+/// Typing errors that lead from one to the other (Damerau's, each pair of letters swapped at most once): rows i − 2, i
+/// − 1 and i of the usual table.
+std::size_t typing_errors(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before, above, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    before = std::exchange(above, row);
     row[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+      row[j + 1] = std::min({above[j] + (a[i] == b[j] ? 0 : 1), above[j + 1] + 1, row[j] + 1});
+      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
     }
   }
   return row.back();
 }
 
+/// "stvk" of "st_venant_kirchhoff".
+bool abbreviates(std::string_view shorter, std::string_view name) {
+  if (shorter.size() < 3 || name.empty() || shorter.front() != name.front()) return false;
+  for (const char c : name)
+    if (!shorter.empty() && shorter.front() == c) shorter.remove_prefix(1);
+  return shorter.empty();
+}
+
 }  // namespace
 
-std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
+std::string_view near_name(std::string_view name, std::span<const std::string_view> known) {
+  if (name.empty()) return {};
+  const std::string wanted = lower(name);
   std::string_view best;
-  std::size_t smallest = std::numeric_limits<std::size_t>::max();
+  std::size_t fewest = std::max<std::size_t>(1, wanted.size() / 3) + 1;
   for (const std::string_view candidate : known) {
-    const bool is_cut_off = !name.empty() && candidate.starts_with(name);
-    const std::size_t distance = is_cut_off ? 0 : edit_distance(name, candidate);
-    if (distance < smallest) {
-      smallest = distance;
-      best = candidate;
-    }
+    const std::string other = lower(candidate);
+    const std::size_t errors = other.starts_with(wanted) ? 0 : typing_errors(wanted, other);
+    if (errors >= fewest) continue;
+    fewest = errors;
+    best = candidate;
   }
-  return best;
+  if (!best.empty()) return best;
+  const auto meant =
+      std::ranges::find_if(known, [&](std::string_view candidate) { return abbreviates(wanted, lower(candidate)); });
+  return meant == known.end() ? std::string_view{} : *meant;
 }
 
 std::string unknown_name(std::string_view what, std::string_view name, std::span<const std::string_view> known) {
-  std::string text = "unknown " + std::string(what) + " '" + std::string(name) + "'";
-  if (!known.empty()) text += "; did you mean '" + std::string(nearest_name(name, known)) + "'?";
+  constexpr std::size_t most_listed = 64;
+  std::string text = "unknown " + std::string(what) + " '" + shown(name) + "'";
+  if (known.empty()) return text;
+  const std::string_view near = near_name(name, known);
+  text += near.empty() ? "; there are: " : "; did you mean '" + std::string(near) + "'? There are: ";
+  text += joined(known.first(std::min(known.size(), most_listed)));
+  return known.size() > most_listed ? text + " and " + std::to_string(known.size() - most_listed) + " more" : text;
+}
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
   return text;
+}
+
+std::string shown(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not inside a character of UTF-8
+  return std::string(text.substr(0, end)) + "…";
 }
 
 std::string shortest(double value) {

@@ -1,4 +1,5 @@
-// What error messages share: the nearest known name, and numbers that read back as the same double.
+// What error messages share: names that were meant and names that there are, and numbers that read back as the same
+// double.
 #pragma once
 
 #include <span>
@@ -7,12 +8,21 @@
 
 namespace ogc::compare {
 
-/// The first known name that begins with `name`; otherwise the first of those with the fewest insertions, deletions and replacements to it. Empty where
-/// `known` is.
-std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
+/// The known name that was meant, whatever the case of letters: the first that begins with `name`; otherwise the first
+/// of those that the fewest typing errors (a letter left out, added, replaced, two letters swapped) lead to, at most
+/// one in three letters; otherwise the first that `name` abbreviates: three letters or more, in its order, from its
+/// first. Empty where there is none.
+std::string_view near_name(std::string_view name, std::span<const std::string_view> known);
 
-/// "unknown WHAT 'NAME'; did you mean 'NEAREST'?": the beginning of every complaint about a name.
+/// "unknown WHAT 'NAME'; did you mean 'NEAR'? There are: A, B, C": the beginning of every complaint about a name.
+/// Without a near one it does not ask; of many known names it lists the first.
 std::string unknown_name(std::string_view what, std::string_view name, std::span<const std::string_view> known);
+
+/// "A, B, C".
+std::string joined(std::span<const std::string_view> names);
+
+/// A text as messages show it: cut after so many bytes.
+std::string shown(std::string_view text, std::size_t most = 40);
 
 /// The shortest decimal text that reads back as the same double.
 std::string shortest(double value);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/ranges.hpp"
 #include "compare/problem/problem_sort.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
@@ -47,9 +48,9 @@ void check_materials(std::vector<Problem>& problems, const Scene& scene) {
   for (const Body& body : scene.bodies) {
     for (const MaterialInfo& info : material_table()) {
       const double value = body.material.*info.field;
-      if (value >= info.minimum && value <= info.maximum) continue;
+      if (in_range(info, value)) continue;
       problems.push_back({quoted("body", body.name), std::string(info.name) + " is " + shortest(value),
-                          "give a number from " + shortest(info.minimum) + " to " + shortest(info.maximum) + " " + std::string(info.unit)});
+                          "give " + describe_range(info)});
     }
   }
 }
@@ -122,6 +123,11 @@ void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion
   const bool finite = is_finite(motion.centre) && is_finite(motion.axis) && is_finite(motion.velocity) &&
                       std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
   if (!finite) problems.push_back({where, "has a number that is not finite", "give finite centre, axis, velocities and times"});
+  const auto above = [](const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > most_length;
+  };
+  if (above(motion.centre) || above(motion.velocity) || std::abs(motion.angular_velocity) > most_length)
+    problems.push_back({where, "has a centre, velocity or angular velocity above 2²⁰", "give metres, m/s and rad/s"});
   if (motion.axis == Vec3{}) problems.push_back({where, "has a zero axis", "give a direction, e.g. [1, 0, 0]"});
   if (!(motion.start <= motion.end)) problems.push_back({where, "ends before it starts", "give start ≤ end [s]"});
   if (motion.vertices.empty()) problems.push_back({where, "moves no vertex", "list vertices or remove the motion"});

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "compare/files/bytes.hpp"
 #include "compare/files/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
@@ -27,7 +28,7 @@ void write_frame(const fs::path& path, ExportFormat format, const Scene& scene, 
 ExportFormat parse_export_format(std::string_view text) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == text) return static_cast<ExportFormat>(i);
-  throw InputError(unknown_name("export format", text, names) + "; use obj, ply or vtp");
+  throw InputError(unknown_name("export format", text, names));
 }
 
 std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, const fs::path& out) {
@@ -35,7 +36,7 @@ std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, co
   if (run.frame_count() == 0) throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
   std::error_code error;
   fs::create_directories(out, error);
-  if (error) throw ResourceError(out.string() + ": can't make the folder (" + error.message() + "): choose a folder that you may write to");
+  if (error) refuse_path(out, "make the folder", error);
   const std::vector<Index> bodies = body_of_vertex(run.scene());
   const std::string extension = "." + std::string(names[static_cast<std::size_t>(format)]);
   std::vector<fs::path> files;

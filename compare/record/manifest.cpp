@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "compare/files/bytes.hpp"
+#include "compare/files/json_reader.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 
 namespace ogc::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct TextField {
   std::string_view name;
@@ -138,10 +136,10 @@ std::string manifest_text(const Manifest& manifest, const Scene& scene) {
 
 Manifest read_manifest(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "run.json";
-  std::ifstream file(path);
-  if (!file) throw InputError(path.string() + ": is missing or can't be read: name a folder that `ogc run` has written");
+  if (!std::filesystem::exists(path))
+    throw InputError(path.string() + ": is missing: name a folder that `ogc run` has written");
+  const Json json = parse_json(read_bytes(path), path.string());
   try {
-    const Json json = Json::parse(file);
     if (json.at("format").get<std::string>() != "ogc run") throw InputError(path.string() + ": is not of a run: name a folder that `ogc run` has written");
     if (const auto version = json.at("format_version").get<std::int64_t>(); version > run_format_version)
       throw InputError(path.string() + ": is of run format " + std::to_string(version) + ", newer than format " + std::to_string(run_format_version) +

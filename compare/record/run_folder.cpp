@@ -1,8 +1,11 @@
 #include "compare/record/run_folder.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <stdexcept>
@@ -57,11 +60,15 @@ std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folde
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw ResourceError(folder.string() + ": can't make the folder (" + error.message() + "): choose a folder that you may write to");
+  if (error) refuse_path(folder, "make the folder", error);
 }
 
 void refuse_used_folder(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError(folder.string() + ": is a file: name a new folder for the run");
+  std::error_code error;
+  const auto status = fs::status(folder, error);
+  if (fs::exists(status) && !fs::is_directory(status))
+    throw InputError(folder.string() + ": is a file: name a new folder for the run");
+  if (error && status.type() != fs::file_type::not_found) refuse_path(folder, "make the folder", error);
   for (const char* name : {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf"})
     if (fs::exists(folder / name))
       throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
@@ -108,6 +115,16 @@ std::string frame_name(std::int64_t step) {
   std::array<char, 40> name;
   std::snprintf(name.data(), name.size(), "frame_%06lld", static_cast<long long>(step));
   return name.data();
+}
+
+void expect_new_run_folder(const fs::path& folder) {
+  refuse_used_folder(folder);
+  fs::path there = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there))
+    refuse_path(folder, "make the folder", std::make_error_code(std::errc::not_a_directory));
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    refuse_path(folder, "make the folder", {errno, std::generic_category()});
 }
 
 RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names)

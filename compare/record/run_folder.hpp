@@ -46,6 +46,10 @@ std::span<const float> as_floats(std::span<const Vec3f> vectors);
 /// And back.
 std::vector<Vec3f> as_vectors(const std::vector<float>& floats);
 
+/// Throws InputError, before anything is computed for it, where no new run can be written to the folder: it holds one,
+/// a file has its name, it can't be made.
+void expect_new_run_folder(const std::filesystem::path& folder);
+
 /// Writes a run. Throws ResourceError (disk full or not writable, with the path).
 class RunWriter {
  public:

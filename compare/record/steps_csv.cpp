@@ -2,11 +2,10 @@
 
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 
+#include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
@@ -129,15 +128,18 @@ std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_coun
   return text;
 }
 
-StepTable read_steps(const std::filesystem::path& folder) {
+StepTable read_steps(const std::filesystem::path& folder, std::int64_t last) {
   const std::filesystem::path path = folder / "steps.csv";
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": is missing or can't be read: name a folder that `ogc run` has written");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!std::filesystem::exists(path))
+    throw InputError(path.string() + ": is missing: name a folder that `ogc run` has written");
+  const std::string text = read_bytes(path);
   StepTable table;
   std::size_t number = 0;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const std::string_view line(text.data() + begin, end - begin);
+    std::int64_t step = 0;
+    if (number > 0 && std::from_chars(line.data(), line.data() + line.size(), step).ec == std::errc{} && step > last)
+      break;
     if (++number == 1)
       table.stage_names = parse_header(path.string(), line);
     else if (!parse_row(line, table.stage_names.size(), table.rows.emplace_back()))

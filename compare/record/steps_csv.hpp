@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,7 +35,8 @@ struct StepTable {
   std::vector<StepMetrics> rows;
 };
 
-/// Reads steps.csv of a run. A last line without its end (the run was killed) is left out. Throws InputError that names the file and the line.
-StepTable read_steps(const std::filesystem::path& folder);
+/// Reads steps.csv of a run up to the row of step `last`. A last line without its end (the run was killed) is left out.
+/// Throws InputError that names the file and the line.
+StepTable read_steps(const std::filesystem::path& folder, std::int64_t last = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace ogc::compare

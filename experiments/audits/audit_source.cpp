@@ -38,8 +38,8 @@ class RunSource : public AuditSource {
   std::string name(std::size_t i) const override { return "step " + std::to_string(reader_.frame_step(i)); }
   AuditedState next() override {
     const compare::Frame frame = reader_.frame(next_);
-    AuditedState state{
-        name(next_++), topology_, compare::to_double(frame.positions), judge_.audit(frame.positions), {}, judge_.names(), ""};
+    AuditedState state{name(next_++), topology_, compare::to_double(frame.positions), {}, {}, judge_.names(), ""};
+    state.result = judge_.audit(frame.positions, limit_);
     state.distances = judge_.smallest_distances(frame.positions);
     state.text = judge_.describe(state.result);
     return state;

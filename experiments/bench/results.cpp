@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
+#include "compare/files/json_reader.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/bench/rank_test.hpp"
 
@@ -50,7 +51,7 @@ Verdict verdict_of(const BenchChange& change, double correction) {
 
 Json parse_results(const std::filesystem::path& file) {
   try {
-    Json json = Json::parse(without_nan(compare::read_bytes(file)));
+    Json json = compare::parse_json(without_nan(compare::read_bytes(file)), file.string());
     if (json.at("benchmarks").is_array() && json.at("context").is_object()) return json;
   } catch (const Json::exception& error) {
     throw compare::InputError(file.string() + ": " + error.what() + ": not a result of `ogc bench --json FILE`; name another file");

@@ -2,15 +2,14 @@
 
 #include <system_error>
 
+#include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
 
 InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
+  expect_regular_file(path);
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(name_ + ": no such file; check the path");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(name_ + ": is no regular file; name a file");
   size_ = std::filesystem::file_size(path, error);
   stream_.open(path, std::ios::binary);
   if (error || !stream_) throw InputError(name_ + ": can't be read; check its permissions");

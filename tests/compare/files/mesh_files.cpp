@@ -209,7 +209,7 @@ TEST_CASE("missing files, folders, unknown formats and full disks are named", "[
                     Contains("'.stl' is no mesh format that is written; use .obj or .ply"));
   std::filesystem::create_directories(scratch / "folder.obj");
   CHECK_THROWS_WITH(read_mesh(scratch / "folder.obj"), Contains("is a folder"));
-  CHECK_THROWS_AS(write_mesh(scratch / "folder.obj", awkward_mesh()), ResourceError);
+  CHECK_THROWS_AS(write_mesh(scratch / "folder.obj", awkward_mesh()), InputError);
   if (std::filesystem::exists("/dev/full")) {
     CHECK_THROWS_WITH(write_bytes("/dev/full", std::string(100000, 'x')), Contains("/dev/full: can't be written; check free space"));
   }

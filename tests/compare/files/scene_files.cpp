@@ -10,6 +10,7 @@
 #include "compare/files/keyframes.hpp"
 #include "compare/files/mesh_files.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
 #include "tests/compare/problem/small_scene.hpp"
@@ -229,6 +230,47 @@ TEST_CASE("a scene file needs no more than a name and a body with a mesh", "[uni
   CHECK(scene.rest_positions == scene.mesh.positions);
   CHECK(scene.velocities == std::vector<Vec3>(3));
   CHECK_FALSE(scene.bodies[0].fixed);
+}
+
+TEST_CASE("a scene and a body without a name are called as their files are, with letters that names may have",
+          "[unit]") {
+  const Scratch scratch;
+  write_mesh(scratch / "my cloth.obj", {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}, {}});
+  write_bytes(scratch / "first try.json", R"({"format_version": 1, "bodies": [{"mesh": "my cloth.obj"}]})");
+  const Scene scene = read_scene(scratch / "first try.json");
+  CHECK(scene.name == "first_try");
+  CHECK(scene.bodies.at(0).name == "my_cloth");
+  write_bytes(scratch / "empty.json", R"({"format_version": 1, "bodies": [{"mesh": "my cloth.obj", "name": ""}]})");
+  CHECK_THROWS_WITH(read_scene(scratch / "empty.json"), Contains("body ''") && Contains("can't be used"));
+}
+
+TEST_CASE(
+    "no number of a scene file may vanish in single precision or be beyond its range; the message names it, and is "
+    "short",
+    "[property]") {
+  Edited edited;
+  const json good = edited.content;
+  const auto check_refused = [&](const std::string& path, const json& value) {
+    edited.content = good;
+    edited.content[json::json_pointer(path)] = value;
+    const std::string error = edited.error();
+    INFO(path << " " << value << ": " << error);
+    CHECK_THAT(error, Contains(path.substr(path.rfind('/') + 1)));
+    CHECK(error.size() < 500);
+  };
+  for (const SettingInfo& info : setting_table()) {
+    const std::string path = "/settings/" + std::string(info.name);
+    for (const json& value : {json(-1), json(1e300), json(1e38), json("nan"), json(nullptr)})
+      check_refused(path, value);
+    if (std::holds_alternative<double Settings::*>(info.field)) check_refused(path, 1e-46);
+  }
+  for (const MaterialInfo& info : material_table())
+    for (const double value : {-1.0, 1e300, 1e20, 1e-46})
+      check_refused("/bodies/0/material/" + std::string(info.name), value);
+  for (const char* number : {"angular_velocity", "start"}) check_refused("/motions/0/" + std::string(number), "inf");
+  edited.content = good;
+  edited.content["motions"][0]["angular_velocity"] = 1e20;
+  CHECK_THAT(edited.error(), Contains("motion '") && Contains("angular velocity above 2²⁰"));
 }
 
 TEST_CASE("motions select all vertices of a body, those in a closed box, or those listed", "[unit]") {

@@ -1,9 +1,14 @@
 // The table is the only place that knows ranges; whatever reads it inherits these checks.
 #include "compare/problem/settings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
+#include <sstream>
+#include <vector>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/ranges.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
@@ -17,7 +22,7 @@ TEST_CASE("every setting has a name of its own and a default within its range", 
     CHECK(names.insert(info.name).second);
     CHECK(in_range(info, get_setting(defaults, info)));
     CHECK(info.minimum < info.maximum);
-    CHECK(!info.meaning.empty());
+    CHECK(std::ranges::count(info.meaning, ' ') >= 3);  // words, not a symbol
     CHECK(!info.unit.empty());
   }
 }
@@ -67,7 +72,7 @@ TEST_CASE("values out of range, of the wrong type or not numbers are refused and
       CHECK_THROWS_AS(set_setting(settings, info.name, text), InputError);
       CHECK(settings == Settings{});
     }
-    for (const char* text : {"", "nan", "inf", "five", "1 2", "1;", "0x10"}) {
+    for (const char* text : {"", "nan", "inf", "-inf", "1e400", "1e-46", "five", "1 2", "1;", "0x10"}) {
       Settings settings;
       CHECK_THROWS_AS(set_setting(settings, info.name, text), InputError);
       CHECK(settings == Settings{});
@@ -83,6 +88,24 @@ TEST_CASE("messages name the setting, its unit, its range and the nearest name",
   CHECK_THROWS_WITH(set_setting(settings, "contactradius", "1"), Contains("'contactradius'") && Contains("'contact_radius'"));
   CHECK_THROWS_WITH(set_setting(settings, "iteration", "1"), Contains("did you mean 'iterations'?"));
   CHECK_THROWS_WITH(get_setting(settings, "gamma"), Contains("unknown setting 'gamma'"));
+}
+
+TEST_CASE("what help says of a range is what is taken: its ends are, and what lies just outside is not", "[property]") {
+  for (const SettingInfo& info : setting_table()) {
+    if (!info.choices.empty() || info.name == "lanes") continue;
+    std::istringstream range(range_text(info));
+    std::vector<double> ends;
+    for (std::string word; range >> word;)
+      if (word != "to" && word != "or") ends.push_back(std::stod(word));
+    INFO(info.name << ": " << range_text(info));
+    REQUIRE(ends.size() >= 2);
+    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+    const double below = whole ? ends.front() - 1 : std::nextafter(ends.front(), -1.0),
+                 above = std::max(ends.back() + (whole ? 1 : 0), std::nextafter(ends.back(), 1e300));
+    for (const double end : ends) CHECK(in_range(info, end));
+    for (const double outside : {below, above}) CHECK(!in_range(info, outside));
+    if (ends.size() == 3) CHECK(!in_range(info, ends[1] / 2));
+  }
 }
 
 TEST_CASE("lanes is 0 or a power of two up to 32", "[unit]") {

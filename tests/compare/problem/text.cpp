@@ -7,26 +7,61 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
+#include "compare/problem/settings.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
 
-TEST_CASE("the nearest name is the one with the fewest edits, the first of several", "[unit]") {
+TEST_CASE("the near name is the one with the fewest typing errors, the first of several", "[unit]") {
   constexpr std::array<std::string_view, 3> known{"density", "friction", "fiction"};
-  CHECK(nearest_name("densty", known) == "density");
-  CHECK(nearest_name("ddensity", known) == "density");
-  CHECK(nearest_name("densitz", known) == "density");
-  CHECK(nearest_name("ffiction", known) == "friction");
-  CHECK(nearest_name("f", known) == "friction");
-  CHECK(nearest_name("fi", known) == "fiction");
-  CHECK(nearest_name("", known) == "density");
-  CHECK(nearest_name("anything", {}).empty());
+  CHECK(near_name("densty", known) == "density");
+  CHECK(near_name("ddensity", known) == "density");
+  CHECK(near_name("densitz", known) == "density");
+  CHECK(near_name("Denisty", known) == "density");
+  CHECK(near_name("ffiction", known) == "friction");
+  CHECK(near_name("f", known) == "friction");
+  CHECK(near_name("fi", known) == "fiction");
+  CHECK(near_name("anything", {}).empty());
 }
 
-TEST_CASE("a complaint about a name proposes one only where there are any", "[unit]") {
-  constexpr std::array<std::string_view, 1> known{"twist"};
-  CHECK(unknown_name("scene", "twits", known) == "unknown scene 'twits'; did you mean 'twist'?");
+TEST_CASE("what resembles no name is near none; an abbreviation is near what it is short for", "[unit]") {
+  constexpr std::array<std::string_view, 3> models{"none", "st_venant_kirchhoff", "stable_neo_hookean"};
+  CHECK(near_name("stvk", models) == "st_venant_kirchhoff");
+  CHECK(near_name("non", models) == "none");
+  for (const char* other : {"", "h", "linear", "kvts", "tvk", "st_neo_kirchhoff_venant"})
+    CHECK(near_name(other, models).empty());
+}
+
+// Within a third of its letters a text is brought back, whichever of the four errors were made.
+TEST_CASE("a name with one typing error in it is found again among all settings", "[property]") {
+  std::vector<std::string_view> names;
+  for (const SettingInfo& info : setting_table()) names.push_back(info.name);
+  std::mt19937 random(1);
+  for (const std::string_view name : names) {
+    if (name.size() < 5) continue;
+    for (int error = 0; error < 4; ++error) {
+      std::string typed(name);
+      const std::size_t at = 1 + random() % (typed.size() - 2);
+      if (error == 0) typed.erase(at, 1);
+      if (error == 1) typed.insert(at, "q");
+      if (error == 2) typed[at] = 'q';
+      if (error == 3) std::swap(typed[at], typed[at - 1]);
+      INFO(typed);
+      CHECK(near_name(typed, names) == name);
+    }
+  }
+}
+
+TEST_CASE("a complaint about a name proposes a near one and lists those that there are", "[unit]") {
+  constexpr std::array<std::string_view, 2> known{"twist", "knot"};
+  CHECK(unknown_name("scene", "twits", known) == "unknown scene 'twits'; did you mean 'twist'? There are: twist, knot");
+  CHECK(unknown_name("scene", "dress", known) == "unknown scene 'dress'; there are: twist, knot");
+  CHECK(unknown_name("scene", std::string(1000, 'x'), known).size() < 100);
+  const std::vector<std::string_view> many(1000, "name");
+  CHECK(unknown_name("body", "other", many).ends_with(" and 936 more"));
   CHECK(unknown_name("scene", "twits", {}) == "unknown scene 'twits'");
 }
 

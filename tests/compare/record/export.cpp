@@ -74,10 +74,10 @@ TEST_CASE("a VTP sequence holds the arrays bit for bit, and its index the times"
 
 TEST_CASE("what can't be exported is said: unknown formats, runs without a frame, no run, a folder that can't be made", "[unit]") {
   const Scratch folder;
-  CHECK_THROWS_WITH(parse_export_format("vtk"), ContainsSubstring("'vtk'") && ContainsSubstring("obj, ply or vtp"));
+  CHECK_THROWS_WITH(parse_export_format("vtk"), ContainsSubstring("'vtk'") && ContainsSubstring("obj, ply, vtp"));
   { RunWriter run(folder / "empty", recorded_scene(), recorded_provenance(), {}); }
   CHECK_THROWS_AS(export_run(folder / "empty", ExportFormat::obj, folder / "out"), InputError);
   CHECK_THROWS_AS(export_run(folder / "nowhere", ExportFormat::obj, folder / "out"), InputError);
   write_run(folder / "run");
-  CHECK_THROWS_AS(export_run(folder / "run", ExportFormat::obj, folder / "run/run.json/out"), ResourceError);
+  CHECK_THROWS_AS(export_run(folder / "run", ExportFormat::obj, folder / "run/run.json/out"), InputError);
 }

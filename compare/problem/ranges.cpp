@@ -1,0 +1,41 @@
+#include "compare/problem/ranges.hpp"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "compare/problem/text.hpp"
+
+namespace ogc::compare {
+namespace {
+
+constexpr double least_single = std::numeric_limits<float>::min();
+
+/// `is_rounded`: to single precision, where a number between 0 and the least vanishes.
+std::string range(double minimum, double maximum, bool is_rounded) {
+  return (is_rounded && minimum == 0 ? "0, or " + shortest(least_single) : shortest(minimum)) + " to " +
+         shortest(maximum);
+}
+
+}  // namespace
+
+bool vanishes_in_single(double value) { return value != 0 && std::abs(value) < least_single; }
+
+std::string range_text(const SettingInfo& info) {
+  if (!info.choices.empty()) return joined(info.choices);
+  if (info.name == "lanes") return "0 or a power of two up to 32";
+  return range(info.minimum, info.maximum, std::holds_alternative<double Settings::*>(info.field));
+}
+
+std::string range_text(const MaterialInfo& info) { return range(info.minimum, info.maximum, true); }
+
+bool in_range(const MaterialInfo& info, double value) {
+  return value >= info.minimum && value <= info.maximum && !vanishes_in_single(value);
+}
+
+std::string describe_range(const MaterialInfo& info) {
+  const std::string unit = info.unit == "1" ? "" : " " + std::string(info.unit);
+  return "a number from " + range_text(info) + unit + " (" + std::string(info.meaning) + ")";
+}
+
+}  // namespace ogc::compare

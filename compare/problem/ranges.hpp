@@ -1,0 +1,24 @@
+// What may stand in a row of the tables of settings and materials: for checks, messages and help.
+#pragma once
+
+#include <string>
+
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/settings.hpp"
+
+namespace ogc::compare {
+
+/// Whether the number is not 0, but too small for single precision to hold as a normal number: rounded it may be 0,
+/// which may mean something else.
+bool vanishes_in_single(double value);
+
+/// "1 to 1024", "0, or 1.1754943508222875e-38 to 1", or the names of the choices.
+std::string range_text(const SettingInfo& info);
+std::string range_text(const MaterialInfo& info);
+
+/// Whether a constant may have this value; see in_range of settings.
+bool in_range(const MaterialInfo& info, double value);
+/// "a number from 1 to 1024 N/m (meaning)".
+std::string describe_range(const MaterialInfo& info);
+
+}  // namespace ogc::compare
