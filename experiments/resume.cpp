@@ -1,7 +1,9 @@
 #include "experiments/resume.hpp"
 
 #include "compare/problem/error.hpp"
+#include "compare/record/steps_csv.hpp"
 #include "experiments/version.hpp"
+#include "fast/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -38,13 +40,43 @@ void check_program(const std::string& folder, const Provenance& run) {
   if (build.dirty) log_line("the program was built with changes that are not committed: that they are those of the interrupted run can't be checked");
 }
 
+/// A CPU may be another one, and have other threads: no bit depends on them.
+void check_device(const std::string& folder, const Provenance& run) {
+  if (run.backend != "cuda") return;
+  const fast::BackendInfo here = fast::backend_info(fast::Backend::cuda);
+  const std::string begin = folder + ": was computed on " + run.device + ", ",
+                    remedy = "begin a new run from its last frame with --from-state";
+  if (!here.usable)
+    throw compare::ResourceError(begin + "and here " + here.description + ". Resume it there, or " + remedy +
+                                 " and --backend cpu");
+  if (run.device != here.description)
+    throw compare::InputError(begin + "this is " + here.description +
+                              ": another device or driver may give other bits. Resume it there, or " + remedy);
+}
+
+/// A row for each step up to the checkpoint's, from which the totals of the summary are counted.
+void check_rows(const std::filesystem::path& folder, std::int64_t step) {
+  const std::vector<compare::StepMetrics> rows = compare::read_steps(folder, step).rows;
+  bool whole = rows.empty() || rows.back().step == step;
+  for (std::size_t i = 1; i < rows.size(); ++i) whole &= rows[i].step == rows[i - 1].step + 1;
+  if (!whole)
+    throw compare::InputError(
+        (folder / "steps.csv").string() + ": has not every row up to the checkpoint's step " + std::to_string(step) +
+        ": it was changed by hand or is damaged; begin a new run from the last frame with --from-state");
+}
+
 }  // namespace
 
 ResumedRun resumed_run(const std::filesystem::path& folder) {
+  const compare::Manifest manifest = compare::read_manifest(folder);
+  if (manifest.provenance.status != "finished") {
+    check_program(folder.string(), manifest.provenance);
+    check_device(folder.string(), manifest.provenance);
+    compare::expect_no_appender(folder / "steps.csv");
+  }
   const compare::RunReader run(folder);
   const Provenance& provenance = run.provenance();
   check_end(folder.string(), run);
-  check_program(folder.string(), provenance);
   ResumedRun resumed;
   resumed.options.solver = provenance.solver;
   resumed.options.backend = provenance.backend;
@@ -64,6 +96,7 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   request.residual = resumed.options.residual;
   request.folder = folder;
   request.resume = compare::read_checkpoint(folder, compare::scene_digest(folder));
+  check_rows(folder, request.resume->state.step);
   return resumed;
 }
 

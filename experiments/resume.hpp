@@ -1,5 +1,7 @@
-// Going on with a run that was cut off (`ogc run --resume RUN`) to the bits that it would have come to. What it needs stands in the folder: run.json says by what and
-// with which options it was computed, scene/ holds the scene with its settings, checkpoint.h5 the state. What could change a bit is compared and refused.
+// Going on with a run that was cut off (`ogc run --resume RUN`) to the bits that it would have come to. What it needs
+// stands in the folder: run.json says by what and with which options it was computed, scene/ holds the scene with its
+// settings, checkpoint.h5 the state. What could change a bit is compared and refused, the cheapest first, and all of it
+// before anything is computed.
 #pragma once
 
 #include "experiments/run_options.hpp"
@@ -12,7 +14,9 @@ struct ResumedRun {
   RunRequest request;
 };
 
-/// Of the folder. Throws compare::InputError that says what to do: no run, finished, another program, scene or checkpoint changed or damaged.
+/// Of the folder. Throws compare::InputError that says what to do: no run, finished, still going on, of another program
+/// or device; scene, checkpoint or rows changed or damaged. Throws compare::ResourceError where there is no such
+/// device. Changes nothing in the folder.
 ResumedRun resumed_run(const std::filesystem::path& folder);
 
 }  // namespace ogc::experiments

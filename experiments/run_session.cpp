@@ -50,6 +50,7 @@ RunRequest checked(RunRequest request) {
   const std::string problems =
       compare::describe(compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
   if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
+  if (!request.resume) compare::expect_new_run_folder(request.folder);
   return request;
 }
 
@@ -104,7 +105,7 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
       warnings_(request_.scene) {
   frame_steps_ = frame_steps(settings_);
   start_state();
-  check_start();
+  if (!request_.resume) check_start();
 }
 
 void RunSession::start_state() {
@@ -175,16 +176,9 @@ void RunSession::begin_folder() {
 
 /// What the run did before is counted from its own rows.
 void RunSession::reopen_folder() {
-  const compare::RunReader before(request_.folder);
-  if (const std::string& device = before.provenance().device; request_.backend == "cuda" && device != summary_.device)
-    throw compare::InputError(request_.folder.string() + ": was computed on " + device + ", this is " + summary_.device +
-                              ": another device or driver may give other bits. Resume it there, or begin a new run from its last frame with --from-state");
   writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, step_, request_.backend == "cpu" ? ", " + summary_.device : "");
   const std::vector<StepMetrics> rows = compare::read_steps(request_.folder).rows;
   if (!rows.empty()) summary_.first_step = rows.front().step - 1;
-  if (summary_.first_step + static_cast<std::int64_t>(rows.size()) != step_)
-    throw compare::InputError((request_.folder / "steps.csv").string() + ": has not every row up to the checkpoint's step " + std::to_string(step_) +
-                              ": it was changed by hand or is damaged; begin a new run from the last frame with --from-state");
   // An interruption stores a frame where the whole run has none.
   writer_->keep_frames([this](std::int64_t step) { return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps; });
   count(rows);

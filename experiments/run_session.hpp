@@ -65,7 +65,9 @@ std::string describe(const RunSummary& summary);
 
 class RunSession {
  public:
-  /// Checks the scene and its start. Throws compare::InputError (invalid, or an intersection at the start, each pair named).
+  /// Checks the scene, the folder and the start; a run that goes on was checked by resumed_run, and its state when that
+  /// was stored. Throws compare::InputError (invalid, no folder for a run, or an intersection at the start, each pair
+  /// named).
   RunSession(RunRequest request, compare::Contestant contestant);
   RunSession(const RunSession&) = delete;
   RunSession& operator=(const RunSession&) = delete;

@@ -1,5 +1,9 @@
 // Runs that are cut off, by real signals at random moments, and go on: everything but times comes out as if nothing had happened.
+#include <map>
+
 #include "compare/files/bytes.hpp"
+#include "compare/files/durable_file.hpp"
+#include "experiments/resume.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/cut_runs.hpp"
 #include "tests/experiments/program.hpp"
@@ -59,6 +63,62 @@ TEST_CASE("what can't be resumed to the same bits is refused, and the message sa
   compare::write_bytes(run / "run.json", manifest);
   rewritten("steps.csv", "\n2,", "\n9,");
   refused({"steps.csv", "not every row"});
+}
+
+// What resumed_run refuses is refused before a simulation, its audits or its files are begun, because it is what they
+// begin with.
+TEST_CASE("what can't be resumed is refused before anything is computed, and the folder stays as it is", "[unit]") {
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run";
+  REQUIRE(run_ogc("run cloth_on_sphere --scale smoke --steps 3 --audit off --out " + run.string()).status == 0);
+  const std::string manifest = compare::read_bytes(run / "run.json"), rows = compare::read_bytes(run / "steps.csv");
+  const auto written = [&](const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = compare::read_bytes(run / file);
+    REQUIRE(text.find(from) != std::string::npos);
+    compare::write_bytes(run / file, text.replace(text.find(from), from.size(), to));
+  };
+  const auto refusal = [&] {
+    const auto all = [&] {
+      std::map<std::string, std::string> files;
+      for (const auto& entry : fs::recursive_directory_iterator(run))
+        if (entry.is_regular_file()) files[entry.path().string()] = compare::read_bytes(entry.path());
+      return files;
+    };
+    const auto before = all();
+    std::string message;
+    try {
+      experiments::resumed_run(run);
+    } catch (const std::exception& error) {
+      message = error.what();
+    }
+    CHECK(all() == before);
+    return message;
+  };
+  using Catch::Matchers::Contains;
+  CHECK_THAT(refusal(), Contains("finished run (3 steps)"));
+  written("run.json", "\"finished\"", "\"running\"");
+  const std::string running = compare::read_bytes(run / "run.json");
+  CHECK(refusal().empty());
+  written("run.json", "\"backend\": \"cpu\"", "\"backend\": \"cuda\"");
+  CHECK_THAT(refusal(), Contains("was computed on ") && Contains("Resume it there"));
+  compare::write_bytes(run / "run.json", running);
+  written("run.json", "\"compiler\": \"", "\"compiler\": \"other ");
+  CHECK_THAT(refusal(), Contains("another program") && Contains("compiler"));
+  compare::write_bytes(run / "run.json", running);
+  written("steps.csv", "\n2,", "\n9,");
+  CHECK_THAT(refusal(), Contains("steps.csv") && Contains("not every row"));
+  compare::write_bytes(run / "steps.csv", rows);
+  {
+    const compare::LineAppender other(run / "steps.csv", rows.size());
+    CHECK_THAT(refusal(), Contains("another process writes to it"));
+  }
+  CHECK(refusal().empty());
+}
+
+TEST_CASE("the help of run says that every solver resumes", "[unit]") {
+  const std::string help = run_ogc("run --help").out;
+  CHECK(contains(help, {"all solvers, IPC, too", "before it computes anything"}));
+  CHECK(!contains(help, {"Not with --solver ipc"}));
 }
 
 TEST_CASE("a run that is still going on is not resumed by a second program", "[unit]") {
