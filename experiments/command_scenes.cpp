@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/files/durable_file.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
@@ -20,7 +21,7 @@ constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"}
 struct Options {
   std::string scene, folder, scale = "small";
   std::vector<std::string> assignments;
-  bool schema = false;
+  bool schema = false, force = false;
 };
 
 struct Size {
@@ -79,8 +80,38 @@ void show(const std::string& name, const CommandContext& context) {
                table(settings, 3));
 }
 
+/// Moves the files of `from` to `folder`; throws, and moves none, where it holds one of them already.
+void move_files(const std::filesystem::path& from, const std::filesystem::path& folder, bool force) {
+  std::string there;
+  std::vector<std::filesystem::path> names;
+  for (const auto& entry : std::filesystem::directory_iterator(from)) names.push_back(entry.path().filename());
+  std::ranges::sort(names);
+  for (const auto& name : names)
+    if (std::filesystem::exists(folder / name)) there += (there.empty() ? "" : ", ") + name.string();
+  if (!there.empty() && !force)
+    throw compare::InputError(folder.string() + ": holds " + there +
+                              " already: name another folder, or write over them with --force");
+  for (const auto& name : names) std::filesystem::rename(from / name, folder / name);
+}
+
+/// Beside its place first: which files a scene has is known when they are written.
+std::filesystem::path write_files(const Options& options) {
+  const compare::Scene scene = make_scene(options.scene, parse_scale(options.scale), data_folder(options.assignments));
+  const std::filesystem::path folder(options.folder), partial = compare::partial_name(folder / options.scene);
+  std::filesystem::remove_all(partial);
+  const std::filesystem::path name = compare::write_scene(partial, scene).filename();
+  try {
+    move_files(partial, folder, options.force);
+  } catch (const std::exception&) {
+    std::filesystem::remove_all(partial);
+    throw;
+  }
+  std::filesystem::remove(partial);
+  return folder / name;
+}
+
 void write(const Options& options, const CommandContext& context) {
-  const std::filesystem::path file = compare::write_scene(options.folder, make_scene(options.scene, parse_scale(options.scale), data_folder(options.assignments)));
+  const std::filesystem::path file = write_files(options);
   if (context.json) return print_result(Json{{"written", file.string()}});
   print_result(file.string() + "\n");
 }
@@ -92,6 +123,7 @@ void run(const Options& options, const CommandContext& context) {
     if (options.folder.empty() || !assignment.starts_with("data="))
       throw compare::InputError("--set " + assignment + ": only data=DIR, and only with --write; settings stand in the file that is written");
   }
+  if (options.force && options.folder.empty()) throw compare::InputError("--force belongs to --write DIR");
   if (options.scene.empty()) return list(context);
   if (options.folder.empty()) return show(options.scene, context);
   write(options, context);
@@ -104,13 +136,18 @@ void add_scenes_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, show one, or write one as files to edit");
   command->add_option("NAME", options->scene, "A scene; without it all are listed");
   command->add_option("--write", options->folder, "Write NAME.json and its meshes into this folder");
+  command->add_flag("--force", options->force, "With --write: write over files of these names");
   command->add_option("--scale", options->scale, "smoke, small or paper: which size --write writes")->capture_default_str();
   command->add_option("--set", options->assignments, "data=DIR: write dress of Codimensional IPC's published files in DIR")->take_all()->type_size(1)->expected(1);
   command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
-  command->footer("Examples:\n"
-                  "  ogc scenes\n"
-                  "  ogc scenes cloth_on_sphere --write mine --scale smoke    # then edit mine/cloth_on_sphere.json and: ogc run mine/cloth_on_sphere.json");
+  command->footer(
+      "A scene file of your own needs only what differs from the defaults: experiments/examples/drop/drop.json has "
+      "eight lines.\n\n"
+      "Examples:\n"
+      "  ogc scenes\n"
+      "  ogc scenes cloth_on_sphere --write mine --scale smoke    # then edit mine/cloth_on_sphere.json and: ogc run "
+      "mine/cloth_on_sphere.json");
   command->callback([options, &context] { run(*options, context); });
 }
 

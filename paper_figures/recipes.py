@@ -3,7 +3,8 @@ runs the steps, or `in_order` where Snakemake can't be had. Paths are relative t
 
 Keys of a YAML file: `title`; then `illustration: figNN`, or `scene` with `script` (a module of paper_figures) and `run` (options of `ogc run`; without it the
 script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes`
-where the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense.
+where the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense. A figure that is not there yet has `title`, `scene` and
+`missing`: what the program lacks for it.
 """
 
 import argparse
@@ -25,7 +26,7 @@ PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends"}
+KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends", "missing"}
 
 
 class RecipeError(Exception):
@@ -69,6 +70,8 @@ class Recipe:
 
     def outputs(self, scale, backend):
         """Every file that the workflow is asked for."""
+        if "missing" in self.body:
+            return []
         return [path for path in (self.picture(scale, backend), self.movie(scale, backend)) if path]
 
 
@@ -85,16 +88,22 @@ def load(folder=HERE):
 
 
 def choose(names, recipes, backend):
-    """Recipes by figure, scene, `illustrations` or `all`. Throws RecipeError for a name that is none of these, or that has no such backend."""
+    """Recipes by figure, scene, `illustrations` or `all`. Throws RecipeError for a name that is none of these, is not
+    there yet, or has no such backend."""
     chosen = []
     for name in names or [REPRESENTATIVE]:
         found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
         if name == "all":
-            found = [r for r in recipes.values() if backend in r.backends and "vary" not in r.body]
+            found = [r for r in recipes.values() if backend in r.backends and not {"vary", "missing"} & set(r.body)]
         elif name == "illustrations":
             found = [r for r in recipes.values() if "illustration" in r.body]
+        there = [r.name for r in recipes.values() if "missing" not in r.body]
         if not found:
-            raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(recipes)}, illustrations, all")
+            raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(there)}, illustrations, all")
+        if "missing" in found[0].body:
+            missing = found[0]
+            raise RecipeError(f"{missing.name} ({missing.scene}) is not there yet: the program has no {missing.body['missing']}. "
+                              f"There are: {', '.join(there)}")
         if backend not in found[0].backends:
             raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave --backend out")
         chosen += [r for r in found if r not in chosen]
@@ -103,7 +112,9 @@ def choose(names, recipes, backend):
 
 
 def steps(recipe, scale, backend, ogc, python=sys.executable):
-    """The steps of a figure, in an order in which they can be done."""
+    """The steps of a figure, in an order in which they can be done; none of one that is not there yet."""
+    if "missing" in recipe.body:
+        return []
     here, gpu = recipe.folder(scale, backend), int(backend == "cuda")
     picture = recipe.picture(scale, backend)
     drawing = (python, "-m", f"paper_figures.{recipe.body.get('script', 'illustrations')}")
@@ -217,7 +228,9 @@ def table(recipes, scale, backend, runs):
         drawn = "illustration" in recipe.body
         known = times.get((recipe.name, "-" if drawn else scale, "-" if drawn else used))
         time = f"{in_words(known[0])} ({known[1]})" if known else "not measured"
-        done = "yes" if (Path(runs) / recipe.picture(scale, used)).is_file() else "no"
+        if "missing" in recipe.body:
+            time = "not there yet"
+        done = "-" if "missing" in recipe.body else "yes" if (Path(runs) / recipe.picture(scale, used)).is_file() else "no"
         lines.append(f"{recipe.name:14} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} {recipe.title}")
     return lines
 
@@ -239,7 +252,8 @@ def main():
         else:
             print("\n".join(table(recipes, arguments.scale, arguments.backend, arguments.runs)))
     except RecipeError as error:
-        sys.exit(f"reproduce: {error}")
+        print(f"reproduce: {error}", file=sys.stderr)
+        sys.exit(2)
 
 
 if __name__ == "__main__":

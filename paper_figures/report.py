@@ -153,10 +153,12 @@ def figure_section(figure, book, judgements, evidence, fresh=None):
     images = "".join(f"<figure>{shown(path, f'{figure}, ours')}<figcaption><small>{escape(path.relative_to(RESULTS).as_posix())}: {origin_of(path)}</small></figcaption></figure>"
                      for path in pictures_of(figure)) + pictures_just_made(figure, mine, fresh)
     redo = "".join(f"<li><code>experiments/reproduce {escape(r.name)}{'' if 'illustration' in r.body else ' --scale paper'}</code> (parameters: "
-                   f"<code>paper_figures/{escape(r.name)}.yaml</code>: {escape(shlex.join(map(str, r.body.get('run', r.body.get('options', [])))) or 'those of the scene')})</li>" for r in mine)
+                   f"<code>paper_figures/{escape(r.name)}.yaml</code>: {escape(shlex.join(map(str, r.body.get('run', r.body.get('options', [])))) or 'those of the scene')})</li>" for r in mine if "missing" not in r.body)
     links = ", ".join(f'<a href="{scene}.html">{scene}</a>' for scene in scenes)
     made = "".join(commands_of(evidence, scene) for scene in scenes)
     words = "Drawn from the exact reference; it makes no claim in numbers." if mine and "illustration" in mine[0].body else "" if claims else "No claim in numbers."
+    lacks = (escape(r.body["missing"]) for r in mine if "missing" in r.body)
+    words += "".join(f" Not there yet: the program has no {what}." for what in lacks)
     return (f'<h2 id="{figure}">{figure.replace("fig0", "Fig. ").replace("fig", "Fig. ")}: {escape(title)}</h2>{f"<p>{words}</p>" if words else ""}'
             f"{images}{claim_table(claims, fresh)}"
             f"{f'<p>Scene: {links}</p>' if links else ''}{f'<p>To redo it:</p><ul>{redo}</ul>' if redo else ''}{f'<p>Accepted runs:</p><ul>{made}</ul>' if made else ''}")

@@ -65,7 +65,7 @@ Json material_schema() {
 
 Json body_schema() {
   const Json properties = {
-      {"name", value("string", "letters, digits, _ and -")},
+      {"name", value("string", "letters, digits, _ and -; default: that of the mesh's file")},
       {"fixed", value("boolean", "never moves; default false")},
       {"mesh", value("string", ".ply or .obj file, relative to this file; start positions [m]")},
       {"rest_mesh", value("string", "the same faces at their rest positions [m]; default: the mesh")},
@@ -73,7 +73,7 @@ Json body_schema() {
       {"velocities", value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
   };
-  return object(properties, {"name", "mesh"});
+  return object(properties, {"mesh"});
 }
 
 Json motion_schema() {
@@ -132,7 +132,7 @@ Json excluded_schema() {
 std::string scene_schema() {
   const Json properties = {
       {"format_version", {{"const", scene_format_version}}},
-      {"name", value("string", "letters, digits, _ and -")},
+      {"name", value("string", "letters, digits, _ and -; default: that of this file")},
       {"gravity", vector("[m/s²]; default [0, -9.81, 0]")},
       {"settings", settings_schema()},
       {"bodies", array(body_schema(), "in the order of their vertices")},
@@ -141,7 +141,7 @@ std::string scene_schema() {
       {"excluded_pairs", array(excluded_schema(), "two faces are no contact, and not audited, where a vertex of one and a vertex of the other are such a pair")},
   };
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
-  schema.update(object(properties, {"format_version", "name", "bodies"}));
+  schema.update(object(properties, {"format_version", "bodies"}));
   return schema.dump(2) + "\n";
 }
 

@@ -107,7 +107,8 @@ compare::Scene knot_at(Scale scale) {
 
 compare::Scene large_radius_twist_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return large_radius_twist({.vertices_a_side = 16, .steps = 60});
+    case Scale::smoke:
+      return large_radius_twist({.vertices_a_side = 16, .steps = 150});  // the first contacts: step 117
     case Scale::small: return large_radius_twist({.vertices_a_side = 60, .steps = 1200});
     case Scale::paper: break;
   }
@@ -136,7 +137,7 @@ compare::Scene robot_shirt_at(Scale scale) {
 
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 150});
+    case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 720});  // the first contacts: step 513
     case Scale::small: return twist({.vertices_a_side = 40, .steps = 2400});
     case Scale::paper: break;
   }
@@ -174,16 +175,14 @@ compare::Scene make_scene(std::string_view name, Scale scale, const std::filesys
     compare::round_to_single(scene);
     return scene;
   }
-  std::string message = compare::unknown_name("scene", name, names) + " Known scenes:";
-  for (const std::string_view known : names) message += " " + std::string(known);
-  throw compare::InputError(message + "; or name a scene file (.json)");
+  throw compare::InputError(compare::unknown_name("scene", name, names) + "; or name a scene file (.json)");
 }
 
 Scale parse_scale(std::string_view text) {
   for (std::size_t i = 0; i < scale_names.size(); ++i) {
     if (scale_names[i] == text) return static_cast<Scale>(i);
   }
-  throw compare::InputError(compare::unknown_name("scale", text, scale_names) + " Give smoke, small or paper");
+  throw compare::InputError(compare::unknown_name("scale", text, scale_names));
 }
 
 }  // namespace ogc::experiments

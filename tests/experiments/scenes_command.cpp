@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "compare/files/bytes.hpp"
 #include "compare/files/scene_files.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "tests/catch.hpp"
@@ -35,6 +36,40 @@ TEST_CASE("ogc scenes NAME --write writes a scene file that reads back as the sc
   CHECK(scene.mesh.positions == expected.mesh.positions);
   CHECK(scene.mesh.triangles == expected.mesh.triangles);
   CHECK(scene.settings.iterations == expected.settings.iterations);
+}
+
+TEST_CASE("ogc scenes NAME --write keeps files that are there, unless --force says otherwise", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string mine = (folder / "mine").string(), command = "scenes twist --scale smoke --write " + mine;
+  REQUIRE(run_ogc(command).status == 0);
+  std::filesystem::remove(folder / "mine/twist.json");
+  const std::string mesh = compare::read_bytes(folder / "mine/twist_cloth.ply");
+  compare::write_bytes(folder / "mine/twist_cloth.ply", "edited");
+  const ProgramResult refused = run_ogc(command);
+  CHECK(refused.status == 2);
+  CHECK(contains(refused.err, {mine, "twist_cloth.ply", "--force"}));
+  CHECK(compare::read_bytes(folder / "mine/twist_cloth.ply") == "edited");
+  CHECK(std::distance(std::filesystem::directory_iterator(folder / "mine"), {}) ==
+        1);  // not even the scene's file beside it
+  CHECK(run_ogc("scenes fifty_layers --scale smoke --write " + mine).status == 0);
+  CHECK(run_ogc(command + " --force").status == 0);
+  CHECK(compare::read_bytes(folder / "mine/twist_cloth.ply") == mesh);
+  CHECK(compare::read_scene(folder / "mine/twist.json").name == "twist");
+  CHECK(run_ogc("scenes twist --force").status == 2);
+}
+
+TEST_CASE("ten lines are a scene: the example runs, and its cloth meets the stone", "[figure]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = OGC_SOURCE_DIR "/experiments/examples/drop/drop.json";
+  CHECK(std::ranges::count(compare::read_bytes(file), '\n') <= 10);
+  const ProgramResult result =
+      run_ogc("run " + file.string() + " --audit every --json --out " + (folder / "run").string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const nlohmann::json json = nlohmann::json::parse(result.out);
+  CHECK(json.at("scene") == "drop");
+  CHECK(json.at("guarantee_kept") == true);
+  CHECK(json.at("contacts").at("most").get<int>() > 0);
 }
 
 TEST_CASE("ogc scenes --schema prints JSON", "[unit]") {

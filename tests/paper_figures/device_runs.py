@@ -28,7 +28,8 @@ class Scratch(unittest.TestCase):
 
 
 class OneRun(Scratch):
-    LONG = Job("long", ("twist", "--scale", "smoke", "--set", "iterations=60", "--checkpoint", "0", "--audit", "end"))
+    LONG = Job("long", ("twist", "--scale", "smoke", "--steps", "150",
+                        "--set", "iterations=60", "--checkpoint", "0", "--audit", "end"))
 
     def make(self, job, seconds=None):
         return timed_runs.make(OGC, job, self.folder, Limit(seconds))

@@ -70,6 +70,12 @@ class Recipes(unittest.TestCase):
         self.assertNotIn("fig18_solvers", names("all", backend="cuda"))
         self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig13", "fig14", "fig18", "fig01"])
         self.assertEqual(names("all")[-1], "fig01")
+        for name, scene in (("fig15", "yarn_stretch"), ("fig16", "yarn_twist"), ("fig19", "mat_twist")):
+            self.assertNotIn(name, names("all"))
+            for asked in (name, scene):
+                said = rf"{name} \({scene}\) is not there yet: the program has no \w+, .* There are: fig01, "
+                with self.assertRaisesRegex(recipes.RecipeError, said):
+                    recipes.choose([asked], book, "cpu")
         for wrong, words in ((("fig99",), "no figure or scene 'fig99'; there are: fig01"), (("fig18_solvers", "cuda"), "no backend 'cuda'")):
             with self.assertRaisesRegex(recipes.RecipeError, words):
                 recipes.choose(wrong[:1], book, wrong[1] if len(wrong) > 1 else "cpu")
@@ -87,6 +93,16 @@ class Recipes(unittest.TestCase):
             (Path(name) / "fig18-smoke-cpu/fig18.png").write_text("")
             done = {line.split()[0]: " yes " in line for line in recipes.table(book, "smoke", "cpu", Path(name))[1:]}
             self.assertEqual([figure for figure in book if done[figure]], ["fig18"])
+            lines = recipes.table(book, "smoke", "cpu", Path(name))
+            self.assertEqual([line.split()[0] for line in lines if "not there yet" in line], ["fig15", "fig16", "fig19"])
+
+    def test_the_front_says_in_words_what_is_not_there_yet_and_exits_2(self):
+        for figure in ("fig15", "fig16", "fig19"):
+            command = [SOURCE / "experiments/reproduce", figure]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn(f"{figure} (", done.stderr)
+            self.assertIn("is not there yet: the program has no", done.stderr)
 
 
 class Jobs(Scratch):
