@@ -84,8 +84,8 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "ends the run: a signal, kill -9, a full disk, power. --resume goes on from checkpoint.h5 (every\n"
                   "--checkpoint seconds, and at each end that leaves time for it), which the same program and scene take\n"
                   "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
-                  "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a run\n"
-                  "that still goes on) it says before it computes anything.\n"
+                  "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a\n"
+                  "run that still goes on) it says before it computes anything.\n"
                   "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than half of its momentum are\n"
                   "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
                   "Exit status 1: a penetration, a broken bound, a number that is not finite.");

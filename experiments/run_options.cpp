@@ -88,7 +88,8 @@ bool set_stiffness(compare::Scene& scene, const std::string& key, const std::str
 void expect_setting(const std::string& key) {
   std::vector<std::string_view> names{"membrane", "bending", "contact_stiffness"};
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
-  if (std::ranges::find(names, key) == names.end()) throw compare::InputError(compare::unknown_name("setting", key, names));
+  if (std::ranges::find(names, key) != names.end()) return;
+  throw compare::InputError(compare::unknown_name("setting", key, names));
 }
 
 void set(compare::Scene& scene, const std::string& key, const std::string& value) {
@@ -195,8 +196,8 @@ std::string settings_help() {
       "force of a contact for each metre that it is too near, k_c: of every body");
   add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
   std::istringstream lines(table(rows, 4));
-  const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file that ";
-  std::string text = head + "says nothing):\n", line;
+  const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";
+  std::string text = head + "that says nothing):\n", line;
   for (const std::string& meaning : meanings) text += (std::getline(lines, line), line) + "\n      " + meaning + "\n";
   return text;
 }
