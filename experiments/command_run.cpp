@@ -88,6 +88,8 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "run that still goes on) it says before it computes anything.\n"
                   "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than half of its momentum are\n"
                   "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
+                  "Frames are packed and written beside the simulation, which waits where the disk is too slow. The\n"
+                  "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
                   "Exit status 1: a penetration, a broken bound, a number that is not finite.");
   command->callback([options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
 }

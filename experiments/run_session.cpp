@@ -22,6 +22,10 @@ namespace {
 using compare::Snapshot;
 using compare::StepMetrics;
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
 constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
 
 bool finite(const Snapshot& snapshot) {
@@ -192,12 +196,14 @@ RunSummary RunSession::run() {
   try {
     if (!request_.resume) store_frame(last_good_);
     save_checkpoint();
+    writer_->flush();
+    summary_.seconds.start = since_begun();
     simulate();
     finish();
   } catch (const std::exception& error) {
     summary_.status = std::string("failed: ") + error.what();
     try {
-      writer_->finish(summary_.status);
+      writer_->give_up(summary_.status);
     } catch (const std::exception&) {
       // The first error is the one to report; frames that are finished are readable whatever run.json says.
     }
@@ -217,18 +223,17 @@ bool RunSession::is_frame(std::int64_t step) const { return step % frame_steps_ 
 /// A whole run offers it, too: not only one that saves a checkpoint between two frames, or that ends before time.
 bool RunSession::is_planned(std::int64_t step) const { return request_.audit == AuditMode::every || is_frame(step); }
 
-bool RunSession::is_checkpoint_due() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - saved_at_).count() >=
-         request_.checkpoint_seconds;
-}
+bool RunSession::is_checkpoint_due() const { return seconds_since(saved_at_) >= request_.checkpoint_seconds; }
 
 void RunSession::simulate() {
   Progress progress(step_, settings_.steps, "step");
   while (step_ < settings_.steps && !failed() && !interrupted()) {
     if (!one_chunk()) break;
     const double recent = step_times_.empty() ? 0 : step_times_.back();
-    progress.show(step_, number(recent) + " ms a step, " +
-                             counted(static_cast<std::size_t>(summary_.last_vertex_facet_contacts + summary_.last_edge_edge_contacts), "contact"));
+    const auto contacts =
+        static_cast<std::size_t>(summary_.last_vertex_facet_contacts + summary_.last_edge_edge_contacts);
+    progress.show(step_, number(recent) + " ms a step, " + counted(contacts, "contact") +
+                             ", frames written up to step " + std::to_string(writer_->written().last_step));
   }
   progress.end();
   if (interrupted() && !failed()) {
@@ -236,15 +241,17 @@ void RunSession::simulate() {
              "; once more ends the program at once, and leaves what is written");
     offer_state(any_step);
   }
-  collect(auditor_->finish());
+  const Clock::time_point begin = Clock::now();
+  const std::vector<Verdict> verdicts = auditor_->finish();
+  summary_.seconds.audits += seconds_since(begin);
+  collect(verdicts);
 }
 
 /// False where the simulation can't go on.
 bool RunSession::one_chunk() {
-  using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const std::vector<StepMetrics> rows = simulation_->advance(chunk());
-  pace_.measured(static_cast<std::int64_t>(rows.size()), std::chrono::duration<double>(Clock::now() - begin).count());
+  pace_.measured(static_cast<std::int64_t>(rows.size()), seconds_since(begin));
   add_rows(rows);
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
   if (broken.empty()) {
@@ -271,8 +278,10 @@ void RunSession::offer_state(std::int64_t before) {
 
 void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
   writer_->add_steps(rows);
-  for (const StepMetrics& row : rows)
+  for (const StepMetrics& row : rows) {
     for (const std::string& note : row.notes) log_line(note);
+    summary_.seconds.steps += row.wall_ms / 1000;
+  }
   count(rows);
 }
 
@@ -301,8 +310,15 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
 void RunSession::offer(Snapshot snapshot) {
   if (request_.audit == AuditMode::off || (request_.audit == AuditMode::end && snapshot.step != settings_.steps))
     return accept(std::move(snapshot));
-  auditor_->submit(snapshot);
+  submit(snapshot);
   offered_.push_back(std::move(snapshot));
+}
+
+/// On the CPU the audit is over when this returns; beside a device it may wait for the one before.
+void RunSession::submit(const Snapshot& snapshot) {
+  const Clock::time_point begin = Clock::now();
+  auditor_->submit(snapshot);
+  summary_.seconds.audits += seconds_since(begin);
 }
 
 void RunSession::accept(Snapshot snapshot) {
@@ -316,7 +332,7 @@ void RunSession::save_checkpoint() {
   if (last_good_.step == saved_step_) return;
   writer_->save({last_good_, static_cast<std::int64_t>(summary_.audited_states)});
   saved_step_ = last_good_.step;
-  saved_at_ = std::chrono::steady_clock::now();
+  saved_at_ = Clock::now();
 }
 
 void RunSession::collect(const std::vector<Verdict>& verdicts) {
@@ -357,6 +373,20 @@ void RunSession::store_frame(const Snapshot& snapshot) {
   last_frame_ = snapshot.step;
 }
 
+double RunSession::since_begun() const { return seconds_since(request_.begun); }
+
+/// For the summary and for run.json, whose last writing is not in it.
+void RunSession::take_times() {
+  RunSeconds& seconds = summary_.seconds;
+  seconds.writing = writer_->waited_seconds();
+  seconds.whole = since_begun();
+  writer_->set_extra("whole_seconds", number(seconds.whole, 6));
+  writer_->set_extra("start_seconds", number(seconds.start, 6));
+  writer_->set_extra("step_seconds", number(seconds.steps, 6));
+  writer_->set_extra("audit_seconds", number(seconds.audits, 6));
+  writer_->set_extra("writing_seconds", number(seconds.writing, 6));
+}
+
 void RunSession::finish() {
   store_frame(last_good_);
   save_checkpoint();
@@ -374,6 +404,8 @@ void RunSession::finish() {
   writer_->set_extra("final_hash", summary_.final_hash);
   writer_->set_extra("guarantee_kept", !summary_.guarantee_kept ? "not checked" : *summary_.guarantee_kept ? "yes" : "no");
   writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
+  writer_->close();
+  take_times();
   writer_->finish(summary_.status);
 }
 

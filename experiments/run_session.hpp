@@ -22,7 +22,17 @@ namespace ogc::experiments {
 /// What a run that is cut off loses at most, besides the steps that it works at.
 inline constexpr double default_checkpoint_seconds = 60;
 
+/// Where the time of a run goes [s].
+struct RunSeconds {
+  double whole = 0;    ///< since the command began
+  double start = 0;    ///< until the first step: scene, its audit, device, folder
+  double steps = 0;    ///< sum of StepMetrics::wall_ms
+  double audits = 0;   ///< that the run waited for
+  double writing = 0;  ///< that the run waited for the disk
+};
+
 struct RunRequest {
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
   compare::Scene scene;               ///< with all settings applied
   compare::MeshSources sources;       ///< of its bodies' meshes, for messages
   std::string scale;                  ///< "smoke", …; empty for a scene file
@@ -41,7 +51,7 @@ struct RunRequest {
   std::string command_line;
 };
 
-/// What a run comes to. Times [ms]; not-a-number where no step was done.
+/// What a run comes to. Times of steps [ms]; not-a-number where no step was done.
 struct RunSummary {
   std::string scene, scale, solver, backend, device, folder, status;
   std::vector<std::string> warnings;   ///< what can hardly be meant, in words (experiments/warnings.hpp)
@@ -58,6 +68,7 @@ struct RunSummary {
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
   std::optional<bool> guarantee_kept;  ///< empty where nothing was audited and nothing is known to be wrong
   std::string final_hash;              ///< state_hash of the last good state
+  RunSeconds seconds;                  ///< of this command, which may have gone on with an earlier one's run
 };
 
 Json to_json(const RunSummary& summary);
@@ -95,6 +106,9 @@ class RunSession {
   void offer(compare::Snapshot snapshot);
   void accept(compare::Snapshot snapshot);
   void collect(const std::vector<Verdict>& verdicts);
+  void submit(const compare::Snapshot& snapshot);
+  double since_begun() const;
+  void take_times();
   void reject(const Verdict& verdict, const compare::Snapshot& snapshot);
   void store_frame(const compare::Snapshot& snapshot);
   void finish();

@@ -21,6 +21,11 @@ std::string per_step(std::int64_t count, std::int64_t steps) {
   return steps > 0 ? number(static_cast<double>(count) / static_cast<double>(steps)) + " a step" : "none";
 }
 
+std::string wall_time(const RunSeconds& seconds) {
+  return number(seconds.whole) + " s: start " + number(seconds.start) + " s, steps " + number(seconds.steps) +
+         " s; waited for audits " + number(seconds.audits) + " s, for the disk " + number(seconds.writing) + " s";
+}
+
 }  // namespace
 
 Json to_json(const RunSummary& summary) {
@@ -33,6 +38,12 @@ Json to_json(const RunSummary& summary) {
   json["status"] = summary.status;
   json["guarantee_kept"] = summary.guarantee_kept ? Json(*summary.guarantee_kept) : Json(nullptr);
   json["final_hash"] = summary.final_hash;
+  const RunSeconds& seconds = summary.seconds;
+  json["seconds"] = {{"whole", seconds.whole},
+                     {"start", seconds.start},
+                     {"steps", seconds.steps},
+                     {"audits", seconds.audits},
+                     {"writing", seconds.writing}};
   json["first_step"] = summary.first_step;
   json["last_step"] = summary.last_step;
   json["step_ms"] = {{"median", summary.median_ms}, {"worst", summary.worst_ms}, {"worst_step", summary.worst_step}};
@@ -60,16 +71,21 @@ std::string describe(const RunSummary& summary) {
       {"status", summary.status},
       {"computed by", summary.solver + " on " + summary.backend + ", " + summary.device},
       {"steps", integer(steps) + " (state " + integer(summary.first_step) + " to " + integer(summary.last_step) + ")"},
-      {"time a step", "median " + number(summary.median_ms) + " ms, worst " + number(summary.worst_ms) + " ms (step " + integer(summary.worst_step) + ")"},
-      {"contacts", "last " + integer(summary.last_vertex_facet_contacts) + " vertex-facet + " + integer(summary.last_edge_edge_contacts) +
-                       " edge-edge, most " + integer(summary.most_contacts)},
-      {"detections", per_step(summary.discrete_detections, steps) + " discrete, " + per_step(summary.continuous_detections, steps) + " continuous"},
+      {"time a step", "median " + number(summary.median_ms) + " ms, worst " + number(summary.worst_ms) + " ms (step " +
+                          integer(summary.worst_step) + ")"},
+      {"wall time", wall_time(summary.seconds)},
+      {"contacts", "last " + integer(summary.last_vertex_facet_contacts) + " vertex-facet + " +
+                       integer(summary.last_edge_edge_contacts) + " edge-edge, most " + integer(summary.most_contacts)},
+      {"detections", per_step(summary.discrete_detections, steps) + " discrete, " +
+                         per_step(summary.continuous_detections, steps) + " continuous"},
       {"guess rounds", per_step(summary.guess_rounds, steps)},
       {"repeated steps", integer(summary.repeats) + " (a list grew)"},
-      {"vertices at bound", "at most " + number(100 * summary.largest_share_at_bound) + " % after a step's last iteration"},
+      {"vertices at bound",
+       "at most " + number(100 * summary.largest_share_at_bound) + " % after a step's last iteration"},
       {"momentum lost", "at most " + number(100 * summary.largest_momentum_lost) + " % of a step's, in the guess loop"},
       {"largest lag", number(summary.largest_lag) + " m of prescribed vertices"},
-      {"smallest distance", std::isfinite(summary.smallest_distance) ? number(summary.smallest_distance) + " m" : "not measured"},
+      {"smallest distance",
+       std::isfinite(summary.smallest_distance) ? number(summary.smallest_distance) + " m" : "not measured"},
       {"guarantee kept", guarantee(summary)},
       {"final state", summary.final_hash + " (FNV-1a of the positions' bits)"},
   };

@@ -35,14 +35,41 @@ class Descriptor {
 };
 
 /// 0, or the error that stopped it.
-int write_all(int descriptor, std::string_view bytes) {
+int write_bytes_of(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  return ::fsync(descriptor) == 0 ? 0 : errno;
+  return 0;
+}
+
+/// The same, synced.
+int write_and_sync(int descriptor, std::string_view bytes) {
+  const int error = write_bytes_of(descriptor, bytes);
+  return error != 0 || ::fsync(descriptor) == 0 ? error : errno;
+}
+
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (std::rename(from.c_str(), to.c_str()) != 0) refuse(to, "rename the finished file", errno);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+/// Writes a new file by `write`, which returns an error or 0, and leaves none where there is an error.
+template <class Write>
+void write_new(const std::filesystem::path& path, const std::filesystem::path& named, const char* action, Write write) {
+  int error = 0;
+  {
+    const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+    error = write(file.number);
+  }
+  if (error == 0) return;
+  ::unlink(path.c_str());
+  refuse(named, action, error);
 }
 
 /// False where another process has it; a file system without locks has no process to tell of.
@@ -67,37 +94,41 @@ void sync_to_disk(const std::filesystem::path& path) {
   if (::fsync(file.number) != 0) refuse(path, "sync to the disk", errno);
 }
 
-void commit_partial(const std::filesystem::path& path) {
-  const std::filesystem::path partial = partial_name(path);
-  sync_to_disk(partial);
-  if (std::rename(partial.c_str(), path.c_str()) != 0) refuse(path, "rename the finished file", errno);
-  sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");
+void commit_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  sync_to_disk(from);
+  rename_file(from, to);
+  sync_to_disk(folder_of(to));
 }
 
+void commit_partial(const std::filesystem::path& path) { commit_file(partial_name(path), path); }
+
 void write_durably(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path partial = partial_name(path);
-  int error = 0;
-  {
-    const Descriptor file(partial, O_WRONLY | O_CREAT | O_TRUNC);
-    error = write_all(file.number, bytes);
-  }
-  if (error != 0) {
-    ::unlink(partial.c_str());
-    refuse(path, "write the file", error);
-  }
+  write_new(partial_name(path), path, "write the file", [&](int file) { return write_and_sync(file, bytes); });
   commit_partial(path);
 }
 
+void write_partial(const std::filesystem::path& path, std::string_view bytes) {
+  write_new(partial_name(path), path, "write the file", [&](int file) { return write_bytes_of(file, bytes); });
+}
+
+void commit_group(const std::filesystem::path& folder, std::span<const std::filesystem::path> files) {
+  const Descriptor file(folder, O_RDONLY | O_DIRECTORY);
+  if (::syncfs(file.number) != 0) refuse(folder, "sync to the disk", errno);
+  for (const std::filesystem::path& path : files) rename_file(partial_name(path), path);
+  if (!files.empty() && ::fsync(file.number) != 0) refuse(folder, "sync to the disk", errno);
+}
+
 void write_and_reserve(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
-  int error = 0;
-  {
-    const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-    error = write_all(file.number, bytes);
-    if (error == 0) error = ::posix_fallocate(file.number, 0, static_cast<off_t>(size));
-  }
-  if (error == 0) return;
-  ::unlink(path.c_str());
-  refuse(path, ("reserve " + std::to_string(size >> 10) + " KiB").c_str(), error);
+  write_new(path, path, ("reserve " + std::to_string(size >> 10) + " KiB").c_str(), [&](int file) {
+    const int error = write_and_sync(file, bytes);
+    return error != 0 ? error : ::posix_fallocate(file, 0, static_cast<off_t>(size));
+  });
+}
+
+void reserve(const std::filesystem::path& path, std::size_t from, std::size_t to) {
+  const Descriptor file(path, O_WRONLY);
+  const int error = ::posix_fallocate(file.number, static_cast<off_t>(from), static_cast<off_t>(to - from));
+  if (error != 0) refuse(path, ("reserve " + std::to_string(to >> 10) + " KiB").c_str(), error);
 }
 
 LineAppender::LineAppender(const std::filesystem::path& path)
@@ -122,7 +153,7 @@ LineAppender::LineAppender(const std::filesystem::path& path, std::size_t length
 LineAppender::~LineAppender() { ::close(descriptor_); }
 
 void LineAppender::append(std::string_view lines) {
-  if (const int error = write_all(descriptor_, lines); error != 0) {
+  if (const int error = write_bytes_of(descriptor_, lines); error != 0) {
     const bool restored = ::ftruncate(descriptor_, static_cast<off_t>(length_)) == 0;
     refuse(path_, restored ? "append lines" : "append lines, and the last one may be incomplete", error);
   }

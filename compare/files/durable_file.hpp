@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace ogc::compare {
@@ -18,6 +19,22 @@ void write_durably(const std::filesystem::path& path, std::string_view bytes);
 /// Writes `bytes` to a new file and reserves `size` bytes of disk for it, so that whoever fills it meets no full disk. Throws ResourceError, and leaves no
 /// file then.
 void write_and_reserve(const std::filesystem::path& path, std::string_view bytes, std::size_t size);
+
+/// Reserves the disk for an existing file from byte `from` to byte `to`, which becomes its end where it was shorter.
+/// Throws ResourceError.
+void reserve(const std::filesystem::path& path, std::size_t from, std::size_t to);
+
+/// Writes all of `bytes` under the partial name, where a killed program leaves them, but not a power cut: commit_group
+/// syncs. Throws ResourceError with the path where the disk does not take it; then the partial name is not left.
+void write_partial(const std::filesystem::path& path, std::string_view bytes);
+
+/// Syncs the file system of `folder` once, with all that was written there, whoever wrote it; then the files of that
+/// folder whose partial names were written get their names, and the folder is synced. A hundred files cost what one
+/// does. Throws ResourceError.
+void commit_group(const std::filesystem::path& folder, std::span<const std::filesystem::path> files);
+
+/// Syncs `from`, gives it the name `to` in the same folder, and syncs the folder. Throws ResourceError.
+void commit_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Syncs the partial file of `path`, gives it its name, and syncs the folder. Throws ResourceError.
 void commit_partial(const std::filesystem::path& path);
@@ -38,7 +55,8 @@ class LineAppender {
   ~LineAppender();
   LineAppender(const LineAppender&) = delete;
   LineAppender& operator=(const LineAppender&) = delete;
-  /// Appends lines, each with its line end, and syncs. Where the disk does not take them the file keeps its former length, and ResourceError is thrown.
+  /// Appends lines, each with its line end; a killed program leaves them, a power cut what was synced. Where the disk
+  /// does not take them the file keeps its former length, and ResourceError is thrown.
   void append(std::string_view lines);
 
  private:

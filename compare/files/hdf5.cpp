@@ -9,15 +9,12 @@
 #include "compare/problem/error.hpp"
 #include "compare/files/bytes.hpp"
 #include "compare/files/durable_file.hpp"
+#include "compare/files/packing.hpp"
 
 namespace ogc::compare {
 namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>, "the header names HDF5's types by what they are");
-
-/// Chunks of at most so many rows: 3 floats a row make 768 KiB, which fits HDF5's default chunk cache of 1 MiB. Below the smallest number the index
-/// of the chunks weighs more than compression saves.
-constexpr std::size_t chunk_rows = 1 << 16, smallest_chunk_rows = 1 << 10;
 
 template <class T>
 hid_t native_type() {
@@ -32,6 +29,8 @@ void silence() {
   static_cast<void>(silent);
 }
 
+using Lock = std::lock_guard<std::recursive_mutex>;
+
 std::vector<hsize_t> shape_of(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = space.valid() ? H5Sget_simple_extent_ndims(space.id()) : -1;
@@ -44,7 +43,7 @@ std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
 /// Rows of a chunk of a dataset that is written `part` rows at a time: a whole number of small parts, or a large part cut evenly.
 std::size_t rows_in_chunk(std::size_t part) {
-  return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : divide_up(part, divide_up(part, chunk_rows));
+  return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : even_chunk_rows(part);
 }
 
 /// Chunked and compressed where that pays.
@@ -81,13 +80,22 @@ bool write_attribute(hid_t file, const std::string& object, const std::string& n
 
 }  // namespace
 
+std::recursive_mutex& hdf5_library() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
   std::swap(id_, other.id_);
   std::swap(close_, other.close_);
   return *this;
 }
 
-bool Hdf5Handle::release() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+bool Hdf5Handle::release() {
+  if (id_ < 0) return true;
+  const Lock lock(hdf5_library());
+  return close_(std::exchange(id_, -1)) >= 0;
+}
 
 void Hdf5File::refuse_read(const std::string& what) const {
   throw InputError(path_.string() + ": " + what + ": not an HDF5 file as a run writes it, or damaged; use another one");
@@ -98,6 +106,7 @@ void Hdf5File::refuse_write(const std::string& what) const {
 }
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t size) {
+  const Lock lock(hdf5_library());
   write_and_reserve(path, create_in_memory(path).image(), size);
   Hdf5File file(path, {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose});
   if (!file.file_.valid()) file.refuse_write("the file");
@@ -105,6 +114,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t size) {
 }
 
 Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& name) {
+  const Lock lock(hdf5_library());
   silence();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const bool set = H5Pset_fapl_core(access.id(), 1 << 20, false) >= 0;
@@ -114,6 +124,7 @@ Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& name) {
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
+  const Lock lock(hdf5_library());
   silence();
   if (std::filesystem::exists(path)) expect_regular_file(path);
   Hdf5File file(path, {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose});
@@ -122,12 +133,14 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
 }
 
 void Hdf5File::create_group(const std::string& name) {
+  const Lock lock(hdf5_library());
   const Hdf5Handle group(H5Gcreate2(file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   if (!group.valid()) refuse_write("group " + name);
 }
 
 template <class T>
 void Hdf5File::create_dataset(const std::string& name, std::size_t rows, std::size_t columns, std::size_t part) {
+  const Lock lock(hdf5_library());
   std::vector<hsize_t> shape{rows};
   if (columns > 0) shape.push_back(columns);
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
@@ -145,6 +158,7 @@ std::size_t Hdf5File::largest_size(std::size_t rows, std::size_t row_bytes, std:
 
 template <class T>
 void Hdf5File::write_rows(const std::string& name, std::size_t first_row, std::span<const T> values) {
+  const Lock lock(hdf5_library());
   if (values.empty()) return;
   Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   std::vector<hsize_t> start = dataset.valid() ? shape_of(dataset.id()) : std::vector<hsize_t>{};
@@ -168,6 +182,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, std::si
 }
 
 void Hdf5File::write_text(const std::string& name, std::string_view text) {
+  const Lock lock(hdf5_library());
   const Hdf5Handle type = text_type(text.size());
   const Hdf5Handle space = scalar_or_row(1);
   const Hdf5Handle dataset(H5Dcreate2(file_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
@@ -175,6 +190,7 @@ void Hdf5File::write_text(const std::string& name, std::string_view text) {
 }
 
 std::string Hdf5File::read_text(const std::string& name) const {
+  const Lock lock(hdf5_library());
   const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle stored(dataset.valid() ? H5Dget_type(dataset.id()) : -1, H5Tclose);
   if (!stored.valid() || H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) > 0) refuse_read("text '" + name + "' is missing");
@@ -183,9 +199,13 @@ std::string Hdf5File::read_text(const std::string& name) const {
   return text;
 }
 
-bool Hdf5File::has(const std::string& name) const { return H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT) > 0; }
+bool Hdf5File::has(const std::string& name) const {
+  const Lock lock(hdf5_library());
+  return H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT) > 0;
+}
 
 std::vector<std::size_t> Hdf5File::shape(const std::string& name) const {
+  const Lock lock(hdf5_library());
   const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.valid()) refuse_read("dataset '" + name + "' is missing");
   const std::vector<hsize_t> shape = shape_of(dataset.id());
@@ -194,6 +214,7 @@ std::vector<std::size_t> Hdf5File::shape(const std::string& name) const {
 
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
+  const Lock lock(hdf5_library());
   std::size_t count = 1;
   for (const std::size_t extent : shape(name)) count *= extent;
   std::vector<T> values(count);
@@ -204,22 +225,29 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values) {
+  const Lock lock(hdf5_library());
   if (!write_attribute(file_.id(), object, name, H5T_NATIVE_INT64, scalar_or_row(values.size()), values.data())) refuse_write("attribute " + name);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+  const Lock lock(hdf5_library());
   if (!write_attribute(file_.id(), object, name, H5T_NATIVE_DOUBLE, scalar_or_row(1), &value)) refuse_write("attribute " + name);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::string_view text) {
+  const Lock lock(hdf5_library());
   const Hdf5Handle type = text_type(text.size());
   if (!type.valid() || !write_attribute(file_.id(), object, name, type.id(), scalar_or_row(1), text.data())) refuse_write("attribute " + name);
 }
 
-bool Hdf5File::has_attribute(const std::string& name) const { return H5Aexists(file_.id(), name.c_str()) > 0; }
+bool Hdf5File::has_attribute(const std::string& name) const {
+  const Lock lock(hdf5_library());
+  return H5Aexists(file_.id(), name.c_str()) > 0;
+}
 
 template <class T>
 T Hdf5File::attribute(const std::string& name) const {
+  const Lock lock(hdf5_library());
   const Hdf5Handle attribute(H5Aopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
   const Hdf5Handle space(attribute.valid() ? H5Aget_space(attribute.id()) : -1, H5Sclose);
   T value{};
@@ -229,6 +257,7 @@ T Hdf5File::attribute(const std::string& name) const {
 }
 
 std::string Hdf5File::image() {
+  const Lock lock(hdf5_library());
   const bool flushed = H5Fflush(file_.id(), H5F_SCOPE_LOCAL) >= 0;
   const ssize_t size = flushed ? H5Fget_file_image(file_.id(), nullptr, 0) : -1;
   if (size < 0) refuse_write("the file");
@@ -238,6 +267,7 @@ std::string Hdf5File::image() {
 }
 
 void Hdf5File::close() {
+  const Lock lock(hdf5_library());
   const bool flushed = H5Fflush(file_.id(), H5F_SCOPE_LOCAL) >= 0;
   if (!file_.release() || !flushed) refuse_write("the file");
 }

@@ -1,15 +1,23 @@
-// The part of HDF5's C interface that run folders need, with ownership and errors in C++ terms. HDF5's own header stays in the .cpp, and its habit
-// of printing error stacks is off.
+// The part of HDF5's C interface that run folders need, with ownership and errors in C++ terms. HDF5's own header stays
+// in the .cpp, and its habit of printing error stacks is off. Debian's library is built for one thread: every call into
+// it holds one lock, so files may be used by any thread, each by one at a time; what takes time, packing, is done
+// outside of it (packing.hpp).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "compare/files/packing.hpp"
+
 namespace ogc::compare {
+
+/// What a call into HDF5 holds.
+std::recursive_mutex& hdf5_library();
 
 /// An HDF5 handle that is released on every way out.
 class Hdf5Handle {
@@ -53,6 +61,20 @@ class Hdf5File {
   /// Both in one.
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::size_t columns = 0);
+
+  /// Writes an array that was packed before.
+  void write_packed(const std::string& name, const PackedArray& array);
+  /// Reads a dataset of floats, packed as it is stored, or anew where it is stored otherwise.
+  PackedArray read_packed(const std::string& name) const;
+  /// Makes a dataset without rows, for append_packed.
+  void create_growing(const std::string& name, std::size_t columns, std::size_t chunk_rows);
+  /// Adds the chunks of an array with these columns and chunk_rows behind all rows; the zeros that fill up its last
+  /// chunk count as rows. Reserve growth() first.
+  void append_packed(const std::string& name, const PackedArray& array);
+  /// Bytes by which the file grows at most for such an array.
+  static std::size_t growth(const PackedArray& array);
+  /// Reserves the disk from byte `from` to byte `to` of the file. Throws ResourceError.
+  void reserve(std::size_t from, std::size_t to) const;
 
   /// A text, not empty, as one string of fixed length.
   void write_text(const std::string& name, std::string_view text);

@@ -3,18 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
+#include <chrono>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "compare/files/bytes.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/files/hdf5.hpp"
-#include "compare/files/packing.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
 
@@ -57,6 +55,14 @@ std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folde
   return frames;
 }
 
+/// What a killed run was writing.
+void remove_partial_frames(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "frames"))
+    if (entry.path().extension() == ".partial") files.push_back(entry.path());
+  for (const fs::path& file : files) fs::remove(file);
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -74,19 +80,6 @@ void refuse_used_folder(const fs::path& folder) {
       throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
 }
 
-/// Of the bytes of positions, velocities, bounds, step and time, in this order.
-std::int64_t checksum(const Frame& frame) {
-  static_assert(std::endian::native == std::endian::little, "the low byte comes first");
-  std::uint32_t sum = 0;
-  const auto add = [&](const auto& values) {
-    const std::size_t size = std::size(values) * sizeof(*std::data(values));
-    sum = crc32({reinterpret_cast<const char*>(std::data(values)), size}, sum);
-  };
-  add(frame.positions), add(frame.velocities), add(frame.bounds);
-  add(std::array{frame.step}), add(std::array{frame.time});
-  return sum;
-}
-
 /// Writes the scene beside its place and moves it there as a whole. Returns its file relative to `folder`.
 std::string store_scene(const fs::path& folder, const Scene& scene) {
   const fs::path target = folder / "scene", partial = partial_name(target);
@@ -100,23 +93,6 @@ std::string store_scene(const fs::path& folder, const Scene& scene) {
 
 }  // namespace
 
-std::vector<Vec3f> as_vectors(const std::vector<float>& floats) {
-  std::vector<Vec3f> vectors(floats.size() / 3);
-  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2]};
-  return vectors;
-}
-
-std::span<const float> as_floats(std::span<const Vec3f> vectors) {
-  static_assert(sizeof(Vec3f) == 3 * sizeof(float), "coordinates are stored as rows of three");
-  return {reinterpret_cast<const float*>(vectors.data()), 3 * vectors.size()};
-}
-
-std::string frame_name(std::int64_t step) {
-  std::array<char, 40> name;
-  std::snprintf(name.data(), name.size(), "frame_%06lld", static_cast<long long>(step));
-  return name.data();
-}
-
 void expect_new_run_folder(const fs::path& folder) {
   refuse_used_folder(folder);
   fs::path there = fs::absolute(folder).lexically_normal();
@@ -127,8 +103,12 @@ void expect_new_run_folder(const fs::path& folder) {
     refuse_path(folder, "make the folder", {errno, std::generic_category()});
 }
 
-RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names)
-    : folder_(std::move(folder)), scene_(scene), manifest_{provenance, scene.name, {}, std::move(stage_names)} {
+RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& provenance,
+                     std::vector<std::string> stage_names)
+    : folder_(std::move(folder)),
+      scene_(scene),
+      manifest_{provenance, scene.name, {}, std::move(stage_names)},
+      queue_([this] { commit(); }) {
   refuse_used_folder(folder_);
   make_folder(folder_ / "frames");
   manifest_.scene_file = store_scene(folder_, scene_);
@@ -141,9 +121,17 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& prov
 }
 
 RunWriter::RunWriter(fs::path folder, const Scene& scene, std::int64_t step, const std::string& note)
-    : folder_(std::move(folder)), scene_(scene), manifest_(read_manifest(folder_)), scene_digest_(scene_digest(folder_)) {
+    : folder_(std::move(folder)),
+      scene_(scene),
+      manifest_(read_manifest(folder_)),
+      scene_digest_(scene_digest(folder_)),
+      queue_([this] { commit(); }) {
   steps_.emplace(folder_ / "steps.csv", length_until(folder_ / "steps.csv", step));
   if (fs::exists(folder_ / "iterations.csv")) iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
+  remove_partial_frames(folder_);
+  fs::remove(folder_ / "trajectory.vtkhdf");  // ends where the run was cut off
+  for (const auto& [stored, path] : list_frames(folder_))
+    if (stored <= step) written_step_ = stored;
   Provenance& provenance = manifest_.provenance;
   std::string& resumed = provenance.extra["resumed"];
   resumed += (resumed.empty() ? "" : "; ") + utc_now() + " after step " + std::to_string(step) + note;
@@ -161,67 +149,124 @@ void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", man
 
 void RunWriter::add_steps(const std::vector<StepMetrics>& rows) {
   steps_->append(step_lines(rows, manifest_.stage_names.size()));
-  const std::string iterations = iteration_lines(rows);
-  if (iterations.empty()) return;
-  if (!iterations_) iterations_.emplace(folder_ / "iterations.csv").append(iteration_header());
-  iterations_->append(iterations);
+  if (const std::string iterations = iteration_lines(rows); !iterations.empty()) {
+    if (!iterations_) iterations_.emplace(folder_ / "iterations.csv").append(iteration_header());
+    iterations_->append(iterations);
+  }
+  queue_.touch();
 }
 
-void RunWriter::add_frame(const Frame& frame) {
+void RunWriter::add_frame(Frame frame) {
   const std::size_t count = scene_.mesh.positions.size();
   if (frame.positions.size() != count || frame.velocities.size() != count || frame.bounds.size() != count)
-    throw std::invalid_argument("frame of step " + std::to_string(frame.step) + ": its arrays have not one entry for each vertex of the scene");
-  const fs::path path = frame_path(folder_, frame.step);
-  Hdf5File file = Hdf5File::create_in_memory(path);
-  file.set_attribute("/", "format_version", std::array{frame_format_version});
-  file.set_attribute("/", "step", std::array{frame.step});
-  file.set_attribute("/", "time", frame.time);
-  file.write("positions", as_floats(frame.positions), 3);
-  file.write("velocities", as_floats(frame.velocities), 3);
-  file.write("bounds", std::span(frame.bounds));
-  file.set_attribute("/", "crc32", std::array{checksum(frame)});
-  write_durably(path, file.image());
+    throw std::invalid_argument("frame of step " + std::to_string(frame.step) +
+                                ": its arrays have not one entry for each vertex of the scene");
+  struct Work {
+    Frame frame;
+    PackedFrame packed;
+  };
+  const auto work = std::make_shared<Work>(Work{std::move(frame), {}});
+  const std::size_t bytes = 2 * count * (2 * sizeof(Vec3f) + sizeof(float));  // as it is, and packed
+  queue_.add(
+      bytes, [work] { work->packed = pack(std::exchange(work->frame, {})); },
+      [this, work] { write_frame(work->packed); });
 }
 
-void RunWriter::save(const Checkpoint& checkpoint) const { write_checkpoint(folder_, checkpoint, scene_digest_); }
+void RunWriter::write_frame(const PackedFrame& frame) {
+  const fs::path path = frame_path(folder_, frame.step);
+  write_partial(path, frame_bytes(frame));
+  uncommitted_.push_back(path);
+  uncommitted_step_ = frame.step;
+  grow_trajectory(frame);
+}
+
+/// A run that goes on has frames that its trajectory has not.
+void RunWriter::grow_trajectory(const PackedFrame& frame) {
+  const fs::path path = folder_ / "trajectory.vtkhdf";
+  if (!trajectory_) {
+    trajectory_.emplace(path, path.string() + ".growing", scene_);
+    for (const auto& [step, file] : list_frames(folder_))
+      if (step < frame.step) trajectory_->append(read_packed_frame(file));
+  }
+  disordered_ |= frame.step <= trajectory_->last_step();
+  if (!disordered_) trajectory_->append(frame);
+}
+
+void RunWriter::commit() {
+  commit_group(folder_ / "frames", uncommitted_);
+  if (uncommitted_.empty()) return;
+  written_frames_ += static_cast<std::int64_t>(uncommitted_.size());
+  written_step_ = uncommitted_step_;
+  uncommitted_.clear();
+}
+
+void RunWriter::save(Checkpoint checkpoint) {
+  const Snapshot& state = checkpoint.state;
+  const std::size_t bytes =
+      state.positions.size() * (3 * sizeof(Vec3f) + sizeof(float)) + state.exact_positions.size() * 2 * sizeof(Vec3);
+  const auto work = std::make_shared<const Checkpoint>(std::move(checkpoint));
+  queue_.add(bytes, {}, [this, work] {
+    commit();
+    write_checkpoint(folder_, *work, scene_digest_);
+  });
+}
+
+void RunWriter::complete_trajectory() {
+  const auto frames = list_frames(folder_);
+  if (frames.empty()) return;
+  if (!trajectory_ || disordered_) {
+    trajectory_.reset();
+    return assemble_trajectory(folder_);
+  }
+  for (const auto& [step, file] : frames)
+    if (step > trajectory_->last_step()) trajectory_->append(read_packed_frame(file));
+  trajectory_->finish();
+}
+
+void RunWriter::close() {
+  if (std::exchange(closed_, true)) return;
+  queue_.drain();
+  const auto begin = std::chrono::steady_clock::now();
+  complete_trajectory();
+  closing_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
 void RunWriter::finish(const std::string& status) {
+  close();
   manifest_.provenance.status = status;
   manifest_.provenance.ended = utc_now();
   write_manifest();
-  if (!list_frames(folder_).empty()) assemble_trajectory(folder_);
+}
+
+void RunWriter::give_up(const std::string& status) {
+  // The error that made the caller give up is the one to report.
+  try {
+    queue_.drain();
+  } catch (const std::exception&) {}
+  try {
+    if (!std::exchange(closed_, true)) complete_trajectory();
+  } catch (const std::exception&) {}
+  finish(status);
 }
 
 RunReader::RunReader(fs::path folder)
     : manifest_(read_manifest(folder)), scene_(read_scene(folder / manifest_.scene_file)), frames_(list_frames(folder)) {}
 
+void RunReader::check_size(std::size_t i, std::size_t vertices) const {
+  if (vertices == scene_.mesh.positions.size()) return;
+  throw InputError(frames_.at(i).second.string() + ": has " + std::to_string(vertices) + " vertices, the run's scene " +
+                   std::to_string(scene_.mesh.positions.size()) + ": the file is of another run; remove it");
+}
+
 Frame RunReader::frame(std::size_t i) const {
-  const fs::path& path = frames_.at(i).second;
-  Frame frame = read_frame(path);
-  if (frame.positions.size() != scene_.mesh.positions.size())
-    throw InputError(path.string() + ": has " + std::to_string(frame.positions.size()) + " vertices, the run's scene " +
-                     std::to_string(scene_.mesh.positions.size()) + ": the file is of another run; remove it");
+  Frame frame = read_frame(frames_.at(i).second);
+  check_size(i, frame.positions.size());
   return frame;
 }
 
-Frame read_frame(const fs::path& path) {
-  const Hdf5File file = Hdf5File::open(path);
-  const std::int64_t version =
-      file.has_attribute("format_version") ? file.attribute<std::int64_t>("format_version") : 1;
-  if (version > frame_format_version)
-    throw InputError(path.string() + ": is of frame format " + std::to_string(version) + ", newer than format " +
-                     std::to_string(frame_format_version) + ", the newest that this program reads: use a newer ogc");
-  const std::vector<std::size_t> shape = file.shape("positions");
-  if (shape.size() != 2 || shape[1] != 3 || file.shape("velocities") != shape || file.shape("bounds") != std::vector{shape[0]})
-    throw InputError(path.string() + ": positions, velocities and bounds are not vertices × 3, vertices × 3 and vertices: " +
-                     "not a frame of a run, or damaged; use another one");
-  Frame frame{file.attribute<std::int64_t>("step"), file.attribute<double>("time"),
-              as_vectors(file.read<float>("positions")), as_vectors(file.read<float>("velocities")),
-              file.read<float>("bounds")};
-  if (version > 1 && file.attribute<std::int64_t>("crc32") != checksum(frame))
-    throw InputError(path.string() +
-                     ": the frame is damaged, its content is not what its checksum says: restore the file, or remove "
-                     "it and compute it again from the frame before it with --from-state");
+PackedFrame RunReader::packed_frame(std::size_t i) const {
+  PackedFrame frame = read_packed_frame(frames_.at(i).second);
+  check_size(i, frame.positions.rows);
   return frame;
 }
 

@@ -1,16 +1,28 @@
-// Run folders (design.md §5): run.json, steps.csv, frames/, trajectory.vtkhdf. A run that is killed at any time leaves
-// all of its finished frames readable: every file is written under a temporary name, synced and renamed; steps.csv
-// grows by whole lines.
+// Run folders (design.md §5): run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
 //   run.json            written last when a run begins, again when it ends: "status" says which
 //   scene/NAME.json     the scene, meshes beside it (compare/files/scene_files.hpp)
 //   steps.csv           compare/record/steps_csv.hpp
-//   frames/frame_000025.h5   the state after step 25: positions, velocities [vertices × 3], bounds [vertices];
-//                       attributes format_version, step, time, crc32 (of positions, velocities, bounds, step, time)
+//   frames/frame_000025.h5   the state after step 25 (compare/record/frame_file.hpp)
 //   checkpoint.h5       where the run can go on (compare/record/checkpoint.hpp)
-//   trajectory.vtkhdf   all frames, for viewers
+//   trajectory.vtkhdf   all frames, for viewers (compare/record/trajectory.hpp); while the run goes on it grows as
+//                       trajectory.vtkhdf.growing
+//
+// Frames and checkpoints are packed and written by threads of their own (compare/record/writing_queue.hpp). What holds:
+//
+//   - A file that has its name is whole, whatever ends the program or the machine: it is written under another name,
+//     synced, renamed. steps.csv grows by lines; readers leave out a last one that is cut.
+//   - No later than a second after something was written, and at the end, all of it is synced by one call; then frames
+//     get their names. So a power cut loses the last second, and what waited for a disk that is slower than that.
+//   - kill -9 loses nothing that `written()` counts: frames that have their names. Rows are in the file when add_steps
+//     returns; for kill -9 that is enough.
+//   - A checkpoint is written after all frames and rows up to its step are synced, so what goes on from it misses none.
+//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are worked at; then add_frame and save wait.
+//   - What fails on another thread (a full disk) is thrown by the next call here; what was written before is kept.
+//   - A growing trajectory that a kill left behind is worth nothing; a run that goes on makes it anew from the frames.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -22,29 +34,12 @@
 #include "compare/problem/contestant.hpp"
 #include "compare/record/checkpoint.hpp"
 #include "compare/files/durable_file.hpp"
+#include "compare/record/frame_file.hpp"
 #include "compare/record/manifest.hpp"
+#include "compare/record/trajectory.hpp"
+#include "compare/record/writing_queue.hpp"
 
 namespace ogc::compare {
-
-/// The newest frames that this program writes and reads. Format 1 has neither its number nor a checksum.
-inline constexpr std::int64_t frame_format_version = 2;
-
-/// One stored state.
-struct Frame {
-  std::int64_t step = 0;                     ///< number of the step that it ends; 0: the start
-  double time = 0;                           ///< [s]
-  std::vector<Vec3f> positions, velocities;  ///< [m], [m/s]
-  std::vector<float> bounds;                 ///< b_v of the last detection [m]
-  friend bool operator==(const Frame&, const Frame&) = default;
-};
-
-/// "frame_000025", the name of a file that holds the state after a step, without its extension.
-std::string frame_name(std::int64_t step);
-
-/// The same memory as rows of three numbers, as files store it.
-std::span<const float> as_floats(std::span<const Vec3f> vectors);
-/// And back.
-std::vector<Vec3f> as_vectors(const std::vector<float>& floats);
 
 /// Throws InputError, before anything is computed for it, where no new run can be written to the folder: it holds one,
 /// a file has its name, it can't be made.
@@ -61,27 +56,57 @@ class RunWriter {
   RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
   /// Removes the frames of other steps.
   void keep_frames(const std::function<bool(std::int64_t)>& keep);
-  /// Appends rows to steps.csv in one write, and their iteration rows, if there are any, to iterations.csv. Throws std::invalid_argument where a row has times for another number of stages.
+  /// Appends rows to steps.csv in one write, and their iteration rows, if there are any, to iterations.csv. Throws
+  /// std::invalid_argument where a row has times for another number of stages.
   void add_steps(const std::vector<StepMetrics>& rows);
-  /// Stores a state; one of the same step is replaced. Throws std::invalid_argument where its arrays have not one entry for each vertex.
-  void add_frame(const Frame& frame);
-  /// Replaces checkpoint.h5. Rows and frames up to its step must be written before.
-  void save(const Checkpoint& checkpoint) const;
+  /// Stores a state; one of the same step is replaced. Throws std::invalid_argument where its arrays have not one entry
+  /// for each vertex.
+  void add_frame(Frame frame);
+  /// Replaces checkpoint.h5. Rows and frames up to its step must be added before.
+  void save(Checkpoint checkpoint);
+  /// Waits until all that was added is on the disk.
+  void flush() { queue_.drain(); }
   /// Sets an entry of Provenance::extra; the next manifest (at the latest that of finish) carries it.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
   /// Replaces Provenance::warnings; the next manifest carries them.
   void set_warnings(std::vector<std::string> warnings) { manifest_.provenance.warnings = std::move(warnings); }
-  /// Writes the final run.json, then assembles trajectory.vtkhdf where there is a frame.
+  /// Flushes and completes trajectory.vtkhdf, where there is a frame. Nothing may be added afterwards.
+  void close();
+  /// Closes, then writes the final run.json.
   void finish(const std::string& status);
+  /// After an error: keeps and completes what can be, then writes the final run.json.
+  void give_up(const std::string& status);
   const std::filesystem::path& folder() const { return folder_; }
+
+  /// What is on the disk under its name, synced.
+  struct Written {
+    std::int64_t frames = 0;      ///< of this writer
+    std::int64_t last_step = -1;  ///< of the last of them, or of those that a run goes on from
+  };
+  Written written() const { return {written_frames_, written_step_}; }
+  /// Time that calls waited for the disk [s].
+  double waited_seconds() const { return queue_.waited_seconds() + closing_seconds_; }
 
  private:
   void write_manifest() const;
+  void write_frame(const PackedFrame& frame);
+  void grow_trajectory(const PackedFrame& frame);
+  void complete_trajectory();
+  void commit();
   std::filesystem::path folder_;
   Scene scene_;
   Manifest manifest_;
   std::string scene_digest_;
   std::optional<LineAppender> steps_, iterations_;
+  // Of the writing thread; after a flush, of the caller's.
+  std::vector<std::filesystem::path> uncommitted_;  ///< frames that wait for their names
+  std::int64_t uncommitted_step_ = -1;              ///< of the last of them
+  std::optional<TrajectoryWriter> trajectory_;
+  bool disordered_ = false;  ///< a frame came that belongs before another one of the trajectory
+  std::atomic<std::int64_t> written_frames_ = 0, written_step_ = -1;
+  double closing_seconds_ = 0;
+  bool closed_ = false;
+  WritingQueue queue_;  ///< its threads end before what they use
 };
 
 /// Reads what a run has so far. Throws InputError that names the file.
@@ -96,19 +121,14 @@ class RunReader {
   std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
   /// Throws InputError also where it does not fit the scene.
   Frame frame(std::size_t i) const;
+  /// The same as it is stored.
+  PackedFrame packed_frame(std::size_t i) const;
 
  private:
+  void check_size(std::size_t i, std::size_t vertices) const;
   Manifest manifest_;
   Scene scene_;
   std::vector<std::pair<std::int64_t, std::filesystem::path>> frames_;  ///< by step
 };
-
-/// Reads one file of frames/. Throws InputError that names the file: missing, no frame, damaged (its content is not
-/// what its checksum says), of a newer format.
-Frame read_frame(const std::filesystem::path& file);
-
-/// Assembles trajectory.vtkhdf (temporal PolyData, one block of points and triangles, point data velocity, bound, body) from the frames. Throws
-/// InputError where there is no frame yet, ResourceError where the disk does not take it.
-void assemble_trajectory(const std::filesystem::path& folder);
 
 }  // namespace ogc::compare

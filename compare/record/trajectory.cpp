@@ -1,9 +1,10 @@
-// VTKHDF 2.0, temporal PolyData. What moves (points, velocities, bounds) stands one frame behind the other and each step says where its rows begin;
-// what does not (cells, bodies) stands once, and each step's offset into it is 0. Frames are copied one at a time, so memory holds one.
+#include "compare/record/trajectory.hpp"
+
+#include <algorithm>
 #include <array>
 
+#include "compare/files/durable_file.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/files/hdf5.hpp"
 #include "compare/record/run_folder.hpp"
 
 namespace ogc::compare {
@@ -41,78 +42,100 @@ void write_static_part(Hdf5File& file, const Scene& scene) {
   file.write("VTKHDF/PointData/body", std::span(bodies));
 }
 
-/// Offsets of each step; `values`: its times.
-void write_steps(Hdf5File& file, const std::vector<double>& values, std::size_t vertex_count) {
-  const std::size_t count = values.size();
+std::size_t at_once(std::size_t count, std::size_t bytes) { return Hdf5File::largest_size(count, bytes, count); }
+
+/// Disk that what does not move takes at most: bodies, two kinds of cells with connectivity and offsets, and datasets
+/// that are empty or hold one number, which is less than HDF5 stores about each.
+std::size_t static_size(const Mesh& mesh) {
+  constexpr std::size_t small_datasets = 16, groups = 1 << 16;
+  const std::size_t cells = mesh.triangles.size() + mesh.loose_edges.size();
+  return at_once(mesh.positions.size(), sizeof(Index)) +
+         2 * (at_once(3 * cells + 1, sizeof(std::int64_t)) + at_once(cells + 2, sizeof(std::int64_t))) +
+         small_datasets * Hdf5File::largest_size(0, 1, 1) + groups;
+}
+
+/// Likewise the offsets of so many steps: ten datasets, of four numbers each at most.
+std::size_t steps_size(std::size_t count) {
+  return 10 * at_once(std::max<std::size_t>(count, 1), 4 * sizeof(std::int64_t));
+}
+
+}  // namespace
+
+TrajectoryWriter::TrajectoryWriter(std::filesystem::path path, std::filesystem::path growing, const Scene& scene)
+    : path_(std::move(path)), growing_(std::move(growing)) {
+  const std::size_t chunk_rows = even_chunk_rows(scene.mesh.positions.size());
+  frame_rows_ = (scene.mesh.positions.size() + chunk_rows - 1) / chunk_rows * chunk_rows;
+  used_ = static_size(scene.mesh);
+  reserved_ = used_ + steps_size(1);
+  file_ = Hdf5File::create(growing_, reserved_);
+  write_static_part(*file_, scene);
+  file_->create_growing("VTKHDF/Points", 3, chunk_rows);
+  file_->create_growing("VTKHDF/PointData/velocity", 3, chunk_rows);
+  file_->create_growing("VTKHDF/PointData/bound", 0, chunk_rows);
+}
+
+TrajectoryWriter::~TrajectoryWriter() {
+  if (!file_) return;
+  file_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(growing_, ignored);
+}
+
+/// HDF5 1.10 crashes where the disk is full, so that it must never find it so.
+void TrajectoryWriter::reserve(std::size_t more) {
+  used_ += more;
+  const std::size_t needed = used_ + steps_size(times_.size() + 1);
+  if (needed <= reserved_) return;
+  file_->reserve(reserved_, needed);
+  reserved_ = needed;
+}
+
+void TrajectoryWriter::append(const PackedFrame& frame) {
+  reserve(Hdf5File::growth(frame.positions) + Hdf5File::growth(frame.velocities) + Hdf5File::growth(frame.bounds));
+  file_->append_packed("VTKHDF/Points", frame.positions);
+  file_->append_packed("VTKHDF/PointData/velocity", frame.velocities);
+  file_->append_packed("VTKHDF/PointData/bound", frame.bounds);
+  times_.push_back(frame.time);
+  last_step_ = frame.step;
+}
+
+void TrajectoryWriter::write_steps() {
+  const std::size_t count = times_.size();
   const Integers zeros(count, 0), zeros_by_kind(4 * count, 0), ones(count, 1);
   Integers rows(count);
-  for (std::size_t i = 0; i < count; ++i) rows[i] = static_cast<std::int64_t>(i * vertex_count);
-  file.create_group("VTKHDF/Steps");
-  file.set_attribute("VTKHDF/Steps", "NSteps", std::array{static_cast<std::int64_t>(count)});
-  file.write("VTKHDF/Steps/Values", std::span(values));
+  for (std::size_t i = 0; i < count; ++i) rows[i] = static_cast<std::int64_t>(i * frame_rows_);
+  file_->create_group("VTKHDF/Steps");
+  file_->set_attribute("VTKHDF/Steps", "NSteps", std::array{static_cast<std::int64_t>(count)});
+  file_->write("VTKHDF/Steps/Values", std::span<const double>(times_));
   const auto write_integers = [&](const char* name, const Integers& integers, std::size_t columns) {
-    file.write(std::string("VTKHDF/Steps/") + name, std::span(integers), columns);
+    file_->write(std::string("VTKHDF/Steps/") + name, std::span(integers), columns);
   };
   write_integers("PartOffsets", zeros, 0);
   write_integers("NumberOfParts", ones, 0);
   write_integers("PointOffsets", rows, 0);
   write_integers("CellOffsets", zeros_by_kind, 4);
   write_integers("ConnectivityIdOffsets", zeros_by_kind, 4);
-  file.create_group("VTKHDF/Steps/PointDataOffsets");
+  file_->create_group("VTKHDF/Steps/PointDataOffsets");
   write_integers("PointDataOffsets/velocity", rows, 0);
   write_integers("PointDataOffsets/bound", rows, 0);
   write_integers("PointDataOffsets/body", zeros, 0);
 }
 
-/// Copies the frames; returns their times.
-std::vector<double> write_moving_part(Hdf5File& file, const RunReader& run, std::size_t vertex_count) {
-  const std::size_t rows = run.frame_count() * vertex_count;
-  file.create_dataset<float>("VTKHDF/Points", rows, 3, vertex_count);
-  file.create_dataset<float>("VTKHDF/PointData/velocity", rows, 3, vertex_count);
-  file.create_dataset<float>("VTKHDF/PointData/bound", rows, 0, vertex_count);
-  std::vector<double> times;
-  for (std::size_t i = 0; i < run.frame_count(); ++i) {
-    const Frame frame = run.frame(i);
-    file.write_rows("VTKHDF/Points", i * vertex_count, as_floats(frame.positions));
-    file.write_rows("VTKHDF/PointData/velocity", i * vertex_count, as_floats(frame.velocities));
-    file.write_rows("VTKHDF/PointData/bound", i * vertex_count, std::span(frame.bounds));
-    times.push_back(frame.time);
-  }
-  return times;
+void TrajectoryWriter::finish() {
+  write_steps();
+  file_->close();
+  commit_file(growing_, path_);
+  file_.reset();
 }
-
-/// Disk that the file takes at most: each group of cells has four datasets, the steps have ten.
-std::size_t largest_size(const RunReader& run) {
-  const Mesh& mesh = run.scene().mesh;
-  const std::size_t rows = run.frame_count() * mesh.positions.size(), cell_count = mesh.triangles.size() + mesh.loose_edges.size();
-  const auto at_once = [](std::size_t count, std::size_t bytes) { return Hdf5File::largest_size(count, bytes, count); };
-  const std::size_t part = mesh.positions.size();
-  const std::size_t moving = 2 * Hdf5File::largest_size(rows, sizeof(Vec3f), part) + Hdf5File::largest_size(rows, sizeof(float), part);
-  const std::size_t fixed = at_once(part, sizeof(Index)) + 16 * at_once(3 * cell_count + 1, sizeof(std::int64_t));
-  return moving + fixed + 10 * at_once(run.frame_count(), 4 * sizeof(std::int64_t)) + (1 << 16);
-}
-
-void write_trajectory(const std::filesystem::path& path, const RunReader& run) {
-  const std::size_t vertex_count = run.scene().mesh.positions.size();
-  Hdf5File file = Hdf5File::create(path, largest_size(run));
-  write_static_part(file, run.scene());
-  write_steps(file, write_moving_part(file, run, vertex_count), vertex_count);
-  file.close();
-}
-
-}  // namespace
 
 void assemble_trajectory(const std::filesystem::path& folder) {
   const RunReader run(folder);
-  if (run.frame_count() == 0) throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
-  const std::filesystem::path path = folder / "trajectory.vtkhdf", partial = partial_name(path);
-  try {
-    write_trajectory(partial, run);
-  } catch (const std::exception&) {
-    std::filesystem::remove(partial);
-    throw;
-  }
-  commit_partial(path);
+  if (run.frame_count() == 0)
+    throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
+  const std::filesystem::path path = folder / "trajectory.vtkhdf";
+  TrajectoryWriter trajectory(path, partial_name(path), run.scene());
+  for (std::size_t i = 0; i < run.frame_count(); ++i) trajectory.append(run.packed_frame(i));
+  trajectory.finish();
 }
 
 }  // namespace ogc::compare

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -118,10 +119,9 @@ class ResidentSimulation : public compare::Simulation {
     return to;
   }
   static void download(const typename Backend::template Buffer<Vec>& buffer, std::vector<compare::Vec3f>& to) {
-    std::vector<Vec> items(buffer.size());
-    buffer.download(items.data(), items.size());
-    to.clear();
-    for (const Vec& a : items) to.push_back({a.x, a.y, a.z});
+    static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>, "copied, not converted");
+    to.resize(buffer.size());
+    buffer.download(reinterpret_cast<Vec*>(to.data()), to.size());
   }
 
   void fill_state() {

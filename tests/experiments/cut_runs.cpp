@@ -42,6 +42,20 @@ std::string iterations_of(const fs::path& run) {
   return text;
 }
 
+/// What a run left when it was cut off: every frame is whole, every row up to the checkpoint is there, and so is each
+/// frame that the run said was written.
+void check_left(const fs::path& run, const std::string& said) {
+  const compare::RunReader reader(run);
+  std::int64_t last = -1;
+  for (std::size_t i = 0; i < reader.frame_count(); ++i) last = reader.frame(i).step;
+  const std::int64_t saved = compare::read_checkpoint(run, compare::scene_digest(run)).state.step;
+  const std::vector<compare::StepMetrics> rows = compare::read_steps(run).rows;
+  CHECK((saved == 0 || (!rows.empty() && rows.back().step >= saved)));
+  const std::string words = "frames written up to step ";
+  for (std::size_t at = said.find(words); at != std::string::npos; at = said.find(words, at + 1))
+    CHECK(std::stoll(said.substr(at + words.size())) <= last);
+}
+
 bool is_finished(const fs::path& run) { return fs::exists(run / "run.json") && compare::RunReader(run).provenance().status == "finished"; }
 
 }  // namespace
@@ -76,6 +90,7 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
     ++cuts.killed;
     const bool begun = fs::exists(run / "checkpoint.h5") && fs::exists(run / "run.json");
     cuts.in_time += begun;
+    if (begun) check_left(run, result.err);
     if (begun) arguments = "--resume " + run.string() + " --checkpoint 0";
     if (!begun) fs::remove_all(run);
   }

@@ -3,6 +3,7 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/files/durable_file.hpp"
+#include "compare/record/run_folder.hpp"
 #include "experiments/resume.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/cut_runs.hpp"
@@ -119,6 +120,27 @@ TEST_CASE("the help of run says that every solver resumes", "[unit]") {
   const std::string help = run_ogc("run --help").out;
   CHECK(contains(help, {"all solvers, IPC, too", "before it computes anything"}));
   CHECK(!contains(help, {"Not with --solver ipc"}));
+}
+
+// No file may be longer than 1900 blocks of 512 bytes: frames are shorter, the trajectory is not.
+TEST_CASE("a run that a full disk ended exits 3, names the file, and goes on to the same bits when there is room",
+          "[property]") {
+  const TemporaryFolder folder;
+  const std::string command = "run cloth_on_sphere --scale smoke --audit off --set frame_steps=1 --out ";
+  REQUIRE(run_ogc(command + (folder / "whole").string()).status == 0);
+  const fs::path cut = folder / "cut";
+  const ProgramResult full = run_ogc(command + cut.string(), "ulimit -f 1900; ");
+  INFO(full.err);
+  CHECK(full.status == 3);
+  CHECK(contains(full.err, {"ogc: ", cut.string(), "can't reserve", "free space"}));
+  const compare::RunReader reader(cut);
+  CHECK(reader.provenance().status.starts_with("failed: "));
+  REQUIRE(reader.frame_count() > 1);
+  for (std::size_t i = 0; i < reader.frame_count(); ++i) CHECK_NOTHROW(reader.frame(i));
+  const ProgramResult resumed = run_ogc("run --resume " + cut.string());
+  INFO(resumed.err);
+  REQUIRE(resumed.status == 0);
+  check_same_run(folder / "whole", cut);
 }
 
 TEST_CASE("a run that is still going on is not resumed by a second program", "[unit]") {

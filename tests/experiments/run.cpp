@@ -258,6 +258,28 @@ TEST_CASE("the option --residual fills the residual of steps.csv and changes no 
   for (const compare::StepMetrics& row : compare::read_steps(folder / "with").rows) CHECK((row.residual > 0 && row.residual < 1));
 }
 
+TEST_CASE("a run says where its time went, in its summary and in run.json", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string options = "cloth_on_sphere --scale smoke --set frame_steps=1 --audit frame --out ";
+  const nlohmann::json seconds = run(options + (folder / "run").string()).at("seconds");
+  INFO(seconds.dump());
+  double sum = 0;
+  for (const char* part : {"start", "steps", "audits", "writing"}) {
+    CHECK(seconds.at(part) > 0);
+    sum += seconds.at(part).get<double>();
+  }
+  // Parts of one thread's time that do not overlap, but for what the run waited for the disk before its first step.
+  CHECK(sum - seconds.at("start").get<double>() < seconds.at("whole"));
+  double rows = 0;
+  for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) rows += row.wall_ms / 1000;
+  CHECK(seconds.at("steps").get<double>() == Approx(rows));
+  const std::map<std::string, std::string> extra = compare::RunReader(folder / "run").provenance().extra;
+  for (const auto& [part, key] :
+       {std::pair{"whole", "whole_seconds"}, {"start", "start_seconds"}, {"steps", "step_seconds"},
+        {"audits", "audit_seconds"}, {"writing", "writing_seconds"}})
+    CHECK(std::stod(extra.at(key)) == Approx(seconds.at(part).get<double>()).epsilon(1e-4));
+}
+
 TEST_CASE("a step of Newton's that does not converge exits 1, says what to do and keeps the state before it", "[unit]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();

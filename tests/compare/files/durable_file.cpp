@@ -1,17 +1,16 @@
 #include "compare/files/durable_file.hpp"
 
-#include <sys/resource.h>
-
-#include <csignal>
 #include <fstream>
 #include <iterator>
 
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
+#include "tests/compare/files/small_disk.hpp"
 
 using namespace ogc::compare;
 using ogc::tests::Scratch;
+using ogc::tests::SmallDisk;
 
 namespace {
 
@@ -19,24 +18,6 @@ std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
-
-/// A disk that takes no file longer than `bytes`, as long as the object lives.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limited{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 }  // namespace
 
@@ -95,4 +76,22 @@ TEST_CASE("lines that the disk does not take leave the file as it was, and later
   lines.append("four\n");
   CHECK(text_of(folder / "lines") == "one\nfour\n");
   CHECK_THROWS_AS(LineAppender(folder / "no such folder/lines"), ResourceError);
+}
+
+TEST_CASE("a group of files gets its names together, and names that can't be given are told", "[unit]") {
+  const Scratch folder;
+  const std::vector<std::filesystem::path> files{folder / "a", folder / "b"};
+  for (const auto& file : files) write_partial(file, file.filename().string());
+  CHECK_FALSE(std::filesystem::exists(folder / "a"));
+  CHECK(text_of(partial_name(folder / "b")) == "b");
+  commit_group(folder / "", files);
+  CHECK(text_of(folder / "a") == "a");
+  CHECK(text_of(folder / "b") == "b");
+  CHECK_FALSE(std::filesystem::exists(partial_name(folder / "a")));
+  CHECK_THROWS_WITH(commit_group(folder / "", files), ContainsSubstring((folder / "a").string()));
+  CHECK_THROWS_AS(commit_group(folder / "nowhere", {}), ResourceError);
+  const SmallDisk disk(1000);
+  CHECK_THROWS_AS(write_partial(folder / "c", std::string(5000, 'x')), ResourceError);
+  CHECK_FALSE(std::filesystem::exists(partial_name(folder / "c")));
+  CHECK_THROWS_WITH(reserve(folder / "a", 1, 200000), ContainsSubstring("reserve 195 KiB"));
 }

@@ -97,6 +97,7 @@ TEST_CASE("a killed run leaves every finished frame, every whole row and the sta
       run.add_frame(recorded_frame(step));
       run.add_steps({recorded_metrics(step + 1)});
     }
+    run.flush();
     std::ofstream(partial_name(folder / "run/frames/frame_000003.h5")) << "half a fra";
     std::ofstream(folder / "run/steps.csv", std::ios::app) << "4,0.4,40," << std::flush;
     raise(SIGKILL);

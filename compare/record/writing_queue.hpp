@@ -1,0 +1,83 @@
+// What a run writes, beside the simulation: jobs are prepared by several threads at the same time and written by one,
+// in the order in which they came. What was written is synced in groups. Memory is bounded: who adds to a queue that is
+// full waits, so a disk that is too slow slows the simulation down.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace ogc::compare {
+
+/// What a queue takes at most.
+struct QueueLimits {
+  std::size_t jobs = 64;                       ///< that wait or are worked at
+  std::size_t bytes = std::size_t{256} << 20;  ///< of them together; a job that is larger waits until it is alone
+  double sync_seconds = 1;                     ///< from the first write after a sync to the next sync [s]
+  unsigned threads = 0;                        ///< that prepare; 0: half of the machine's, at most 8
+};
+
+/// One thread adds.
+class WritingQueue {
+ public:
+  using Work = std::function<void()>;
+  /// `sync`: called by the writing thread when something was written and a second is over, or `drain` asks.
+  explicit WritingQueue(Work sync, const QueueLimits& limits = {});
+  /// Writes and syncs what was added; what fails then is not told.
+  ~WritingQueue();
+  WritingQueue(const WritingQueue&) = delete;
+  WritingQueue& operator=(const WritingQueue&) = delete;
+  /// Adds a job that holds so many bytes; waits where that is too much. `prepare` may be empty. Throws what an earlier
+  /// job or sync threw: after the first failure nothing is written any more, but what was written before is synced.
+  void add(std::size_t bytes, Work prepare, Work write);
+  /// Something was written past the queue and wants to be synced with the rest. Throws like `add`.
+  void touch();
+  /// Waits until all is written and synced, or nothing will be any more. Throws like `add`.
+  void drain();
+  /// Time that add and drain waited [s].
+  double waited_seconds() const { return waited_seconds_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Job {
+    std::size_t bytes = 0;
+    Work prepare, write;
+    bool taken = false, ready = false;
+  };
+  template <class Condition>
+  void wait(std::unique_lock<std::mutex>& lock, Condition condition);
+  bool has_room(std::size_t bytes) const;
+  bool is_sync_due() const;
+  bool is_idle() const { return jobs_.empty() && !busy_ && !dirty_; }
+  void rethrow() const;
+  void fail(std::exception_ptr failure);
+  void prepare_jobs();
+  void write_jobs();
+  void mark_dirty();
+  void sync_now(std::unique_lock<std::mutex>& lock);
+  void write_front(std::unique_lock<std::mutex>& lock);
+
+  const Work sync_;
+  const QueueLimits limits_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::shared_ptr<Job>> jobs_;
+  std::size_t bytes_ = 0;  ///< of the jobs
+  bool busy_ = false;      ///< the writing thread writes or syncs
+  bool dirty_ = false;     ///< something is written and not synced
+  bool draining_ = false;  ///< nothing was added since the last drain began
+  bool stop_ = false;
+  Clock::time_point dirty_since_;
+  std::exception_ptr failure_;
+  double waited_seconds_ = 0;  ///< of the caller's thread
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace ogc::compare

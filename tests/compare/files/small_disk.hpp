@@ -1,0 +1,28 @@
+// A full disk, as far as a process can have one of its own.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <csignal>
+
+namespace ogc::tests {
+
+/// A disk that takes no file longer than `bytes`, as long as the object lives.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limited{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+}  // namespace ogc::tests
