@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/features.hpp"
 #include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
@@ -35,7 +36,7 @@ bool judge_below(float below, float exact, double distance, double scale, std::s
 void judge_face(std::size_t i, const ClosestFaceTruth& truth, const ClosestFaceOut& out, double size, Tally& tally) {
   const auto feature = static_cast<unsigned>(out.feature[i]);
   if (feature > 6 || !(truth.accepted[i] >> feature & 1)) {
-    tally.mismatch("feature: " + std::to_string(feature) + ", exact " + std::to_string(static_cast<unsigned>(truth.exact.feature[i])));
+    tally.mismatch("feature: " + feature_name(out.feature[i]) + ", exact " + feature_name(truth.exact.feature[i]));
     return;
   }
   if (out.feature[i] != truth.exact.feature[i]) tally.answered_not_exactly();
@@ -59,10 +60,19 @@ unsigned code(const ClosestPointsOut& out, std::size_t i) {
   return first > 2 || second > 2 || out.nearly_parallel[i] > 1 ? 31 : first + 3 * second + 9u * out.nearly_parallel[i];
 }
 
+std::string features(const ClosestPointsOut& out, std::size_t i) {
+  const std::string parallel = out.nearly_parallel[i] == 0 ? ""
+                               : out.nearly_parallel[i] == 1
+                                   ? ", nearly parallel"
+                                   : ", nearly_parallel is " + std::to_string(out.nearly_parallel[i]);
+  return feature_name(out.first_feature[i], "first") + " and " + feature_name(out.second_feature[i], "second") +
+         parallel;
+}
+
 void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestPointsOut& out, double size, Tally& tally) {
   const unsigned answer = code(out, i), exact = code(truth.exact, i);
   if (!(truth.accepted[i] >> answer & 1)) {
-    tally.mismatch("features: code " + std::to_string(answer) + ", exact " + std::to_string(exact) + " (first + 3 second + 9 nearly parallel)");
+    tally.mismatch("features: " + features(out, i) + "; exact " + features(truth.exact, i));
     return;
   }
   if (answer != exact) tally.answered_not_exactly();

@@ -1,9 +1,9 @@
 // Verdicts of rest_state and block.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "compare/judge/features.hpp"
 #include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
@@ -101,13 +101,6 @@ class RestVerdict {
   Tally& tally_;
 };
 
-std::string print(const BlockQuestion& question) {
-  constexpr std::array kinds{"vertex ", "edge ", "triangle "};
-  const bool is_edge = question.kind == BlockQuestion::Kind::edge_in_edges;
-  return (is_edge ? "the point of edge " : "vertex ") + std::to_string(question.of) + (is_edge ? " closest to " : " in the block of ") +
-         kinds[static_cast<std::size_t>(question.face.kind)] + std::to_string(question.face.index) + (is_edge ? " in its block" : "");
-}
-
 }  // namespace
 
 void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const RestStateOut& out, Tally& tally) {
@@ -119,7 +112,8 @@ void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const R
 }
 
 void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& out, Tally& tally) {
-  const auto& questions = std::get<BlockCase>(test.data).questions;
+  const auto& asked = std::get<BlockCase>(test.data);
+  const auto& questions = asked.questions;
   tally.begin(test.name);
   const auto marked = [](const std::vector<std::uint8_t>& flags) {
     return static_cast<std::uint64_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
@@ -135,8 +129,8 @@ void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& 
       tally.answered_not_exactly();
       continue;
     }
-    tally.mismatch("question " + std::to_string(i) + ", " + print(questions[i]) + ": " + std::to_string(out.inside[i]) + ", exact " +
-                   std::to_string(truth.inside[i]));
+    tally.mismatch("question " + std::to_string(i) + ", " + question_name(questions[i], *asked.topology) + ": " +
+                   std::to_string(out.inside[i]) + ", exact " + std::to_string(truth.inside[i]));
   }
 }
 

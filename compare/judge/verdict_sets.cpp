@@ -11,25 +11,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/features.hpp"
 #include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
 namespace ogc::compare {
 
 namespace {
-
-std::string print(const Face& face) {
-  constexpr const char* kinds[] = {"vertex ", "edge ", "triangle "};
-  return kinds[std::min(2, static_cast<int>(face.kind))] + std::to_string(face.index);
-}
-
-std::string print(const VertexFacetContact& c) {
-  return "(vertex " + std::to_string(c.vertex) + ", " + print(c.face) + ", owner " + std::to_string(c.owner) + ")";
-}
-
-std::string print(const EdgeEdgeContact& c) {
-  return "{" + print(c.first) + ", " + print(c.second) + "} of edges " + std::to_string(c.first_edge) + ", " + std::to_string(c.second_edge);
-}
 
 bool is_part(const Topology& topology, const Face& a, const Face& b) {
   if (a.kind >= b.kind) return false;
@@ -77,6 +65,9 @@ class SetVerdict {
   }
 
  private:
+  /// In braces, so that its commas end nothing.
+  std::string print(const Contact& contact) const { return "{" + contact_name(contact, topology_) + "}"; }
+
   std::size_t answered(const GreyDecision<Contact>& decision) const {
     return static_cast<std::size_t>(std::count_if(decision.contacts.begin(), decision.contacts.end(), [&](const Contact& c) { return holds(answer_, c); }));
   }

@@ -50,7 +50,7 @@ struct RestFixture {
 };
 
 std::string block_verdict(std::vector<std::uint8_t> answer) {
-  BlockCase c;
+  BlockCase c{std::make_shared<Topology>(), {}, {}};
   c.questions = {{BlockQuestion::Kind::vertex_in_surface, 0, {FaceKind::edge, 7}}, {BlockQuestion::Kind::edge_in_edges, 3, {FaceKind::vertex, 1}}};
   Tally tally(Stage::block);
   judge_block({{Stage::block, "soup", 0, 0, "", {}}, c}, {{1, 0}, {0, 1}, {0, 1}}, {std::move(answer)}, tally);

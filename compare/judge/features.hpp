@@ -1,0 +1,30 @@
+// Features by name, as messages and explanations say them: never a bare number.
+#pragma once
+
+#include <string>
+
+#include "compare/problem/mesh.hpp"
+#include "compare/stages/block.hpp"
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+
+namespace ogc::compare {
+
+// What an answer says need not exist: such a name says so.
+
+/// "vertex 2 of the triangle", "edge (0,1) of the triangle", "the interior of the triangle".
+std::string feature_name(TriangleFeature feature);
+/// "end 0 of the first edge", "the interior of the second edge"; `which`: "first", "second".
+std::string feature_name(EdgeFeature feature, const std::string& which);
+/// "vertex 2", "edge 5 (vertices 1, 4)", "triangle 3 (vertices 0, 1, 4)".
+std::string face_name(const Face& face, const Topology& topology);
+/// "vertex 7 and edge 5 (vertices 1, 4), owner triangle 3".
+std::string contact_name(const VertexFacetContact& contact, const Topology& topology);
+/// "vertex 2 and edge 5 (vertices 1, 4), of edges 0 and 5".
+std::string contact_name(const EdgeEdgeContact& contact, const Topology& topology);
+/// "vertex 7 in the block of triangle 3 (vertices 0, 1, 4)".
+std::string question_name(const BlockQuestion& question, const Topology& topology);
+
+}  // namespace ogc::compare
