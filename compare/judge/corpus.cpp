@@ -124,7 +124,7 @@ std::filesystem::path save_case(const std::filesystem::path& folder, const TestC
   write_case_hdf5(path, case_to_json(test, message));
   const Shape shape = shape_of(test.data);
   if (shape.points.empty()) return path;
-  write_bytes(folder / (stem + ".obj"), print_shape_obj(shape));
+  if (const std::string mesh = print_shape_obj(shape); !mesh.empty()) write_bytes(folder / (stem + ".obj"), mesh);
   write_bytes(folder / (stem + ".svg"), print_shape_svg(shape, print_problem(name) + ": " + message));
   return path;
 }

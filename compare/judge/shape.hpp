@@ -1,4 +1,4 @@
-// What there is to see of a case: points, triangles, lines. An OBJ mesh and a picture are made of it.
+// What there is to see of a case: points, triangles, lines. A mesh to audit and a picture are made of it.
 #pragma once
 
 #include <array>
@@ -19,7 +19,11 @@ struct Shape {
 /// Empty where a case has no coordinates (activation, bound).
 Shape shape_of(const CaseData& data);
 
-/// OBJ text: vertices in order, then points, faces and lines with indices from 1. Empty for an empty shape.
+/// OBJ text that `ogc audit` reads: the shape as a legal mesh. Triangles and lines that no mesh may have (of no length
+/// or area, beyond the range of lengths, there twice) are left out, of a flat triangle but its longest side. A point
+/// that nothing holds gets a line that leads away from all others, so that distances to it are those of the case.
+/// Comments say what is asked about, and which vertex of the case each vertex is where they differ. Empty where nothing
+/// is left.
 std::string print_shape_obj(const Shape& shape);
 
 /// A static SVG picture: parallel projection along the direction in which the shape is least deep, to scale; vertices carry their numbers where they are few.

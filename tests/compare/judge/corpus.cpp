@@ -5,8 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/files/obj.hpp"
 #include "compare/judge/generators.hpp"
+#include "compare/judge/shape.hpp"
+#include "compare/oracle/smallest_distances.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
+#include "reference/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
 
@@ -67,6 +72,46 @@ TEST_CASE("a mesh case is saved with a mesh and a picture to look at", "[unit]")
   const std::string obj = read(path.replace_extension(".obj"));
   REQUIRE(obj.starts_with("v "));
   REQUIRE(obj.find("\nf ") != std::string::npos);
+}
+
+TEST_CASE("the mesh of a saved case is one that an audit takes, whatever degenerates, and its vertices are the case's",
+          "[property]") {
+  const Scratch folder;
+  for (const Stage stage : all_stages)
+    for (const Generator& generator : generators(stage))
+      for (std::uint64_t index = 0; index < 4 && generator.least == 0; ++index) {
+        const TestCase test = generate({stage, std::string(generator.name), 5, index, "", {}});
+        const std::string text = print_shape_obj(shape_of(test.data));
+        const bool has_geometry = stage != Stage::activation && stage != Stage::bound;
+        INFO(print_problem(test.name) << "\n" << text);
+        if (!has_geometry) CHECK(text.empty());
+        if (text.empty()) continue;
+        const Mesh mesh = parse_obj(text, "saved.obj");
+        CHECK(describe(validate(mesh)).empty());
+        const auto* whole = std::get_if<MeshCase>(&test.data);
+        if (whole && mesh.positions.size() == whole->positions.size() &&
+            text.find('#') == std::string::npos)  // nothing left out or added
+          CHECK(to_single(mesh.positions) == whole->positions);
+      }
+}
+
+TEST_CASE("what an audit says of the mesh of a point and a triangle is the distance of the case", "[property]") {
+  std::size_t asked = 0;
+  for (const char* generator : {"uniform", "ladder.near", "ladder.corner_plane", "ladder.needle"})
+    for (std::uint64_t index = 0; index < 50; ++index) {
+      const TestCase test = generate({Stage::closest_face, generator, 5, index, "", {}});
+      const Mesh mesh = parse_obj(print_shape_obj(shape_of(test.data)), "saved.obj");
+      if (mesh.triangles.size() != 1 || mesh.positions.size() != 5) continue;  // collapsed
+      ++asked;
+      const auto& c = std::get<ClosestFaceCase>(test.data);
+      const double exact = ogc::reference::authority().closest_face({{c.point}, {c.triangle}}).distance[0];
+      const SmallestDistances found = smallest_distances(build_topology(5, mesh.triangles, mesh.loose_edges),
+                                                         mesh.positions);
+      INFO(print_problem(test.name));
+      CHECK(found.vertex == 3);
+      CHECK(found.vertex_triangle == Approx(exact).epsilon(1e-9).margin(1e-11));
+    }
+  CHECK(asked > 120);
 }
 
 TEST_CASE("a broken case file is refused with its name and what is wrong", "[unit]") {
