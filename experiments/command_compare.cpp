@@ -1,8 +1,6 @@
 // `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and saved failures.
 #include <algorithm>
-#include <chrono>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -14,10 +12,9 @@
 #include "compare/judge/judge.hpp"
 #include "compare/judge/page.hpp"
 #include "compare/judge/report.hpp"
-#include "compare/judge/shrink.hpp"
-#include "compare/judge/states.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/failures.hpp"
 #include "experiments/option_checks.hpp"
 #include "experiments/output.hpp"
 #include "experiments/plugins/contestant.hpp"
@@ -37,9 +34,6 @@ using compare::StageReport;
 
 // A generator; one that fails everywhere must not hide the others.
 constexpr std::size_t printed_mismatches = 3;
-constexpr std::ptrdiff_t saved_cases = 4;
-// Of all failing cases together, and of one [s].
-constexpr double shrinking_seconds = 30, shrinking_one = 2;
 // At 10⁷ cases a second more than a day of judging.
 constexpr std::uint64_t most_cases = 1'000'000'000'000;
 
@@ -56,22 +50,6 @@ fast::Backend backend_of(const std::string& name) {
   if (name == "cuda") return fast::Backend::cuda;
   throw InputError("--backend " + name + ": there is no such backend; known: cpu, cuda");
 }
-
-/// Run folders, each opened once.
-class OpenStates {
- public:
-  explicit OpenStates(const compare::Authority& authority) : authority_(authority) {}
-  const compare::States* of(const std::string& folder) {
-    if (folder.empty()) return nullptr;
-    auto& states = open_[folder];
-    if (!states) states = std::make_unique<compare::States>(folder, authority_);
-    return states.get();
-  }
-
- private:
-  const compare::Authority& authority_;
-  std::map<std::string, std::unique_ptr<compare::States>> open_;
-};
 
 /// Who is judged: our backend, or a plug-in with our backend timed beside it.
 struct Judged {
@@ -154,58 +132,6 @@ std::vector<StageReport> judge_generated(const CompareOptions& options, OpenStat
   return reports;
 }
 
-/// A replayed case keeps its file's data; all others come back from their names.
-compare::TestCase case_again(const compare::CaseName& name, std::span<const compare::TestCase> given, OpenStates& states) {
-  for (const compare::TestCase& test : given)
-    if (test.name == name) return test;
-  return compare::generate(name, states.of(name.states));
-}
-
-/// Makes failing cases small, as long as there is time.
-class Shrinking {
- public:
-  Shrinking(const compare::Contestant& contestant, const compare::Authority& authority) : contestant_(contestant), authority_(authority) {}
-
-  /// The case, and its message with what became of it.
-  std::pair<compare::TestCase, std::string> small(const compare::TestCase& test, const std::string& message) {
-    const auto start = std::chrono::steady_clock::now();
-    compare::ShrinkOptions options;
-    options.seconds = std::min(shrinking_one, shrinking_seconds - spent_);
-    if (options.seconds <= 0) return {test, message};
-    compare::TestCase shrunk = compare::shrink_failure(test, message, contestant_, authority_, options);
-    spent_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const std::size_t before = compare::primitive_count(test.data), after = compare::primitive_count(shrunk.data);
-    if (before == after) return {std::move(shrunk), message};
-    return {std::move(shrunk), message + " (message of the whole case; shrunk from " + std::to_string(before) + " to " + counted(after, "primitive") + ")"};
-  }
-
- private:
-  const compare::Contestant& contestant_;
-  const compare::Authority& authority_;
-  double spent_ = 0;
-};
-
-/// Saves the first failing cases of each generator, shrunk, and their problem strings as a batch file; returns the paths.
-std::vector<std::string> save_failures(const std::vector<StageReport>& reports, std::span<const compare::TestCase> given, OpenStates& states,
-                                       const std::filesystem::path& folder, Shrinking shrinking) {
-  std::vector<std::string> paths;
-  std::string problems;
-  for (const StageReport& report : reports) {
-    std::vector<compare::CaseName> saved;
-    for (const compare::Mismatch& mismatch : report.tally.mismatches) {
-      const auto same_generator = [&](const compare::CaseName& name) { return name.generator == mismatch.name.generator; };
-      if (std::count_if(saved.begin(), saved.end(), same_generator) == saved_cases) continue;
-      if (std::find(saved.begin(), saved.end(), mismatch.name) != saved.end()) continue;
-      saved.push_back(mismatch.name);
-      const auto [test, message] = shrinking.small(case_again(mismatch.name, given, states), mismatch.message);
-      paths.push_back(compare::save_case(folder, test, message).string());
-      problems += "# " + message + "\n" + compare::print_problem(test.name) + "\n";
-    }
-  }
-  if (!paths.empty()) compare::write_bytes(folder / "problems.txt", problems);
-  return paths;
-}
-
 void write_report(const std::filesystem::path& folder, const std::vector<StageReport>& reports, const std::string& judged) {
   std::string lines;
   for (const StageReport& report : reports) lines += compare::report_json(report).dump() + "\n";
@@ -228,12 +154,15 @@ int judge_bits(const CompareOptions& options, const CommandContext& context) {
   return std::all_of(reports.begin(), reports.end(), [](const auto& report) { return report.changed.empty(); }) ? exit_success : exit_check_failed;
 }
 
-void print_reports(const std::vector<StageReport>& reports, const std::optional<PluginSeen>& plugin, const std::vector<std::string>& saved,
+void print_reports(const std::vector<StageReport>& reports, const std::optional<PluginSeen>& plugin,
+                   const std::vector<std::string>& saved, const std::vector<compare::Explanation>& explanations,
                    const CommandContext& context) {
   if (context.json) {
-    Json all = Json::array();
+    Json all = Json::array(), explained = Json::array();
     for (const StageReport& report : reports) all.push_back(compare::report_json(report));
-    Json result{{"stages", all}, {"saved", saved}};
+    for (const compare::Explanation& explanation : explanations)
+      explained.push_back(compare::explanation_json(explanation));
+    Json result{{"stages", all}, {"explained", explained}, {"saved", saved}};
     if (plugin) result["plugin"] = plugin_json(*plugin, reports);
     print_result(result);
     return;
@@ -242,6 +171,7 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
   if (plugin) text += "\n" + plugin_text(*plugin, reports);
   for (const StageReport& report : reports)
     if (report.tally.mismatched > 0) text += "\n" + compare::report_mismatches(report, printed_mismatches);
+  for (const compare::Explanation& explanation : explanations) text += "\n" + compare::explanation_text(explanation);
   if (!saved.empty()) text += "\n" + counted(saved.size(), "failing case") + " saved; replay one with: ogc compare --replay " + saved.front() + "\n";
   print_result(text);
 }
@@ -266,9 +196,12 @@ int run(CompareOptions options, const CommandContext& context) {
   if (judged.plugin) plugin = PluginSeen{judged.plugin->name(), judged.backend, *judged.times, judged.plugin->notes()};
   const std::filesystem::path folder = options.report.empty() ? "ogc-compare" : options.report;
   std::vector<std::string> saved;
-  if (options.replay.empty()) saved = save_failures(reports, given, states, folder / "failures", {judged.contestant, authority});
+  Failures failures(judged.contestant, authority, states, given);
+  failures.explain_given(reports);
+  if (options.replay.empty()) saved = failures.save(reports, folder / "failures");
+  failures.diagnose(reports, options.seed);
   if (!options.report.empty()) write_report(folder, reports, judged.plugin ? judged.plugin->name() : options.backend);
-  print_reports(reports, plugin, saved, context);
+  print_reports(reports, plugin, saved, failures.explanations(), context);
   bool any = false, passed = true;
   for (const StageReport& report : reports) {
     any |= !report.skipped;
@@ -299,7 +232,9 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command->add_option("--generator", options->generator, "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
   command->add_option("--states", options->states, "A run folder, whose frames become cases too");
-  auto* problem = command->add_option("--problem", options->problem, "One case by its problem string, as printed in messages");
+  auto* problem = command->add_option(
+      "--problem", options->problem,
+      "One case by its problem string, as printed in messages; told whole: inputs by name and unit, both answers");
   auto* batch = command->add_option("--batch", options->batch, "A file with one problem string a line");
   auto* replay = command->add_option("--replay", options->replay, "A failing case as saved: shrunk, with every bit");
   problem->excludes(replay);
@@ -315,14 +250,19 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   auto* list = command->add_flag("--list", options->list, "Print all stages with what they are asked, their generators and parameters");
   command->add_flag("--markdown", options->markdown, "With --list: as the table of README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
-  command->footer("Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of compare/stages.\n"
-                  "Exit status 1: a mismatch, too many grey decisions, or a plug-in that crashes, hangs or writes out of range.\n\n"
-                  "Examples:\n"
-                  "  ogc compare --cases 1000000\n"
-                  "  ogc compare closest_face truncate --backend cuda --report reports/cuda\n"
-                  "  ogc compare truncate --plugin ./mine.so\n"
-                  "  ogc compare --problem \"stage=detect_edge_edge gen=few seed=7 index=12 r=2e-3 r_q=4e-3\"\n"
-                  "  ogc compare --determinism --backend cuda --json");
+  command->footer(
+      "Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of "
+      "compare/stages.\n"
+      "Exit status 1: a mismatch, too many grey decisions, or a plug-in that crashes, hangs or writes out of range.\n"
+      "The first failing case of each stage is told whole, and where the failures are a mistake that is known by name, "
+      "it is named:\n"
+      "\"your answer equals `half_logarithm`\".\n\n"
+      "Examples:\n"
+      "  ogc compare --cases 1000000\n"
+      "  ogc compare closest_face truncate --backend cuda --report reports/cuda\n"
+      "  ogc compare truncate --plugin ./mine.so\n"
+      "  ogc compare --problem \"stage=detect_edge_edge gen=few seed=7 index=12 r=2e-3 r_q=4e-3\"\n"
+      "  ogc compare --determinism --backend cuda --json");
   command->callback([options, &context] { context.status = run(*options, context); });
 }
 

@@ -1,91 +1,14 @@
-// Each case names its members once, for both ways.
+// Writer and reader of the members that compare/judge/force_members.hpp names.
 #include "compare/judge/corpus_forces.hpp"
 
 #include <algorithm>
-#include <concepts>
 
-#include "compare/problem/material_table.hpp"
+#include "compare/judge/force_members.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {
 
 namespace {
-
-template <class Case, class Visit>
-  requires std::same_as<std::remove_const_t<Case>, MembraneCase>
-void visit_members(Case& c, Visit visit) {
-  visit("corner", c.corner);
-  visit("start", c.start);
-  visit("gradient_1", c.gradient[0]);
-  visit("gradient_2", c.gradient[1]);
-  visit("area", c.area);
-  visit("lame_lambda", c.lame_lambda);
-  visit("lame_mu", c.lame_mu);
-  visit("damping", c.damping);
-  visit("model", c.model);
-  visit("damping_form", c.damping_form);
-}
-
-template <class Case, class Visit>
-  requires std::same_as<std::remove_const_t<Case>, BendingCase>
-void visit_members(Case& c, Visit visit) {
-  visit("vertex", c.vertex);
-  visit("start", c.start);
-  visit("stiffness", c.stiffness);
-  visit("rest_angle", c.rest_angle);
-  visit("damping", c.damping);
-  visit("own", c.own);
-  visit("model", c.model);
-  visit("weight", c.weight);
-  visit("damping_form", c.damping_form);
-}
-
-template <class Case, class Visit>
-  requires std::same_as<std::remove_const_t<Case>, SpringCase>
-void visit_members(Case& c, Visit visit) {
-  visit("vertex", c.vertex);
-  visit("start", c.start);
-  visit("stiffness", c.stiffness);
-  visit("rest_length", c.rest_length);
-  visit("damping", c.damping);
-  visit("ratio", c.ratio);
-  visit("own", c.own);
-  visit("damping_form", c.damping_form);
-}
-
-constexpr std::array<std::string_view, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
-
-/// The names of an enumeration's values, in their order.
-std::span<const std::string_view> names_of(ContactSides) { return side_names; }
-std::span<const std::string_view> names_of(MembraneModel) { return membrane_model_names(); }
-std::span<const std::string_view> names_of(BendingModel) { return bending_model_names(); }
-std::span<const std::string_view> names_of(ContactActivation) { return activation_names(); }
-std::span<const std::string_view> names_of(DampingForm) { return damping_form_names(); }
-
-template <class T>
-concept Named = std::is_enum_v<T>;
-
-template <class Case, class Visit>
-  requires std::same_as<std::remove_const_t<Case>, ContactForceCase>
-void visit_members(Case& c, Visit visit) {
-  visit("sides", c.sides);
-  visit("own", c.own);
-  visit("vertex", c.vertex);
-  visit("detected", c.detected);
-  visit("rest_squared", c.rest_squared);
-  visit("contact_radius", c.contact_radius);
-  visit("stiffness", c.stiffness);
-  visit("activation", c.activation);
-}
-
-template <class Case, class Visit>
-  requires std::same_as<std::remove_const_t<Case>, FrictionForceCase>
-void visit_members(Case& c, Visit visit) {
-  visit_members(c.contact, visit);
-  visit("start", c.start);
-  visit("friction", c.friction);
-  visit("slip_limit", c.slip_limit);
-}
 
 struct Writer {
   Json json;
@@ -130,7 +53,7 @@ struct Reader {
 template <class Case>
 Json written(const Case& c) {
   Writer writer;
-  visit_members(c, [&](const char* name, const auto& member) { writer(name, member); });
+  visit_members(c, [&](const char* name, const char*, const auto& member) { writer(name, member); });
   return writer.json;
 }
 
@@ -138,7 +61,7 @@ template <class Case>
 Case read(const Json& data) {
   Case c;
   const Reader reader{data};
-  visit_members(c, [&](const char* name, auto& member) { reader(name, member); });
+  visit_members(c, [&](const char* name, const char*, auto& member) { reader(name, member); });
   return c;
 }
 

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "compare/judge/diagnosis.hpp"
 #include "compare/judge/generators.hpp"
 #include "compare/judge/tally.hpp"
 #include "compare/problem/contestant.hpp"
@@ -28,6 +30,7 @@ struct StageReport {
   Tally tally;
   double seconds = 0;
   bool skipped = false;                    ///< the contestant or the authority does not have the stage
+  std::optional<Diagnosis> diagnosis{};    ///< of its failures, where one was asked for (explain/diagnose.hpp)
   std::string note{};                      ///< why the run given as real states has none for the stage; otherwise empty
   /// No mismatch, at least one case, and the generic generators' grey share within its limit.
   bool passed() const;

@@ -104,6 +104,7 @@ std::string report_page(std::span<const StageReport> reports, const std::string&
     if (report.skipped) continue;
     html += "<h2>" + std::string(stage_name(report.tally.stage)) + ": " + escaped(verdict(report)) + "</h2>\n";
     if (!report.note.empty()) html += "<p>" + escaped(report.note) + "</p>\n";
+    if (report.diagnosis) html += "<p>" + escaped(diagnosis_text(*report.diagnosis)) + "</p>\n";
     html += mismatches_html(report.tally) + metrics_html(report.tally) + generators_html(report.tally);
   }
   return html + "</body></html>\n";

@@ -104,6 +104,7 @@ Json report_json(const StageReport& report) {
             {"seconds", report.seconds}, {"cases_per_second", speed(report)},
             {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
   if (!report.note.empty()) json["note"] = report.note;
+  if (report.diagnosis) json["diagnosis"] = diagnosis_json(*report.diagnosis);
   const auto infos = metrics(tally.stage);
   json["metrics"] = Json::array();
   for (std::size_t i = 0; i < infos.size(); ++i) {
@@ -143,6 +144,7 @@ std::string report_table(std::span<const StageReport> reports) {
     if (report.skipped) continue;
     text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
     if (!report.note.empty()) text += "  " + report.note + "\n";
+    if (report.diagnosis) text += "  " + diagnosis_text(*report.diagnosis);
     if (const std::string loose = loose_metrics(report); !loose.empty()) text += "  loose, never within a factor of 50 of what is accepted: " + loose + "\n";
     const auto infos = metrics(report.tally.stage);
     for (std::size_t i = 0; i < infos.size(); ++i)

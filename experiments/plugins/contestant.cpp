@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "compare/judge/contestant_stages.hpp"
 #include "experiments/plugins/arrays.hpp"
 #include "experiments/plugins/scenes.hpp"
 
@@ -126,28 +127,6 @@ BlockOut ask_block(PluginProcess& plugin, const BlockIn& in) {
   BlockOut out;
   Outputs(answer).to(out.inside);
   return out;
-}
-
-/// The members of a contestant that a plug-in can have, with their names.
-template <class Visit>
-void visit_stages(Visit visit) {
-  visit("closest_face", &Contestant::closest_face);
-  visit("closest_points", &Contestant::closest_points);
-  visit("block", &Contestant::block);
-  visit("detect_vertex_facet", &Contestant::detect_vertex_facet);
-  visit("detect_edge_edge", &Contestant::detect_edge_edge);
-  visit("bound", &Contestant::bound);
-  visit("initial_guess", &Contestant::initial_guess);
-  visit("activation", &Contestant::activation);
-  visit("contact_force", &Contestant::contact_force);
-  visit("friction_force", &Contestant::friction_force);
-  visit("membrane", &Contestant::membrane);
-  visit("bending", &Contestant::bending);
-  visit("spring", &Contestant::spring);
-  visit("truncate", &Contestant::truncate);
-  visit("rest_state", &Contestant::rest_state);
-  visit("sweep", &Contestant::sweep);
-  visit("step", &Contestant::step);
 }
 
 template <class Out, class In>

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/corpus.hpp"
+#include "compare/judge/explain/explanation.hpp"
 #include "compare/judge/judge.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
@@ -180,6 +181,61 @@ TEST_CASE("ogc compare takes a problem string, a batch file and a saved case", "
   REQUIRE(tests::run_ogc("compare --batch " + batch.string()).status == 0);
   const auto saved = save_case(folder / "saved", generate(parse_problem(problem)), "by hand");
   REQUIRE(tests::run_ogc("compare --replay " + saved.string()).status == 0);
+}
+
+TEST_CASE(
+    "a case of any stage is told whole: inputs by name and unit, both answers of one shape, right where the judge "
+    "finds nothing",
+    "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant fast = fast::contestant(fast::Backend::cpu);
+  for (const Stage stage : all_stages)
+    for (std::uint64_t index = 0; index < 3; ++index) {
+      const TestCase test = generate({stage, std::string(generators(stage)[0].name), 5, index, "", {}});
+      const Explanation told = explain(test, fast, authority);
+      INFO(explanation_text(told));
+      CHECK(told.messages.empty());
+      std::size_t units = 0;
+      for (const Quantity& input : told.inputs) {
+        CHECK_FALSE(input.name.empty());
+        CHECK((input.labels.empty() || input.labels.size() == input.entries()));
+        units += !input.unit.empty();
+      }
+      CHECK(units > 0);
+      REQUIRE_FALSE(told.answers.outputs.empty());
+      for (const auto& [given, exact] : told.answers.outputs) {
+        CHECK(given.name == exact.name);
+        CHECK(given.unit == exact.unit);
+        CHECK(given.numbers.size() == exact.numbers.size());
+        CHECK(given.words.size() == exact.words.size());
+        for (std::size_t k = 0; k < exact.numbers.size(); ++k)
+          CHECK(given.numbers[k] == Approx(exact.numbers[k]).epsilon(1e-2).margin(1e-2));
+      }
+      const auto json = explanation_json(told);
+      CHECK(json.at("inputs").size() == told.inputs.size());
+      CHECK(json.at("answers").size() == told.answers.outputs.size());
+    }
+}
+
+TEST_CASE("ogc compare --problem prints the case by name and unit, and the whole of it as JSON", "[agreement]") {
+  const std::string problem = "--problem 'stage=detect_vertex_facet gen=cloth seed=7 index=2'";
+  const tests::ProgramResult text = tests::run_ogc("compare " + problem),
+                             whole = tests::run_ogc("compare --json " + problem);
+  REQUIRE(text.status == 0);
+  CHECK(tests::contains(text.out, {"  right\n", "inputs\n", "  contact_radius [m]: ", "  positions [m]:\n    0: (",
+                                   "your answer, and the exact one\n", "  d_min_vertex [m]"}));
+  const auto told = nlohmann::json::parse(whole.out).at("explained").at(0);
+  const TestCase test = generate(parse_problem("stage=detect_vertex_facet gen=cloth seed=7 index=2"));
+  const auto& mesh = std::get<MeshCase>(test.data);
+  for (const auto& input : told.at("inputs")) {
+    if (input.at("name") == "contact_radius") CHECK(input.at("value").get<float>() == mesh.contact_radius);
+    if (input.at("name") != "positions") continue;
+    CHECK(input.at("unit") == "m");
+    REQUIRE(input.at("value").size() == mesh.positions.size());
+    CHECK(input.at("value").back().at(1).get<float>() == mesh.positions.back().y);
+  }
+  for (const auto& answer : told.at("answers"))
+    if (answer.at("name") == "d_min_vertex") CHECK(answer.at("given").size() == mesh.positions.size());
 }
 
 TEST_CASE("ogc compare refuses unknown stages, generators, backends and files with exit status 2", "[agreement]") {

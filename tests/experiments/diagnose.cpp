@@ -1,0 +1,215 @@
+// Failures and their names: each known wrong form is told from the truth and recognised, planted faults get the name of
+// their form, and what is no form gets none.
+#include <map>
+#include <set>
+
+#include "compare/judge/explain/diagnose.hpp"
+#include "compare/judge/generators.hpp"
+#include "compare/judge/judge.hpp"
+#include "reference/contestant.hpp"
+#include "tests/catch.hpp"
+#include "tests/compare/judge/faults.hpp"
+
+using namespace ogc;
+using namespace ogc::compare;
+
+namespace {
+
+/// What the judge says of this contestant after a short run.
+Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authority& authority) {
+  JudgeOptions options;
+  options.cases = is_mesh_stage(stage) ? 1000 : 2000;
+  options.batch = 1000;
+  std::vector<TestCase> failing;
+  for (const Mismatch& mismatch : judge_stage(stage, contestant, authority, options).tally.mismatches)
+    if (failing.empty() || failing.back().name != mismatch.name) failing.push_back(generate(mismatch.name));
+  return diagnose(stage, failing, contestant, authority, 1);
+}
+
+/// Whether it is the name, or one that these cases do not tell from it.
+bool names(const Diagnosis& diagnosis, const std::string& name) {
+  return diagnosis.name == name ||
+         std::find(diagnosis.as_well.begin(), diagnosis.as_well.end(), name) != diagnosis.as_well.end();
+}
+
+/// A few cases of each generator, with what `contestant` answers.
+std::vector<Evidence> evidence_of(Stage stage, const Contestant& contestant, std::uint64_t each) {
+  std::vector<Evidence> all;
+  for (const Generator& row : generators(stage))
+    for (std::uint64_t i = 0; i < each && row.least == 0; ++i)
+      all.push_back({generate({stage, std::string(row.name), 3, i, "", {}}), remembered(contestant)});
+  return all;
+}
+
+/// Failing cases of a longer run: what is seldom asked about, such as rigid groups, is in few meshes.
+std::size_t failing_of_many(Stage stage, const Contestant& contestant, const Authority& authority) {
+  JudgeOptions options;
+  options.cases = 6000;
+  return judge_stage(stage, contestant, authority, options).tally.mismatched;
+}
+
+}  // namespace
+
+TEST_CASE("whoever answers as a wrong form says fits it in every case, and is wrong in some", "[agreement]") {
+  const Authority authority = reference::authority();
+  std::size_t forms = 0;
+  for (const Stage stage : all_stages) {
+    if (stage == Stage::sweep || stage == Stage::step)
+      continue;  // the exact contestant sweeps by itself, and a step has no forms
+    const std::uint64_t each = is_mesh_stage(stage) ? 4 : 40;
+    const std::vector<Evidence> right = evidence_of(stage, tests::exact_contestant(authority), each);
+    for (const WrongForm& form : wrong_forms(stage, right)) {
+      if (!form.wrong) continue;
+      std::size_t fits = 0, fails = 0;
+      const std::vector<Evidence> wrong = evidence_of(stage, tests::exact_contestant(form.wrong(authority)), each);
+      for (const Evidence& one : wrong) {
+        fits += form.fits(one, authority);
+        fails += !agrees(one, authority);
+      }
+      INFO(stage_name(stage) << ": " << form.name << ", of " << wrong.size() << " cases " << fits << " fit, " << fails
+                             << " fail");
+      // A few do not fit: what a form says may overflow single precision, and its own changed input may lie beside a
+      // jump.
+      CHECK(static_cast<double>(fits) >= least_share * static_cast<double>(wrong.size()));
+      if (fails == 0) fails = failing_of_many(stage, tests::exact_contestant(form.wrong(authority)), authority);
+      CHECK(fails > 0);
+      ++forms;
+    }
+  }
+  CHECK(forms > 150);
+}
+
+TEST_CASE("no two wrong forms of a stage have the same name", "[unit]") {
+  for (const Stage stage : all_stages) {
+    std::set<std::string> seen;
+    for (const WrongForm& form : wrong_forms(stage, {})) {
+      INFO(stage_name(stage) << ": " << form.name);
+      CHECK(seen.insert(form.name).second);
+      CHECK_FALSE(form.meaning.empty());
+    }
+  }
+}
+
+TEST_CASE("planted faults that are known wrong forms are named, and others are not", "[agreement]") {
+  const Authority authority = reference::authority();
+  const std::map<std::string, std::string> expected{
+      {"activation: ogc for every activation", "ogc_for_every_activation"},
+      {"activation: energy without its constant, Eq. 20", ""},  // the planted one leaves the constant ln τ out, too
+      {"bound: half of what is right", "half"},
+      {"bound: own edges forgotten", "edge_minima_missing"},
+      {"bound: own triangles forgotten", "triangle_minima_missing"},
+      {"bound: 1 % too large", ""},
+      {"truncate: flag inverted", "flag_inverted"},
+      {"truncate: not truncated", "not_truncated"},
+      {"truncate: stale position copied", "moved_back"},
+      {"closest_face: two weights swapped", "weights_swapped_01"},
+      {"closest_face: distances never below 1e-5", "floor_1e-5_of_distance_alone"},
+      {"closest_face: distance_below always 0", "distance_below_is_zero"},
+      {"closest_points: rule for nearly parallel edges ignored", "parallel_rule_missing"},
+      {"contact_force: mollifier forgotten", "mollifier_missing"},
+      {"contact_force: mollifier of the present edges", "mollifier_of_present_edges"},
+      {"contact_force: weights of the two sides exchanged", "sides_exchanged"},
+      {"contact_force: radius 0.01 % too large", ""},
+      {"friction_force: slip since now, not since the start of the step", "slip_since_now"},
+      {"friction_force: normal force without the mollifier", "mollifier_missing"},
+      {"friction_force: force 0.1 % too small", ""},
+      {"membrane: damping forgotten", "damping_missing"},
+      {"membrane: gradients of two corners exchanged", "gradients_exchanged"},
+      {"membrane: block overwritten by its diagonal", "hessian_diagonal_alone"},
+      {"membrane: force 0.1 % too small", ""},
+      {"membrane: St. Venant–Kirchhoff for every model", "st_venant_kirchhoff_for_every_model"},
+      {"membrane: damping of strains for that by vertex", "damping_of_strains_for_every_form"},
+      {"bending: rest angle of the other sign", "rest_angle_flipped"},
+      {"bending: half the stiffness in the block", "hessian_halved"},
+      {"bending: isometric weights of the wrong sides", "weights_exchanged"},
+      {"bending: a hinge for the isometric model", "discrete_hinge_for_every_model"},
+      {"spring: rest length forgotten", "rest_length_missing"},
+      {"spring: damping forgotten", "damping_missing"},
+      {"spring: weights of the edge's ends exchanged", "ratio_exchanged"},
+      {"spring: force 0.1 % too small", ""},
+      {"detect_vertex_facet: list of fixed capacity, overflow dropped", "contacts_capped_by_triangle"},
+      {"detect_vertex_facet: pairs within one ring left out", "one_ring_left_out"},
+      {"detect_vertex_facet: no feasible-region test", ""},
+      {"detect_edge_edge: the two edges swapped", "edges_swapped"},
+      {"detect_edge_edge: all but pairs of end points", ""},
+  };
+  std::size_t asked = 0;
+  for (const tests::Fault& fault : tests::faults()) {
+    const auto wanted = expected.find(fault.name);
+    if (wanted == expected.end()) continue;
+    ++asked;
+    Contestant wrong = tests::exact_contestant(authority);
+    fault.plant(wrong, authority);
+    const Diagnosis diagnosis = diagnosis_of(fault.stage, wrong, authority);
+    INFO(fault.name << ": " << diagnosis_text(diagnosis));
+    CHECK(diagnosis.failing > 0);
+    if (wanted->second.empty()) CHECK(diagnosis.name.empty());
+    else CHECK(names(diagnosis, wanted->second));
+  }
+  CHECK(asked == expected.size());
+}
+
+TEST_CASE("a form that fits too few of the failing cases is not named", "[agreement]") {
+  const Authority authority = reference::authority();
+  const auto right = tests::exact_contestant(authority).activation;
+  // As printed in every third case, 37 % too stiff in the others: neither is what is wrong.
+  Contestant mixed = tests::exact_contestant(authority);
+  mixed.activation = [right](const ActivationIn& in) {
+    ActivationIn other = in;
+    for (std::size_t i = 0; i < in.distance.size(); ++i) {
+      const bool is_printed = static_cast<int>(1e6f * in.distance[i]) % 3 == 0;
+      if (is_printed && in.activation[i] == ContactActivation::ogc)
+        other.activation[i] = ContactActivation::ogc_as_printed;
+      if (!is_printed) other.stiffness[i] *= 1.37f;
+    }
+    return right(other);
+  };
+  CHECK(diagnosis_of(Stage::activation, mixed, authority).name.empty());
+  // Wrong in one case alone, and there as a form says.
+  Contestant once = tests::exact_contestant(authority);
+  const TestCase test = generate({Stage::activation, "ladder.switch", 1, 7, "", {}});
+  const auto& c = std::get<ActivationCase>(test.data);
+  once.activation = [right, c](const ActivationIn& in) {
+    ActivationIn other = in;
+    for (std::size_t i = 0; i < in.distance.size(); ++i)
+      if (in.distance[i] == c.distance && in.contact_radius[i] == c.contact_radius && in.stiffness[i] == c.stiffness)
+        other.stiffness[i] *= 2;
+    return right(other);
+  };
+  const Diagnosis diagnosis = diagnose(Stage::activation, {&test, 1}, once, authority, 1);
+  CHECK(diagnosis.failing >= 1);
+  CHECK(diagnosis.failing < least_fits);
+  CHECK(diagnosis.name.empty());
+}
+
+TEST_CASE("where the failing cases have an input in common that right ones lack, it is named", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant wrong = tests::exact_contestant(authority);
+  wrong.contact_force = [right = wrong.contact_force](const ContactForceIn& in) {
+    ForceOut out = right(in);
+    for (std::size_t i = 0; i < in.cases.size(); ++i)
+      if (in.cases[i].sides == ContactSides::edge_edge)
+        out.force[i] = {-out.force[i].x, -out.force[i].y, -out.force[i].z};
+    return out;
+  };
+  const Diagnosis diagnosis = diagnosis_of(Stage::contact_force, wrong, authority);
+  INFO(diagnosis_text(diagnosis));
+  CHECK(diagnosis.where == "sides is edge_edge");
+  CHECK(diagnosis.name == "flipped_sign");
+  CHECK(diagnosis.otherwise > 0);  // the other sides speak against the form, and that is said
+}
+
+TEST_CASE("a sweep that leaves contacts out is named", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant wrong = tests::exact_contestant(authority);
+  wrong.sweep = [right = wrong.sweep](const SweepIn& in) {
+    SweepIn without = in;
+    without.vertex_facet = {};
+    without.edge_edge = {};
+    return right(without);
+  };
+  const Diagnosis diagnosis = diagnosis_of(Stage::sweep, wrong, authority);
+  INFO(diagnosis_text(diagnosis));
+  CHECK(diagnosis.name == "contacts_missing");
+  CHECK(diagnosis.otherwise == 0);
+}
