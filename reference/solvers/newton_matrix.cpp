@@ -114,6 +114,13 @@ void BlockMatrix::assemble_column(std::size_t column, std::span<const double> di
   }
 }
 
+void BlockMatrix::scale_diagonal_block(std::size_t row, double factor) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto begin = static_cast<std::size_t>(column_begin_[3 * row + c]);
+    for (std::size_t k = begin; k < begin + 3 - c; ++k) values_[k] *= factor;
+  }
+}
+
 std::vector<double> BlockMatrix::times(const std::vector<double>& x) const {
   std::vector<double> y(x.size(), 0);
   for (std::size_t column = 0; column < x.size(); ++column)

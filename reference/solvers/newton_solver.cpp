@@ -18,6 +18,10 @@ constexpr int most_halvings = 20;
 constexpr double far_more = 10;
 /// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
 constexpr int most_judgements = 4;
+/// λ_v at most: a vertex whose ball leaves it nothing stands as good as still.
+constexpr double most_damping = 1e6;
+/// A line search that accepts less of a direction with cut vertices has come to a standstill in its balls.
+constexpr double least_share = 1e-3;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
@@ -122,7 +126,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   if (!factorized_definite()) return Outcome::indefinite;
   const Direction direction = direction_of();
   if (!std::isfinite(direction.largest)) return Outcome::not_finite;
-  const double share = timed(line_search, [&] { return searched(direction); });
+  if (options_.iterations && options_.condition) rows_.back().condition_number = condition_number(matrix_, factor_);
+  const double share = accepted_share(direction);
   ++metrics_.iterations;
   ++iterations_since_;
   cut_ = direction.cut + prescribed_cut;
@@ -130,10 +135,9 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
     rows_.back().largest_change = direction.largest;
     rows_.back().share = share;
     rows_.back().vertices_at_bound = static_cast<std::int64_t>(cut_);
-    if (options_.condition) rows_.back().condition_number = condition_number(matrix_, factor_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
-  detect_next_ = share == 0 || detection_due(cut_) || (settings_.newton_tolerance > 0 && cut_ > 0);
+  detect_next_ = share == 0 || (share < least_share && cut_ > 0) || detection_due(cut_) || (settings_.newton_tolerance > 0 && cut_ > 0);
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step) return Outcome::converged;
   return {};
@@ -179,21 +183,42 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   return direction;
 }
 
-/// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter. The share of it that was taken, or 0.
-double NewtonSolver::searched(const Direction& direction) {
+std::optional<NewtonSolver::Direction> NewtonSolver::damped(const Direction& undamped) {
+  const std::vector<std::size_t>& free = matrix_.free_vertices();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const double wanted = length(undamped.delta[free[i]]), kept = length(undamped.truncated[free[i]]);
+    if (kept < wanted) matrix_.scale_diagonal_block(i, wanted < most_damping * kept ? wanted / kept : most_damping);
+  }
+  if (!timed(factorization, [&] { return factor_.factorize(matrix_); })) return {};
+  return direction_of();
+}
+
+double NewtonSolver::accepted_share(const Direction& direction) {
   const PotentialTerms before = potential_.terms(x_);
   const double noise = derivatives_.energy_noise + value_noise(before);
-  Accepted best = backtracked(direction.truncated, 1, before, noise);
-  if (direction.cut > 0) {
-    double room = 1;
-    for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
-    Accepted scaled = backtracked(direction.delta, room, before, noise);
-    if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
+  Accepted best = timed(line_search, [&] { return searched(direction, before, noise); });
+  if (direction.cut > 0 && direction.cut < matrix_.free_vertices().size() && !best.scaled) {
+    if (const auto other = damped(direction)) {
+      Accepted held = timed(line_search, [&] { return backtracked(other->truncated, 1, before, noise); });
+      if (held.share > 0 && (best.share == 0 || held.change < best.change)) best = std::move(held);
+    }
   }
   if (best.share == 0) return 0;
   if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
   x_ = std::move(best.x);
   return best.share;
+}
+
+/// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter.
+NewtonSolver::Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
+  Accepted best = backtracked(direction.truncated, 1, before, noise);
+  if (direction.cut > 0) {
+    double room = 1;
+    for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
+    Accepted scaled = backtracked(direction.delta, room, before, noise);
+    if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled), best.scaled = true;
+  }
+  return best;
 }
 
 /// A full step may also change the energy by less than its rounding: close to the minimum no decrease can be seen any more.

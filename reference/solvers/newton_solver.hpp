@@ -21,6 +21,13 @@
 // 202 where scaled steps wait until δ' has none to offer, 76 where whichever lowers the energy more is taken; but that makes 50 iterations of Fig. 17 end at a
 // residual of 0.54 in place of 0.04, for δ' moves most vertices far and makes room for all; with the factor its iterations are those of δ' first.
 //
+// Truncation takes from two near vertices that want common travel their separation, too: each keeps a share of its δ, and so
+// of the difference of both. So where vertices are cut their diagonal blocks are multiplied by λ_v = ‖δ_v‖/‖δ'_v‖, and the
+// system is solved and truncated again: those that are free to go take into account what the others may not. That step is
+// taken where it lowers the energy more than δ' does (while a cloth has far to go it is the smaller one, for λ multiplies
+// stiffnesses that common travel does not meet), unless every vertex was cut or scaled δ won. A line search that leaves less
+// than 10⁻³ of a step with cut vertices asks for new balls.
+//
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far from the solution it rarely is. Always
 // projected, a step of a crumpled cloth ends in a long linear tail, for the projection keeps curvature that other stencils cancel.
 //
@@ -63,6 +70,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
     State x;
     double share = 0;
     double change = 0;         ///< of the energy [J]
+    bool scaled = false;       ///< along δ scaled to fit all balls
   };
 
   static std::uint32_t status_of(Outcome outcome);
@@ -78,7 +86,11 @@ class NewtonSolver : public StepSolver, private ContactStep {
   bool factorized_definite();
   bool factorized();
   Direction direction_of();
-  double searched(const Direction& direction);
+  /// The direction with Levenberg's damping of the vertices that balls cut (method.md §7); nothing where the damped matrix can't be factorised.
+  std::optional<Direction> damped(const Direction& undamped);
+  /// The share of the best direction that was taken, or 0.
+  double accepted_share(const Direction& direction);
+  Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
   Accepted backtracked(const State& delta, double share, const PotentialTerms& before, double noise) const;
 
   BlockMatrix matrix_;
