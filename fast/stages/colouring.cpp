@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numeric>
 #include <queue>
+#include <utility>
 
 namespace ogc::fast {
 
@@ -178,6 +179,27 @@ int improve(const compare::CompressedRows& graph, std::vector<int> order, int pa
   return count;
 }
 
+// Turns the colours of the k-th connected component by k, components in the order of their lowest vertices. Equal components have equal colours before, so
+// that vertices of identical cloths which face each other would be moved at once, each by the whole overlap of their contact (method.md §7).
+void turn_components(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
+  std::vector<std::uint8_t> reached(colour.size(), 0);
+  std::vector<int> stack;
+  int component = 0;
+  for (const int first : vertices) {
+    if (reached[static_cast<std::size_t>(first)] != 0) continue;
+    reached[static_cast<std::size_t>(first)] = 1;
+    for (stack = {first}; !stack.empty();) {
+      const auto v = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      colour[v] = (colour[v] + component) % count;
+      for (const int u : graph[v]) {
+        if (std::exchange(reached[static_cast<std::size_t>(u)], std::uint8_t{1}) == 0) stack.push_back(u);
+      }
+    }
+    component = (component + 1) % count;
+  }
+}
+
 }  // namespace
 
 Colouring colour_vertices(const RestState& rest) {
@@ -197,6 +219,7 @@ Colouring colour_vertices(const RestState& rest) {
     result.count = count;
   }
   for (int pass = 0; pass < 2; ++pass) balance(graph, vertices, result.count, result.colour);
+  turn_components(graph, vertices, result.count, result.colour);
   result.order = vertices;
   std::stable_sort(result.order.begin(), result.order.end(),
                    [&](int a, int b) { return result.colour[static_cast<std::size_t>(a)] < result.colour[static_cast<std::size_t>(b)]; });

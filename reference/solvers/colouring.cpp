@@ -1,17 +1,56 @@
 #include "reference/solvers/colouring.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace ogc::reference {
 
 using compare::Index;
 
+namespace {
+
+Index root(std::vector<Index>& parent, Index v) {
+  while (parent[static_cast<std::size_t>(v)] != v) {
+    Index& up = parent[static_cast<std::size_t>(v)];
+    v = up = parent[static_cast<std::size_t>(up)];
+  }
+  return v;
+}
+
+/// By vertex the lowest number of those that stencils join it to, itself included.
+std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
+  std::vector<Index> parent(near.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  for (std::size_t v = 0; v < near.size(); ++v)
+    for (const Index w : near[v]) {
+      const auto [low, high] = std::minmax({root(parent, static_cast<Index>(v)), root(parent, w)});
+      parent[static_cast<std::size_t>(high)] = low;
+    }
+  for (std::size_t v = 0; v < near.size(); ++v) parent[v] = root(parent, static_cast<Index>(v));
+  return parent;
+}
+
+/// (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a colour (method.md §7).
+void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
+  const Index count = 1 + *std::ranges::max_element(colour);
+  std::map<Index, Index> number;
+  for (std::size_t v = 0; v < colour.size(); ++v) {
+    if (colour[v] < 0) continue;
+    const Index turn = number.try_emplace(component[v], static_cast<Index>(number.size())).first->second;
+    colour[v] = (colour[v] + turn) % count;
+  }
+}
+
+}  // namespace
+
 std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest, const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> near(groups.size());
+  const auto is_free = [&](Index v) { return groups[static_cast<std::size_t>(v)] == -1; };
   const auto meet = [&](const auto& vertices) {
     for (const Index a : vertices)
       for (const Index b : vertices)
-        if (a != b) near[static_cast<std::size_t>(a)].push_back(b);
+        if (a != b && is_free(a) && is_free(b)) near[static_cast<std::size_t>(a)].push_back(b);
   };
   for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
   for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
@@ -25,6 +64,7 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
     const auto taken = [&](Index c) { return std::any_of(near[v].begin(), near[v].end(), [&](Index w) { return colour[static_cast<std::size_t>(w)] == c; }); };
     for (colour[v] = 0; taken(colour[v]);) ++colour[v];
   }
+  if (!colour.empty()) rotate(components(near), colour);
   return colour;
 }
 

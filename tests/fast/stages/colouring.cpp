@@ -105,3 +105,19 @@ TEST_CASE("the colouring is the same each time", "[property]") {
   const RestState rest = rest_of(random_mesh(3));
   CHECK(colour_vertices(rest).colour == colour_vertices(rest).colour);
 }
+
+TEST_CASE("facing vertices of identical cloths share no colour, and no more colours are needed than for one", "[property]") {
+  // Contacts are Jacobi inside a colour: partners that share one both remove the whole of their overlap (method.md §7).
+  compare::Scene one = test::empty_scene();
+  test::add_sheet(one, 12, 1, 0, false);
+  const int alone = colour_vertices(rest_of(one)).count;
+  for (const int sheets : {2, 3, 10}) {
+    compare::Scene scene = test::empty_scene();
+    for (int k = 0; k < sheets; ++k) test::add_sheet(scene, 12, 1, 0.01 * k, false);
+    const RestState rest = rest_of(scene);
+    const Colouring colouring = colour_vertices(rest);
+    require_valid(rest, colouring);
+    CHECK(colouring.count == alone);
+    for (std::size_t v = 144; v < colouring.colour.size(); ++v) CHECK(colouring.colour[v] != colouring.colour[v - 144]);
+  }
+}
