@@ -151,6 +151,27 @@ TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g 
   CHECK(slide(0) == Approx(9.81 * std::sin(tilt) * 6 * h).epsilon(0.03));
 }
 
+TEST_CASE("the smallest distance of a row is that of the last detection, whatever share of it a bound is",
+          "[property]") {
+  for (const double share : {0.45, 0.3, 0.1}) {
+    compare::Scene scene = empty_scene();
+    scene.gravity = {};
+    scene.settings.bound_relaxation = share;
+    compare::Material soft;
+    soft.contact_stiffness = 1e-3;
+    const double gap = 0.003;  // below r, and far below the sheets' spacing of 20 mm
+    add_sheet(scene, 6, 0.1, gap, false, soft);
+    add_sheet(scene, 6, 0.1, 0, true, soft);
+    const compare::StepMetrics near = run(scene, 1).rows.at(0);
+    REQUIRE(near.discrete_detections == 1);  // at the start, which nothing leaves by a bound
+    // The gap is rounded to single precision, the distance with its error bound and the bound down: some ten u.
+    CHECK(near.smallest_distance == Approx(gap).epsilon(32 * 0x1p-24));
+    for (std::size_t v = 0; v < 36; ++v) scene.mesh.positions[v].y = 0.5;
+    const compare::StepMetrics far = run(scene, 1).rows.at(0);
+    CHECK(far.smallest_distance == Approx(far.query_radius).epsilon(32 * 0x1p-24));
+  }
+}
+
 TEST_CASE("the same scene gives the same bits twice, with other numbers of threads, in other frames, with profile and without energies", "[property]") {
   const compare::Scene scene = drop_scene();
   const Outcome first = run(scene, 12);

@@ -28,6 +28,11 @@ void require_valid(const RestState& rest, const Colouring& colouring) {
       for (const int b : h.vertex) REQUIRE(apart(a, b));
     }
   }
+  for (const SpringRest& s : rest.springs) {
+    for (int a = 0; a < end_count(s); ++a) {
+      for (int b = 0; b < a; ++b) REQUIRE(apart(s.end[a], s.end[b]));
+    }
+  }
   std::set<int> seen;
   REQUIRE(colouring.begin.size() == static_cast<std::size_t>(colouring.count) + 1);
   for (int c = 0; c < colouring.count; ++c) {
@@ -83,6 +88,24 @@ TEST_CASE("no two free vertices of a triangle or bending stencil share a colour,
 TEST_CASE("colours are valid on random non-manifold meshes", "[property]") {
   for (unsigned seed = 0; seed < 10; ++seed) {
     const RestState rest = rest_of(random_mesh(seed));
+    require_valid(rest, colour_vertices(rest));
+  }
+}
+
+TEST_CASE("no two free vertices of a spring or a stitch share a colour, its third vertex among them", "[property]") {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    std::mt19937 random(seed);
+    compare::Scene scene = test::empty_scene();
+    test::add_sheet(scene, 8, 1, 0, false);
+    test::add_sheet(scene, 8, 1, 0.1, false);
+    for (int k = 0; k < 40; ++k) {
+      const auto first = static_cast<compare::Index>(random() % 64),
+                 edge = static_cast<compare::Index>(64 + random() % 63);
+      if (k % 4 == 0) scene.springs.push_back({first, edge, 1, 0, 0});
+      else scene.springs.push_back({first, edge, 1, 0, 0, edge + 1, 0.5});
+    }
+    const RestState rest = rest_of(scene);
+    REQUIRE(rest.springs.size() == 40);
     require_valid(rest, colour_vertices(rest));
   }
 }
