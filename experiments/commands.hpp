@@ -19,6 +19,7 @@ void add_scenes_command(CLI::App& app, CommandContext& context);
 void add_run_command(CLI::App& app, CommandContext& context);
 void add_ablate_command(CLI::App& app, CommandContext& context);
 void add_contacts_command(CLI::App& app, CommandContext& context);
+void add_suggest_command(CLI::App& app, CommandContext& context);
 void add_audit_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
 void add_bench_command(CLI::App& app, CommandContext& context);

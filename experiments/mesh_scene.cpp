@@ -26,6 +26,7 @@ struct Box {
   Vec3 low, high;
   double width() const { return std::max(high.x - low.x, high.z - low.z); }
   double size() const { return std::max(width(), high.y - low.y); }
+  double fall() const { return size() / 10; }
 };
 
 Box box_of(const compare::Mesh& mesh) {
@@ -49,7 +50,7 @@ std::string usable_name(const std::string& file) {
 }
 
 double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground) {
-  if (!ground) return box.low.y - box.size() / 10;
+  if (!ground) return box.low.y - box.fall();
   if (!std::isfinite(*ground)) throw compare::InputError("--ground " + number(*ground) + ": give a height [m]");
   if (*ground < box.low.y) return *ground;
   throw compare::InputError("--ground " + compare::shortest(*ground) + " is not below " + file +
@@ -84,6 +85,10 @@ std::int64_t steps_of(double fall, double gravity, double step) {
 }
 
 }  // namespace
+
+double default_fall(const compare::Mesh& mesh) { return box_of(mesh).fall(); }
+
+double lowest_point(const compare::Mesh& mesh) { return box_of(mesh).low.y; }
 
 compare::SceneFile mesh_scene(const std::string& file, const compare::MeshOptions& options,
                               std::optional<double> ground) {

@@ -9,8 +9,14 @@
 
 namespace ogc::experiments {
 
+/// How far a mesh falls where nobody says: a tenth of its size [m].
+double default_fall(const compare::Mesh& mesh);
+
+/// Its smallest y [m].
+double lowest_point(const compare::Mesh& mesh);
+
 /// The mesh of `file` as body "cloth" (scenes/materials.hpp, `layer_cloth`) above a fixed square, body "ground", at the
-/// height y = `ground` [m], three times as wide as the mesh; without `ground` a tenth of the mesh's size below it.
+/// height y = `ground` [m], three times as wide as the mesh; without `ground` `default_fall` below it.
 /// Gravity pulls along −y. Radius, stiffness, step and iterations are those of `suggest`, and are said on standard
 /// error with their reasons; it runs until what fell has had half a second to come to rest, at least for a second.
 /// Throws compare::InputError for a mesh that can't be used, with loose edges, or not above the ground.

@@ -17,7 +17,7 @@ TEST_CASE("ogc without or with an unknown subcommand exits 2 and says where help
 }
 
 TEST_CASE("every subcommand teaches: --help goes to standard output, shows an example and offers --json", "[unit]") {
-  for (const std::string command : {"scenes", "run", "ablate", "contacts", "audit", "compare", "export", "bench"}) {
+  for (const std::string command : {"scenes", "run", "ablate", "contacts", "audit", "suggest", "compare", "export", "bench"}) {
     const ProgramResult result = run_ogc(command + " --help");
     INFO(command << "\n" << result.out << result.err);
     CHECK(result.status == 0);
