@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -20,7 +21,7 @@ namespace {
 
 enum class MeshFormat { obj, ply, vtp, stl, off, gltf, glb };
 constexpr std::array<std::string_view, 7> extensions{".obj", ".ply",  ".vtp", ".stl",
-                                                         ".off", ".gltf", ".glb"};  // by MeshFormat
+                                                     ".off", ".gltf", ".glb"};  // by MeshFormat
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -33,6 +34,26 @@ std::optional<MeshFormat> format_of(const std::filesystem::path& path) {
   const auto found = std::ranges::find(extensions, lower_extension(path));
   if (found == extensions.end()) return std::nullopt;
   return static_cast<MeshFormat>(found - extensions.begin());
+}
+
+/// What assimp read of an OFF file, if it is all of it: it leaves faces of more than nine corners out, in silence. The
+/// number of faces is the second after the word that ends in OFF; binary files have none there.
+PolygonMesh whole_off(PolygonMesh mesh, const std::string& bytes) {
+  std::istringstream lines(bytes);
+  std::string line, header;
+  for (int kept = 0; kept < 3 && std::getline(lines, line);) {
+    line.erase(std::min(line.find('#'), line.size()));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    header += line + " ";
+    ++kept;
+  }
+  std::istringstream words(header);
+  std::size_t vertices = 0, faces = 0;
+  if (!(words >> line >> vertices >> faces) || !line.ends_with("OFF")) return mesh;
+  if (faces <= mesh.face_count() + mesh.loose_edges.size()) return mesh;
+  throw InputError(mesh.source.file + ": has " + std::to_string(faces) + " faces, and assimp reads " +
+                   std::to_string(mesh.face_count()) +
+                   ": it leaves out those of more than nine corners. Cut them, or convert the mesh to .ply");
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
@@ -54,7 +75,7 @@ PolygonMesh read_polygon_mesh(const std::filesystem::path& path) {
     case MeshFormat::stl:
     case MeshFormat::gltf:
     case MeshFormat::glb: return read_with_assimp(path, false);
-    case MeshFormat::off: return read_with_assimp(path, true);
+    case MeshFormat::off: return whole_off(read_with_assimp(path, true), bytes);
   }
   fail(path, "");
 }

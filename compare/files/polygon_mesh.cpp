@@ -36,7 +36,7 @@ class MeshMaker {
     cut();
     out_.mesh.positions = std::move(in_.positions);
     out_.mesh.loose_edges = std::move(in_.loose_edges);
-    if (out_.mesh.triangles.empty() && out_.mesh.loose_edges.empty() && !out_.mesh.positions.empty())
+    if (out_.mesh.triangles.empty() && out_.mesh.loose_edges.empty())
       throw InputError(in_.source.file + ": has " + counted(out_.mesh.positions.size(), "vertex position") +
                        " and no face; give a mesh, not a cloud of points");
     if (!options_.keep_unused) leave_out_unused();

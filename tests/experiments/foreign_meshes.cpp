@@ -82,6 +82,11 @@ TEST_CASE("STL, OFF and glTF are read by assimp, and welded; without it the mess
         CHECK_THROWS_WITH(compare::load_mesh(file), ContainsSubstring("apt-get install libassimp-dev"));
         continue;
       }
+      const auto is_large = [](const auto& face) { return face.size() > 9; };
+      if (writer.file == "shape.off" && std::ranges::any_of(shape.faces, is_large)) {
+        CHECK_THROWS_WITH(compare::load_mesh(file), ContainsSubstring("assimp") && ContainsSubstring("nine corners"));
+        continue;
+      }
       compare::LoadedMesh loaded = compare::load_mesh(file);
       compare::clear_dust(loaded.mesh);
       CHECK(compare::describe(compare::validate(loaded.mesh)) == "");
