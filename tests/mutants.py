@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Mechanical mutants of the CPU kernels before the judge: what share it catches, and which survive.
+"""Mechanical mutants of the fast path on the CPU before the judge: what share is found, and which survive.
 
-Every comparison, sum, product, sign, index, coordinate, number and condition of the given kernels is rewritten to one that can be switched
-(tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same cases, whose exact answers are found once; what the judge
-lets through meets the tests of kernels, of detections and of their lists with a skin (tests/fast/kernels, tests/fast/stages).
+Every comparison, sum, product, sign, index, coordinate, number and condition of the given files is rewritten to one
+that can be switched (tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same
+cases, whose exact answers are found once; what the judge lets through meets the unit tests of these files.
 
-    tests/mutants.py BUILD [--kernels a,b,…] [--stages a,b,…] [--cases N] [--limit N] [--minutes M] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
+    tests/mutants.py BUILD [--of kernels|stages] [--files a,b,…] [--stages a,b,…] [--cases N] [--limit N]
+                     [--minutes M] [--jobs J] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
+    tests/mutants.py BUILD --keep DIR …, and later --answers FILE …
 
-BUILD is a folder in which `ogc` was built by ninja. Not a part of tests/run: it takes minutes. FILE gets one line a mutant, and the survivors go to standard output.
+BUILD is a folder in which `ogc` was built by ninja. `--of kernels` are fast/kernels, `--of stages` fast/stages and
+fast/cpu. With --keep the program is left in DIR, with a command for a machine with more cores, whose output --answers
+takes. Not a part of tests/run: it takes minutes. FILE gets one line a mutant; the survivors go to standard output.
 """
 
 import argparse
@@ -16,6 +20,8 @@ import concurrent.futures
 import os
 import random
 import re
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -23,13 +29,26 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-NOT_MATHEMATICS = {"qualifiers", "atomic"}
-KERNELS = sorted(path.stem for path in (ROOT / "fast/kernels").glob("*.hpp") if path.stem not in NOT_MATHEMATICS)
+NOT_MATHEMATICS = {"fast/kernels/qualifiers.hpp", "fast/kernels/atomic.hpp"}
+
+
+def files(*patterns):
+    return sorted(str(path.relative_to(ROOT)) for pattern in patterns for path in ROOT.glob(pattern))
+
+
+# Of each set: the files that are rewritten, and what is compiled over them.
+SETS = {
+    "kernels": ([name for name in files("fast/kernels/*.hpp") if name not in NOT_MATHEMATICS],
+                ["fast/stages/rest_state.cpp", *files("tests/fast/kernels/*.cpp"), "tests/fast/stages/detection.cpp",
+                 "tests/fast/stages/skin.cpp"]),
+    "stages": (files("fast/stages/*.?pp", "fast/cpu/*.?pp"),
+               files("fast/stages/*.cpp", "fast/cpu/*.cpp", "fast/*.cpp", "tests/fast/stages/*.cpp",
+                     "tests/fast/cpu/*.cpp", "tests/fast/*.cpp")),
+}
+FOR_AVX2 = "fast/cpu/packed_sweep.cpp"  # compiled a second time
 STAGES = ("closest_face closest_points activation truncate membrane bending spring bound block detect_vertex_facet detect_edge_edge contact_force "
           "friction_force initial_guess rest_state sweep step").split()
-REWRITTEN = ["tests/mutants/contestant.cpp", "fast/stages/rest_state.cpp", *(str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("tests/fast/kernels/*.cpp"))),
-             "tests/fast/stages/detection.cpp", "tests/fast/stages/skin.cpp"]
-AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/kernel_tests.cpp"]
+AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/unit_tests.cpp"]
 
 BINARY = {  # operator -> (struct, what its alternatives are)
     "<": ("Less", ("<=", ">=")), ">": ("Greater", (">=", "<=")), "<=": ("LessEqual", ("<", ">")), ">=": ("GreaterEqual", (">", "<")),
@@ -41,12 +60,13 @@ OPERATOR = re.compile(r"(?<=[\w)\]}] )(<=|>=|==|!=|[-+*/<>])(?= [\w(\-!*&~{:])")
 SIGN = re.compile(r"(?:(?<=[(,=?:{] )|(?<=[({])|(?<=return ))-(?=[A-Za-z(])")
 COORDINATE = re.compile(r"(?<![\w.\])>])((?:\w+\.)*[A-Za-z_]\w*)\.([xyz])\b(?!\()")
 INDEX = re.compile(r"(?<=\[)([012])(?=\])")
-LITERAL = re.compile(r"(?:(?<=[-+*/<>=(,] )|(?<=[(]))((?:\d+\.\d*f?|0x1p-?\d+f?|\d+))(?=[ ;),])")
+NUMBER = r"0x1p-?\d+[fF]?|\d+(?:\.\d*)?(?:e-?\d+)?[fF]|\d+\.\d*(?:e-?\d+)?|\d+(?:e-?\d+)?"
+LITERAL = re.compile(rf"(?:(?<=[-+*/<>=(,] )|(?<=[(]))({NUMBER})(?=[ ;),])")
 CHOICE = re.compile(r"(?<![\w:.])(smaller|larger)\(")
 CONDITION = re.compile(r"\b(?:if|while) \(")
 NEXT = {"x": "y", "y": "z", "z": "x"}
 
-Mutant = collections.namedtuple("Mutant", "id kernel line kind text")
+Mutant = collections.namedtuple("Mutant", "id file line kind text")
 
 
 def code_of(line):
@@ -65,28 +85,29 @@ def closing(text, opened):
 
 
 class Rewriter:
-    """Rewrites kernels, and remembers which mutant stands where. Lines in `excluded` (kernel, line, kinds) do not compile when rewritten."""
+    """Rewrites files, and remembers which mutant stands where. What is in `excluded` (file, line, kind) does not
+    compile when rewritten."""
 
     def __init__(self, excluded):
         self.excluded = excluded
         self.mutants = []
         self.next = 1
 
-    def take(self, kernel, number, kind, text, alternatives):
+    def take(self, file, number, kind, text, alternatives):
         first = self.next
         for what in alternatives:
-            self.mutants.append(Mutant(self.next, kernel, number, kind, f"{text} -> {what}"))
+            self.mutants.append(Mutant(self.next, file, number, kind, f"{text} -> {what}"))
             self.next += 1
         return first
 
-    def line(self, kernel, number, line):
+    def line(self, file, number, line):
         code = code_of(line)
         if not code.strip() or code.lstrip().startswith(("#", "static_assert", "template", "using", "}")) or "constexpr" in code:
             return line
         edits = []  # (begin, end, text)
 
         def allowed(kind):
-            return (kernel, number, kind) not in self.excluded
+            return (file, number, kind) not in self.excluded
 
         def around(match, name):
             return code[max(0, match.start() - 12):match.end() + 12].strip()
@@ -94,35 +115,36 @@ class Rewriter:
         def operators():
             for match in OPERATOR.finditer(code):
                 struct, alternatives = BINARY[match[1]]
-                id = self.take(kernel, number, "operator", around(match, match[1]), alternatives)
+                id = self.take(file, number, "operator", around(match, match[1]), alternatives)
                 edits.append((match.end(), match.end(), f" ::ogc_mutant::{struct}{{{id}}} {match[1]}"))
 
         def signs():
             for match in SIGN.finditer(code):
-                id = self.take(kernel, number, "sign", around(match, "-"), ("no minus",))
+                id = self.take(file, number, "sign", around(match, "-"), ("no minus",))
                 edits.append((match.start(), match.start(), f"::ogc_mutant::Sign{{{id}}} * "))
 
         def coordinates():
             for match in COORDINATE.finditer(code):
                 other = NEXT[match[2]]
-                id = self.take(kernel, number, "coordinate", match[0], (f"{match[1]}.{other}",))
+                id = self.take(file, number, "coordinate", match[0], (f"{match[1]}.{other}",))
                 edits.append((match.start(), match.end(), f"(::ogc_mutant::on({id}) ? {match[1]}.{other} : {match[0]})"))
 
         def indices():
             for match in INDEX.finditer(code):
-                id = self.take(kernel, number, "index", around(match, match[1]), ("another index",))
+                id = self.take(file, number, "index", around(match, match[1]), ("another index",))
                 edits.append((match.start(), match.end(), f"::ogc_mutant::index({id}, {match[1]})"))
 
         def literals():
             for match in LITERAL.finditer(code):
-                id = self.take(kernel, number, "number", around(match, match[1]), ("twice, or one more", "half, or one less"))
+                alternatives = ("twice, or one more", "half, or one less")
+                id = self.take(file, number, "number", around(match, match[1]), alternatives)
                 edits.append((match.start(1), match.end(1), f"::ogc_mutant::literal({id}, {match[1]})"))
 
         def choices():
             for match in CHOICE.finditer(code):
                 if code.lstrip().startswith("OGC_HD"):
                     continue
-                id = self.take(kernel, number, "choice", around(match, match[1]), ("the other one",))
+                id = self.take(file, number, "choice", around(match, match[1]), ("the other one",))
                 edits.append((match.start(), match.end(), f"::ogc_mutant::{match[1]}({id}, "))
 
         def conditions():
@@ -130,21 +152,26 @@ class Rewriter:
                 end = closing(code, match.end() - 1)
                 if end is None or ";" in code[match.end():end]:
                     continue
-                id = self.take(kernel, number, "condition", code[match.start():end + 1], ("negated",))
+                id = self.take(file, number, "condition", code[match.start():end + 1], ("negated",))
                 edits.append((match.end(), match.end(), f"::ogc_mutant::negated({id}, "))
                 edits.append((end, end, ")"))
 
         for kind, collect in (("operator", operators), ("sign", signs), ("coordinate", coordinates), ("index", indices), ("number", literals),
                               ("choice", choices), ("condition", conditions)):
-            if allowed(kind):
-                collect()
+            edits_before, mutants_before = len(edits), len(self.mutants)
+            collect()
+            if not allowed(kind):  # its numbers stay taken, so that those of others don't change
+                del edits[edits_before:], self.mutants[mutants_before:]
         for begin, end, text in sorted(edits, reverse=True):
             code = code[:begin] + text + code[end:]
         return code
 
-    def kernel(self, name):
-        lines = (ROOT / "fast/kernels" / f"{name}.hpp").read_text(encoding="utf-8").splitlines()
+    def file(self, name):
+        """The whole file, rewritten; code for devices stays as it is."""
+        lines = (ROOT / name).read_text(encoding="utf-8").splitlines()
         rewritten, device = [], False
+        if name.endswith(".cpp"):
+            rewritten.append(f'#include "tests/mutants/switch.hpp"\n#line 1 "{name}"')
         for number, line in enumerate(lines, 1):
             word = line.strip()
             if word.startswith("#if") and "__CUDA_ARCH__" in word and "!" not in word:
@@ -153,70 +180,85 @@ class Rewriter:
                 device = False
             rewritten.append(line if device else self.line(name, number, line))
             if word == "#pragma once":
-                rewritten[-1] += ' \n#include "tests/mutants/switch.hpp"\n' + f"#line {number + 1} \"fast/kernels/{name}.hpp\""
+                rewritten[-1] += f'\n#include "tests/mutants/switch.hpp"\n#line {number + 1} "{name}"'
         return "\n".join(rewritten) + "\n"
 
 
-FLAGS = "-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize".split()
+# flatten: of a function with hundreds of switches it takes the compiler minutes.
+FLAGS = "-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize -Dflatten=used".split()
 KIND_ORDER = ("number", "coordinate", "condition", "choice", "sign", "index", "operator")
 
 
-def compile_all(sources, folder, flags):
-    """Compiles two at a time; returns what the compiler said of those that failed, and the objects."""
-    objects = [folder / (source.replace("/", "_") + ".o") for source in sources]
+def compile_all(sources, folder, flags, jobs):
+    """Compiles (source, flags), a rewritten source in place of the original, `jobs` at a time; returns what the compiler
+    said of each, empty where it succeeded, and the objects."""
+    objects = [folder / (source.replace("/", "_") + "".join(own) + ".o") for source, own in sources]
 
     def one(source, target):
-        return subprocess.run(["g++", *FLAGS, *flags, f"-I{folder}", f"-I{ROOT}", str(ROOT / source), "-o", str(target)], capture_output=True, text=True)
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(one, sources, objects))
-    return "".join(r.stderr or f"the compiler ended with {r.returncode}" for r in results if r.returncode != 0), objects
+        name, own = source
+        place = (folder if (folder / name).exists() else ROOT) / name
+        command = ["g++", *FLAGS, *flags, *own, f"-I{folder}", f"-I{ROOT}", str(place), "-o", str(target)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        return "" if done.returncode == 0 else done.stderr or f"the compiler ended with {done.returncode}"
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        return list(pool.map(one, sources, objects)), objects
 
 
-def compile_rewritten(kernels, folder, log):
+def compile_rewritten(names, folder, options, log):
     """Rewrites and compiles until what does not compile is left out; returns the mutants and the objects."""
     excluded = set()
-    target = folder / "fast/kernels"
-    target.mkdir(parents=True)
-    while True:
+    sources = [("tests/mutants/contestant.cpp", ()), *((source, ()) for source in SETS[options.of][1])]
+    if options.of == "stages":
+        sources.insert(0, (FOR_AVX2, ("-mavx2",)))  # takes longest
+    wrong = sources
+    while wrong:
         rewriter = Rewriter(excluded)
-        for name in kernels:
-            (target / f"{name}.hpp").write_text(rewriter.kernel(name), encoding="utf-8")
-        errors, _ = compile_all(REWRITTEN, folder, ["-fsyntax-only"])
-        if not errors:
-            errors, objects = compile_all(REWRITTEN, folder, ["-c"])
-        if not errors:
-            return rewriter.mutants, objects
-        found = {(name, int(line)) for name, line in re.findall(r"fast/kernels/(\w+)\.hpp:(\d+):\d+: error", errors)}
-        found |= {(name, int(line)) for name, line in re.findall(r"In instantiation of.*\nfast/kernels/(\w+)\.hpp:(\d+):\d+:   required from", errors)}
-        before = len(excluded)
-        present = {(m.kernel, m.line, m.kind) for m in rewriter.mutants}
-        for name, line in found:
-            for kind in KIND_ORDER:
-                if (name, line, kind) in present:
-                    excluded.add((name, line, kind))
-                    break
-        if len(excluded) == before:
-            sys.exit("the rewritten kernels do not compile:\n" + errors[:4000])
-        log(f"{len(excluded)} lines left as they are, in part")
+        for name in names:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(rewriter.file(name), encoding="utf-8")
+        said, _ = compile_all(wrong, folder, ["-fsyntax-only"], options.jobs)
+        errors = "".join(said)
+        if errors and not exclude(errors, rewriter.mutants, excluded):
+            sys.exit("the rewritten files do not compile:\n" + errors[:4000])
+        wrong = [source for source, error in zip(wrong, said) if error]
+        log(f"{len(excluded)} lines left as they are, in part; {len(wrong)} sources to go")
+    said, objects = compile_all(sources, folder, ["-c"], options.jobs)
+    if any(said):
+        sys.exit("the rewritten files do not compile:\n" + "".join(said)[:4000])
+    return rewriter.mutants, objects
 
 
-def link(build, folder, rewritten):
+def exclude(errors, mutants, excluded):
+    """Leaves out one kind of mutants of each line that the compiler names; whether there is any."""
+    place = r"(fast/(?:kernels|stages|cpu)/\w+\.[ch]pp):(\d+)"
+    found = re.findall(place + r":\d+: (?:fatal )?error", errors) + re.findall(place + r":\d+:   required from", errors)
+    present = {(m.file, m.line, m.kind) for m in mutants} - excluded
+    before = len(excluded)
+    for name, line in {(name, int(line)) for name, line in found}:
+        kinds = [kind for kind in KIND_ORDER if (name, line, kind) in present]
+        excluded.update((name, line, kind) for kind in kinds[:1])
+    return len(excluded) > before
+
+
+def link(folder, rewritten, options):
     """The judge of the mutants, with the libraries of `ogc`."""
     program = folder / "mutant_judge"
-    rules = (build / "build.ninja").read_text(encoding="utf-8")
+    rules = (options.build / "build.ninja").read_text(encoding="utf-8")
     libraries = re.search(r"^build ogc: .*?^  LINK_LIBRARIES = (.*?)$", rules, re.DOTALL | re.MULTILINE)[1].split()
-    errors, objects = compile_all(AS_THEY_ARE, folder, ["-c"])
-    if errors:
-        sys.exit("the judge of the mutants does not compile:\n" + errors[:4000])
-    subprocess.run(["g++", *FLAGS, *map(str, rewritten + objects), *libraries, "-o", str(program)], check=True, cwd=build)
+    said, objects = compile_all([(source, ()) for source in AS_THEY_ARE], folder, ["-c"], options.jobs)
+    if any(said):
+        sys.exit("the judge of the mutants does not compile:\n" + "".join(said)[:4000])
+    command = ["g++", *FLAGS, *map(str, rewritten + objects), *libraries, "-o", str(program)]
+    subprocess.run(command, check=True, cwd=options.build)
     return program
 
 
-def lines_since(commit, kernels):
-    """The lines (kernel, number) that `commit` did not have, as they stand in the working tree."""
+def lines_since(commit, names):
+    """The lines (file, number) that `commit` did not have, as they stand in the working tree."""
     lines = set()
-    for name in kernels:
-        diff = subprocess.run(["git", "-C", str(ROOT), "diff", "--unified=0", commit, "--", f"fast/kernels/{name}.hpp"], capture_output=True, text=True)
+    for name in names:
+        command = ["git", "-C", str(ROOT), "diff", "--unified=0", commit, "--", name]
+        diff = subprocess.run(command, capture_output=True, text=True)
         if diff.returncode != 0:
             sys.exit(f"--since {commit}: {diff.stderr.strip()}")
         for first, count in re.findall(r"^@@ -\S+ \+(\d+)(?:,(\d+))? @@", diff.stdout, re.MULTILINE):
@@ -224,80 +266,175 @@ def lines_since(commit, kernels):
     return lines
 
 
-def numbers_after(word, line):
-    """The mutants that a line of the judge names after its first word."""
-    words = line.split()
-    if not words or words[0] != word or not all(w.isdigit() for w in words[1:]):
-        sys.exit("the kernels as they are do not pass: " + " ".join(words[:40]))
-    return set(map(int, words[1:]))
+def arguments(options, corpus):
+    """What the judge of the mutants is told."""
+    numbers = (options.cases, options.seed, options.seconds, corpus, options.jobs)
+    return [*map(str, numbers), *options.stages.split(",")]
+
+
+def drawn(mutants, options):
+    """All of them in the order in which they are judged: at random, by the seed."""
+    order = list(mutants)
+    random.Random(options.seed).shuffle(order)
+    return order
+
+
+def answers_of(lines, mutants, options, log):
+    """What was found of each mutant, in the order in which they were drawn, as far as the judge came."""
+    said = iter(lines)
+    first = next(said, "").strip()
+    if first != "right":
+        sys.exit("the files as they are do not pass: " + first[:400])
+    found, start, counts = {}, time.monotonic(), collections.Counter()
+    for line in said:
+        id, _, what = line.rstrip("\n").partition("\t")
+        found[int(id)] = what
+        counts[what if what in ("", "test", "not reached") else "judge"] += 1
+        reached = len(found) - counts["not reached"]
+        if reached and reached % 50 == 0:
+            log(f"{reached} judged: {counts['judge']} found by the judge, {counts['test']} by tests, {counts['']} survive")
+        if time.monotonic() - start > 60 * options.minutes or reached >= options.limit:
+            break
+    return [(m, found[m.id]) for m in drawn(mutants, options) if m.id in found]
 
 
 def judge(program, mutants, options, log):
-    """Pairs of a mutant and what was found (empty: it survives), the mutants that neither a case nor a test reaches, and the number of the others."""
-    command = [str(program), str(options.cases), str(options.seed), str(options.seconds), str(ROOT / "tests/experiments/corpus.txt"), *options.stages.split(",")]
-    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1)
-    reached = numbers_after("tests", process.stdout.readline()) | numbers_after("right", process.stdout.readline())
-    unreached = [m for m in mutants if m.id not in reached]
-    wanted = [m for m in mutants if m.id in reached]
-    random.Random(options.seed).shuffle(wanted)
-    log(f"{len(wanted)} mutants are reached")
-    results, start = [], time.monotonic()
-    for mutant in wanted[:options.limit]:
-        if time.monotonic() - start > 60 * options.minutes:
-            break
-        process.stdin.write(f"{mutant.id}\n")
-        process.stdin.flush()
-        results.append((mutant, process.stdout.readline().strip()))
-        if len(results) % 100 == 0:
-            log(f"{len(results)} judged, {sum(found == 'test' for _, found in results)} left to the kernels' tests, {sum(not found for _, found in results)} survive")
+    """Pairs of a mutant and what was found of it (empty: it survives)."""
+    command = [str(program), *arguments(options, str(ROOT / "tests/experiments/corpus.txt"))]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    process = subprocess.Popen(command, **pipes, text=True, start_new_session=True)
+    process.stdin.write("".join(f"{m.id}\n" for m in drawn(mutants, options)))
     process.stdin.close()
-    process.wait()
-    return results, unreached, len(wanted)
+    try:
+        return answers_of(process.stdout, mutants, options, log)
+    finally:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+def keep(program, mutants, options):
+    """The program, its mutants in the order in which they are to be judged, and how."""
+    options.keep.mkdir(parents=True, exist_ok=True)
+    shutil.copy(program, options.keep)
+    shutil.copy(ROOT / "tests/experiments/corpus.txt", options.keep)
+    ids = "".join(f"{m.id}\n" for m in drawn(mutants, options))
+    (options.keep / "ids").write_text(ids, encoding="utf-8")
+    (options.keep / "mutants").write_text("".join("\t".join(map(str, m)) + "\n" for m in mutants), encoding="utf-8")
+    print(f"in {options.keep}: ./mutant_judge {' '.join(arguments(options, 'corpus.txt'))} < ids > answers")
+
+
+def kept(options):
+    """The mutants of a folder that --keep filled."""
+    rows = (options.keep / "mutants").read_text(encoding="utf-8").splitlines()
+    return [Mutant(int(row[0]), row[1], int(row[2]), *row[3:]) for row in (line.split("\t") for line in rows)]
+
+
+def report(mutants, results, options):
+    reached = [(m, found) for m, found in results if found != "not reached"]
+    unreached = [m for m, found in results if found == "not reached"]
+    judged = sum(found not in ("", "test") for _, found in reached)
+    tested = sum(found == "test" for _, found in reached)
+    if options.out:
+        rows = [f"{m.id}\t{m.file}:{m.line}\t{m.kind}\t{m.text}\t{found or 'SURVIVES'}" for m, found in sorted(results)]
+        options.out.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    share = 100 / max(1, len(reached))
+    print(f"{len(mutants)} mutants, drawn with seed {options.seed}: {len(unreached)} of the first {len(results)} are "
+          f"reached by neither a case nor a test; of the other {len(reached)} the judge finds {judged} "
+          f"({share * judged:.1f} %), tests {tested} more (together {share * (judged + tested):.1f} %)")
+    for mutant, found in sorted(reached):
+        if not found:
+            print(f"{mutant.id}\t{mutant.file}:{mutant.line}\t{mutant.kind}\t{mutant.text}")
+
+
+SELF_TEST = [  # a line, and what becomes of it (with M for ::ogc_mutant); numbers count from 1
+    ("  if (a < b) return -c;", "  if (M::negated(4, a < M::Less{1} < b)) return M::Sign{3} * -c;"),
+    ("  x = p.x + 2.0F * q[1];",
+     "  x = (M::on(5) ? p.y : p.x) + M::Plus{1} + M::literal(7, 2.0F) * M::Times{3} * q[M::index(6, 1)];"),
+    ("  const auto* to = smaller(a, b);  // a < b", "  const auto* to = M::smaller(1, a, b);  "),
+    ("  for (int k = 0; k != n; ++k) sum << k;", "  for (int k = M::literal(2, 0); k != M::Unequal{1} != n; ++k) sum << k;"),
+    ("  a.resize(n * 4), b = &a;", "  a.resize(n * M::Times{1} * M::literal(3, 4)), b = &a;"),
+    ("template <class T, int a = 1 + 2>", "template <class T, int a = 1 + 2>"),
+    ("  constexpr int most = 1 + 2;", "  constexpr int most = 1 + 2;"),
+]
+
+
+def self_test():
+    wrong = []
+    for line, expected in SELF_TEST:
+        got = Rewriter(set()).line("x.hpp", 1, line).replace("::ogc_mutant", "M")
+        if got != expected:
+            wrong.append(f"{line}\n  becomes  {got}\n  not      {expected}")
+    for of, (names, _) in SETS.items():
+        rewriter = Rewriter(set())
+        for name in names:
+            text, before = rewriter.file(name), (ROOT / name).read_text(encoding="utf-8")
+            if text.count("\n") != before.count("\n") + 2 or "mutants/switch.hpp" not in text:
+                wrong.append(f"{name}: lines are lost or added, or the switch is not included")
+        if len(rewriter.mutants) < 1000:
+            wrong.append(f"{of}: {len(rewriter.mutants)} mutants only")
+    print("\n".join(wrong) or "mutants are rewritten as they are to be")
+    return 1 if wrong else 0
+
+
+def build_judge(names, scratch, options, log):
+    """The judge of the mutants, and those that were asked for."""
+    mutants, rewritten = compile_rewritten(names, scratch, options, log)
+    if options.only:
+        ids = set(map(int, options.only.split(",")))
+        mutants = [m for m in mutants if m.id in ids]
+    if options.since:
+        lines = lines_since(options.since, names)
+        mutants = [m for m in mutants if (m.file, m.line) in lines]
+    log(f"{len(mutants)} mutants of {len(names)} files compiled")
+    return link(scratch, rewritten, options), mutants
+
+
+def parsed():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=Path, nargs="?")
+    parser.add_argument("--self-test", action="store_true", help="only see whether lines are rewritten as they are to be")
+    parser.add_argument("--of", choices=sorted(SETS), default="kernels", help="fast/kernels, or fast/stages and fast/cpu")
+    parser.add_argument("--files", help="only these, such as fast/cpu/pack.hpp, separated by commas")
+    parser.add_argument("--stages", default=",".join(STAGES))
+    parser.add_argument("--cases", type=int, default=2000, help="of a stage; of a mesh stage a quarter")
+    parser.add_argument("--seed", type=int, default=1, help="of the cases and of the draw; CI's cases have 5")
+    parser.add_argument("--seconds", type=int, default=60, help="time limit of one mutant")
+    parser.add_argument("--jobs", type=int, default=1, help="compilations, then mutants, at a time")
+    parser.add_argument("--limit", type=int, default=1 << 30, help="only so many that are reached, drawn at random")
+    parser.add_argument("--minutes", type=float, default=25)
+    parser.add_argument("--only", default="", help="only these ids, separated by commas: to see whether more cases find them")
+    parser.add_argument("--since", metavar="COMMIT", help="only in lines that this commit did not have")
+    parser.add_argument("--flags", default="", help="for the compiler, such as -fsanitize=address,undefined")
+    parser.add_argument("--keep", metavar="DIR", type=Path, help="leave the program here and judge nothing")
+    parser.add_argument("--answers", metavar="FILE", type=Path, help="of the program in the folder of --keep")
+    parser.add_argument("--out", type=Path)
+    options = parser.parse_args()
+    if not options.build and not options.self_test:
+        parser.error("give the folder in which ogc was built")
+    return options
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=Path)
-    parser.add_argument("--kernels", default=",".join(KERNELS))
-    parser.add_argument("--stages", default=",".join(STAGES))
-    parser.add_argument("--cases", type=int, default=2000, help="of a stage; of a mesh stage a quarter")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=int, default=60, help="time limit of one mutant")
-    parser.add_argument("--limit", type=int, default=None, help="only so many, drawn at random")
-    parser.add_argument("--minutes", type=float, default=25)
-    parser.add_argument("--only", default="", help="only these ids, separated by commas: to see whether a survivor is caught by more cases")
-    parser.add_argument("--since", metavar="COMMIT", help="only in lines that this commit did not have")
-    parser.add_argument("--flags", default="", help="for the compiler, such as -fsanitize=address,undefined")
-    parser.add_argument("--out", type=Path)
-    options = parser.parse_args()
+    options = parsed()
+    if options.self_test:
+        return self_test()
     FLAGS.extend(options.flags.split())
+    names = options.files.split(",") if options.files else SETS[options.of][0]
 
     def log(text):
         print(text, file=sys.stderr, flush=True)
 
+    if options.answers:
+        with options.answers.open(encoding="utf-8") as lines:
+            mutants = kept(options)
+            report(mutants, answers_of(lines, mutants, options, log), options)
+        return 0
     with tempfile.TemporaryDirectory() as scratch:
-        folder = Path(scratch)
-        mutants, rewritten = compile_rewritten(options.kernels.split(","), folder, log)
-        if options.only:
-            ids = set(map(int, options.only.split(",")))
-            mutants = [m for m in mutants if m.id in ids]
-        if options.since:
-            lines = lines_since(options.since, options.kernels.split(","))
-            mutants = [m for m in mutants if (m.kernel, m.line) in lines]
-        log(f"{len(mutants)} mutants of {len(options.kernels.split(','))} kernels compiled")
-        results, unreached, wanted = judge(link(options.build, folder, rewritten), mutants, options, log)
-    judged = sum(found not in ("", "test") for _, found in results)
-    tested = sum(found == "test" for _, found in results)
-    if options.out:
-        rows = [f"{m.id}\t{m.kernel}.hpp:{m.line}\t{m.kind}\t{m.text}\t{found or 'SURVIVES'}" for m, found in sorted(results)]
-        rows += [f"{m.id}\t{m.kernel}.hpp:{m.line}\t{m.kind}\t{m.text}\tnot reached" for m in unreached]
-        options.out.write_text("\n".join(rows) + "\n", encoding="utf-8")
-    share = 100 / max(1, len(results))
-    print(f"{len(mutants)} mutants; {len(unreached)} that neither a case nor a test reaches; {len(results)} of the other {wanted} judged; "
-          f"{judged} caught by the judge ({share * judged:.1f} %), {tested} more by the kernels' tests (together {share * (judged + tested):.1f} %)")
-    for mutant, found in sorted(results):
-        if not found:
-            print(f"{mutant.id}\t{mutant.kernel}.hpp:{mutant.line}\t{mutant.kind}\t{mutant.text}")
+        program, mutants = build_judge(names, Path(scratch), options, log)
+        if options.keep:
+            keep(program, mutants, options)
+        else:
+            report(mutants, judge(program, mutants, options, log), options)
     return 0
 
 

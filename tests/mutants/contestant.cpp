@@ -1,4 +1,4 @@
-// The CPU's probes over kernels that tests/mutants.py has rewritten, and what the host computes of the rest shape, over the rewritten kernel too.
+// The CPU's probes over what tests/mutants.py has rewritten.
 #include <memory>
 
 #include "fast/cpu/backend.hpp"

@@ -1,10 +1,12 @@
-// Judges mutants (tests/mutants.py). The truth about every case is found once, with the kernels as they are, and kept; each mutant whose number comes in on
-// standard input is then switched on and judged on the same cases in a process of its own, which it may crash or hang, in those parts (the corpus, a stage)
-// that reach it: it changes nothing in the others. What the judge lets through meets the kernels' own tests.
+// Judges mutants (tests/mutants.py). The truth about every case is found once, without any of them, and kept;
+// each mutant whose number comes in on standard input is then switched on and judged on the same cases in a process of
+// its own, which it may crash or hang, in those parts (the corpus, a stage) that reach it: it changes nothing in the
+// others. What the judge lets through, or is not through with in time, meets the unit tests.
 //
-// Usage: mutant_judge CASES SEED SECONDS CORPUS STAGE …
-// First line out: "tests" and the numbers that the kernels' tests reach; second line: "right" and those that the cases reach. Then a line for each mutant: empty where it
-// survives, "test" where only a test of the kernels finds it, otherwise what the judge said.
+// Usage: mutant_judge CASES SEED SECONDS CORPUS JOBS STAGE …
+// First line out: "right", or what is wrong without any mutant. Then a line for each mutant, as they are judged, JOBS
+// at a time: its number, a tab, and nothing where it survives, "test" where only a test finds it, "not reached" where
+// nothing looks at it, otherwise what the judge said.
 #include <signal.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
@@ -16,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,7 +26,7 @@
 #include "compare/judge/judge.hpp"
 #include "reference/contestant.hpp"
 #include "tests/mutants/contestant.hpp"
-#include "tests/mutants/kernel_tests.hpp"
+#include "tests/mutants/unit_tests.hpp"
 #include "tests/mutants/switch.hpp"
 
 namespace {
@@ -35,7 +38,7 @@ using Part = std::size_t;
 
 /// What is judged just now.
 struct Moment {
-  std::size_t round = 0;  ///< 0: the kernels as they are
+  std::size_t round = 0;  ///< 0: without any mutant
   Part part = 0;
   friend bool operator==(const Moment&, const Moment&) = default;
 };
@@ -107,6 +110,8 @@ std::string verdict(Part part, const Contestant& contestant, const Authority& au
   return {};
 }
 
+const std::string hangs = "hangs";
+
 /// What `work` says, in a process of its own, or how that ended.
 template <class Work>
 std::string apart(unsigned seconds, Work work) {
@@ -126,7 +131,7 @@ std::string apart(unsigned seconds, Work work) {
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
-  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? "hangs" : "crashes: signal " + std::to_string(WTERMSIG(status));
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? hangs : "crashes: signal " + std::to_string(WTERMSIG(status));
   if (WEXITSTATUS(status) != 0) return "could not be judged: exit status " + std::to_string(WEXITSTATUS(status));
   return found;
 }
@@ -144,18 +149,13 @@ std::set<int> reached_by(Work work) {
   return numbers;
 }
 
-/// " 1 5 …"
-std::string printed(const std::set<int>& numbers) {
-  std::string text;
-  for (const int number : numbers) text += ' ' + std::to_string(number);
-  return text;
-}
-
-/// The mutants that the kernels' tests reach; the tests pass, or the text says that they do not.
+/// The mutants that the tests reach, as text; the tests pass, or it says that they do not.
 std::string reached_by_tests() {
   int failing = 0;
-  const std::set<int> numbers = reached_by([&] { failing = ogc::tests::failing_kernel_tests(); });
-  return failing == 0 ? printed(numbers) : " the kernels' own tests fail";
+  std::string text;
+  for (const int number : reached_by([&] { failing = ogc::tests::failing_unit_tests(); }))
+    text += std::to_string(number) + ' ';
+  return failing == 0 ? text : "the tests fail";
 }
 
 /// The judge with its memory, and which parts reach which mutant.
@@ -164,23 +164,30 @@ class MutantJudge {
   explicit MutantJudge(Plan plan)
       : plan_(std::move(plan)), authority_(remembering(ogc::reference::authority(), now_)), contestant_(ogc::tests::mutant_contestant()) {}
 
-  /// Judges the kernels as they are: "right" or what is wrong, then the mutants that the cases reach.
-  std::string judge_original() {
+  /// Judges what no mutant has changed: "right" or what is wrong.
+  std::string judge_original(unsigned seconds) {
     std::string wrong;
-    std::set<int> all;
-    for (now_.part = 0; now_.part <= plan_.stages.size(); ++now_.part) {
+    for (now_.part = 0; now_.part <= plan_.stages.size(); ++now_.part)
       reached_.push_back(reached_by([&] { wrong += verdict(now_.part, contestant_, authority_, plan_); }));
-      all.insert(reached_.back().begin(), reached_.back().end());
-    }
-    return (wrong.empty() ? "right" : wrong) + printed(all);
+    const std::string tested = apart(20 * seconds, reached_by_tests);
+    std::istringstream numbers(tested);
+    for (int id = 0; numbers >> id;) tested_.insert(id);
+    if (tested_.empty()) wrong += tested;
+    return wrong.empty() ? "right" : wrong;
   }
 
   /// What is found of one mutant, in one line.
   std::string judge_mutant(int id, unsigned seconds) {
+    const bool judged =
+        std::any_of(reached_.begin(), reached_.end(), [&](const auto& part) { return part.contains(id); });
+    if (!judged && !tested_.contains(id)) return "not reached";
     ++now_.round;
     ogc_mutant::active = id;
-    std::string found = apart(seconds, [&] { return first_found(id); });
-    if (found.empty()) found = apart(seconds, [] { return std::string(ogc::tests::failing_kernel_tests() > 0 ? "test" : ""); });
+    std::string found = judged ? apart(seconds, [&] { return first_found(id); }) : "";
+    // Slow is not wrong: what takes the judge too long must take the tests too long as well.
+    if (found == hangs) found.clear();
+    if (found.empty() && tested_.contains(id))
+      found = apart(seconds, [] { return std::string(ogc::tests::failing_unit_tests() > 0 ? "test" : ""); });
     ogc_mutant::active = 0;
     std::replace(found.begin(), found.end(), '\n', ' ');
     return found;
@@ -199,12 +206,29 @@ class MutantJudge {
   Authority authority_;
   Contestant contestant_;
   std::vector<std::set<int>> reached_;  ///< by part
+  std::set<int> tested_;                ///< reached by tests
 };
+
+/// Judges the mutants, `jobs` at a time: each job every jobs-th of them, in a process of its own.
+void judge_all(MutantJudge& judge, const std::vector<int>& ids, unsigned seconds, std::size_t jobs) {
+  std::vector<pid_t> children;
+  for (std::size_t job = 0; job < jobs; ++job) {
+    children.push_back(fork());
+    if (children.back() != 0) continue;
+    for (std::size_t i = job; i < ids.size(); i += jobs) {
+      const std::string line =
+          (std::to_string(ids[i]) + '\t' + judge.judge_mutant(ids[i], seconds)).substr(0, 500) + '\n';
+      if (write(STDOUT_FILENO, line.data(), line.size()) < 0) break;
+    }
+    _exit(0);
+  }
+  for (const pid_t child : children) waitpid(child, nullptr, 0);
+}
 
 }  // namespace
 
 int main(int count, char** words) {
-  if (count < 6) return 2;
+  if (count < 7) return 2;
   // Children are forked, and a pool of threads would be gone in them.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   Plan plan;
@@ -212,12 +236,13 @@ int main(int count, char** words) {
   plan.options.seed = std::stoull(words[2]);
   plan.options.threads = 1;
   plan.options.batch = 1000;
-  for (int i = 5; i < count; ++i) plan.stages.push_back(find_stage(words[i]).value());
+  for (int i = 6; i < count; ++i) plan.stages.push_back(find_stage(words[i]).value());
   for (const CaseName& name : load_batch(words[4])) plan.corpus.push_back(generate(name));
   MutantJudge judge(std::move(plan));
   const auto seconds = static_cast<unsigned>(std::stoul(words[3]));
-  std::cout << "tests" << apart(10 * seconds, reached_by_tests) << std::endl;
-  std::cout << judge.judge_original() << std::endl;
-  for (std::string number; std::getline(std::cin, number);) std::cout << judge.judge_mutant(std::stoi(number), seconds) << std::endl;
+  std::cout << judge.judge_original(seconds) << std::endl;
+  std::vector<int> ids;
+  for (int id = 0; std::cin >> id;) ids.push_back(id);
+  judge_all(judge, ids, seconds, std::stoul(words[5]));
   return 0;
 }

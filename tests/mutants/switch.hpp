@@ -1,5 +1,5 @@
 // Mutants behind a switch: tests/mutants.py rewrites `a < b` to `a < Less{17} < b`, which is the same until mutant 17 is switched on. So one build holds all
-// mutants of all kernels, and what is rewritten keeps its precedence. Each struct stands for the ids from its own on, one for each of its alternatives.
+// mutants, and what is rewritten keeps its precedence. Each struct stands for the ids from its own on, one for each of its alternatives.
 #pragma once
 
 #include <type_traits>
@@ -22,19 +22,24 @@ struct Left {
   int id;
 };
 
-#define OGC_MUTANT_COMPARISON(Name, op, one, other)             \
-  struct Name {                                                 \
-    int id;                                                     \
-  };                                                            \
-  template <class A>                                            \
-  constexpr Left<A, Name> operator op(A a, Name m) {            \
-    return {a, m.id};                                           \
-  }                                                             \
-  template <class A, class B>                                   \
-  constexpr bool operator op(Left<A, Name> left, const B& b) {  \
-    if (on(left.id)) return left.a one b;                       \
-    if (on(left.id + 1)) return left.a other b;                 \
-    return left.a op b;                                         \
+// What a comparison gives: a bool, or a mask of a pack; operators that packs lack are left out.
+#define OGC_MUTANT_COMPARISON(Name, op, one, other)                                              \
+  struct Name {                                                                                  \
+    int id;                                                                                      \
+  };                                                                                             \
+  template <class A>                                                                             \
+  constexpr Left<A, Name> operator op(A a, Name m) {                                             \
+    return {a, m.id};                                                                            \
+  }                                                                                              \
+  template <class A, class B>                                                                    \
+  constexpr auto operator op(Left<A, Name> left, const B& b)->decltype(left.a op b) {            \
+    if constexpr (requires { left.a one b; }) {                                                  \
+      if (on(left.id)) return left.a one b;                                                      \
+    }                                                                                            \
+    if constexpr (requires { left.a other b; }) {                                                \
+      if (on(left.id + 1)) return left.a other b;                                                \
+    }                                                                                            \
+    return left.a op b;                                                                          \
   }
 OGC_MUTANT_COMPARISON(Less, <, <=, >=)
 OGC_MUTANT_COMPARISON(Greater, >, >=, <=)

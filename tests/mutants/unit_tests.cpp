@@ -1,10 +1,10 @@
 #define CATCH_CONFIG_RUNNER
 #include "tests/catch.hpp"
-#include "tests/mutants/kernel_tests.hpp"
+#include "tests/mutants/unit_tests.hpp"
 
 namespace ogc::tests {
 
-int failing_kernel_tests() {
+int failing_unit_tests() {
   Catch::Session session;
   session.configData().outputFilename = "/dev/null";
   session.configData().abortAfter = 1;

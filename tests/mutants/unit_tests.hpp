@@ -1,9 +1,9 @@
-// The kernels' own tests (tests/fast/kernels), compiled over rewritten kernels.
+// The unit tests of what is rewritten (tests/mutants.py says which), compiled over it.
 #pragma once
 
 namespace ogc::tests {
 
 /// How many assertions fail; stops at the first. Once a process.
-int failing_kernel_tests();
+int failing_unit_tests();
 
 }  // namespace ogc::tests
