@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
 
 #ifdef OGC_HAS_MINIZIP
@@ -23,8 +24,7 @@ struct ZipFile::Handle {
 };
 
 ZipFile::ZipFile(const std::filesystem::path& path) : name_(path.string()) {
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(name_ + ": is missing or no regular file; check the path");
+  expect_regular_file(path);
   handle_ = std::make_unique<Handle>(unzOpen64(name_.c_str()));
   if (handle_->file == nullptr)
     throw InputError(name_ + ": is no zip archive, or is truncated (the list of its members stands at its end)");
