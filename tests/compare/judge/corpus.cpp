@@ -86,7 +86,7 @@ TEST_CASE("the mesh of a saved case is one that an audit takes, whatever degener
         INFO(print_problem(test.name) << "\n" << text);
         if (!has_geometry) CHECK(text.empty());
         if (text.empty()) continue;
-        const Mesh mesh = parse_obj(text, "saved.obj");
+        const Mesh mesh = make_mesh(parse_obj(text, "saved.obj")).mesh;
         CHECK(describe(validate(mesh)).empty());
         const auto* whole = std::get_if<MeshCase>(&test.data);
         if (whole && mesh.positions.size() == whole->positions.size() &&
@@ -100,7 +100,7 @@ TEST_CASE("what an audit says of the mesh of a point and a triangle is the dista
   for (const char* generator : {"uniform", "ladder.near", "ladder.corner_plane", "ladder.needle"})
     for (std::uint64_t index = 0; index < 50; ++index) {
       const TestCase test = generate({Stage::closest_face, generator, 5, index, "", {}});
-      const Mesh mesh = parse_obj(print_shape_obj(shape_of(test.data)), "saved.obj");
+      const Mesh mesh = make_mesh(parse_obj(print_shape_obj(shape_of(test.data)), "saved.obj")).mesh;
       if (mesh.triangles.size() != 1 || mesh.positions.size() != 5) continue;  // collapsed
       ++asked;
       const auto& c = std::get<ClosestFaceCase>(test.data);
