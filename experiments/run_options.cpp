@@ -10,6 +10,7 @@
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
+#include "compare/problem/validate_mesh.hpp"
 #include "experiments/measured_simulation.hpp"
 #include "experiments/mesh_scene.hpp"
 #include "experiments/option_checks.hpp"
@@ -136,7 +137,8 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       "A built-in scene (" + scene_names() + "), a scene file, or a mesh file: cloth that falls on a ground";
   CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
   command.add_option("--ground", options->ground,
-                     "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)");
+                     "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)")
+      ->check(real_number(-compare::most_length, compare::most_length, "m"));
   add_mesh_options(command, options->mesh);
   command.add_option("--solver", options->solver, "How a step is solved")
       ->check(CLI::IsMember(solver_names))->capture_default_str();

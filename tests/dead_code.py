@@ -38,8 +38,10 @@ KEPT = {
                      "reference_step", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
                      "vertex_facet_with_tree"), ORACLE),
     **dict.fromkeys(("skin_state", "step_columns"), WINDOW),
-    "suggest": "settings that follow from a mesh, for commands that take one",
-    **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_truncate", "reference_point"), CALLED),
+    "has_assimp": "tests skip what a build without assimp can't read",
+    "read_mesh": "meshes alone, without where their elements come from: what tests read",
+    **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_closest_points", "ogc_detect_vertex_facet", "ogc_spring",
+                     "ogc_truncate", "reference_point"), CALLED),
 }
 
 

@@ -170,10 +170,7 @@ class LegalMesh {
       spread = std::max(spread, distance(positions_[v], positions_[w]));
     }
     const Vec3& p = positions_[v];
-    const auto away = [](double from, double to) {
-      const double x = to + (to - from) / 2;
-      return std::abs(x) < least_length ? 0 : double{static_cast<float>(x)};
-    };
+    const auto away = [](double from, double to) { return double{static_cast<float>(to + (to - from) / 2)}; };
     const Vec3 end{away(centre.x, p.x), away(centre.y, p.y), away(centre.z, p.z)};
     return end == p ? Vec3{away(p.x - spread, p.x), p.y, p.z} : end;
   }

@@ -9,7 +9,7 @@
 namespace ogc::compare {
 namespace {
 
-constexpr double least_single = std::numeric_limits<float>::min();
+constexpr double least_single = std::numeric_limits<float>::denorm_min();
 
 /// `is_rounded`: to single precision, where a number between 0 and the least vanishes.
 std::string range(double minimum, double maximum, bool is_rounded) {

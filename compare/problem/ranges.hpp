@@ -8,11 +8,11 @@
 
 namespace ogc::compare {
 
-/// Whether the number is not 0, but too small for single precision to hold as a normal number: rounded it may be 0,
-/// which may mean something else.
+/// Whether the number is not 0, but below the smallest number of single precision: rounded it may be 0, which may mean
+/// something else.
 bool vanishes_in_single(double value);
 
-/// "1 to 1024", "0, or 1.1754943508222875e-38 to 1", or the names of the choices.
+/// "1 to 1024", "0, or 1.401298464324817e-45 to 1", or the names of the choices.
 std::string range_text(const SettingInfo& info);
 std::string range_text(const MaterialInfo& info);
 

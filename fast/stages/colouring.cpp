@@ -179,24 +179,37 @@ int improve(const compare::CompressedRows& graph, std::vector<int> order, int pa
   return count;
 }
 
-// Turns the colours of the k-th connected component by k, components in the order of their lowest vertices. Equal components have equal colours before, so
-// that vertices of identical cloths which face each other would be moved at once, each by the whole overlap of their contact (method.md §7).
-void turn_components(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
-  std::vector<std::uint8_t> reached(colour.size(), 0);
-  std::vector<int> stack;
-  int component = 0;
+// The connected components of the graph, in the order of their lowest vertices; the vertices of each ascending.
+std::vector<std::vector<int>> components(const compare::CompressedRows& graph, const std::vector<int>& vertices,
+                                         std::size_t vertex_count) {
+  std::vector<std::uint8_t> reached(vertex_count, 0);
+  std::vector<std::vector<int>> found;
   for (const int first : vertices) {
-    if (reached[static_cast<std::size_t>(first)] != 0) continue;
-    reached[static_cast<std::size_t>(first)] = 1;
-    for (stack = {first}; !stack.empty();) {
-      const auto v = static_cast<std::size_t>(stack.back());
-      stack.pop_back();
-      colour[v] = (colour[v] + component) % count;
-      for (const int u : graph[v]) {
-        if (std::exchange(reached[static_cast<std::size_t>(u)], std::uint8_t{1}) == 0) stack.push_back(u);
+    if (std::exchange(reached[static_cast<std::size_t>(first)], std::uint8_t{1}) != 0) continue;
+    std::vector<int>& members = found.emplace_back(1, first);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      for (const int u : graph[static_cast<std::size_t>(members[i])]) {
+        if (std::exchange(reached[static_cast<std::size_t>(u)], std::uint8_t{1}) == 0) members.push_back(u);
       }
     }
-    component = (component + 1) % count;
+    std::sort(members.begin(), members.end());
+  }
+  return found;
+}
+
+// Balances each component by itself, so that equal ones keep equal colours, and turns the colours of the k-th by k:
+// vertices of identical cloths that face each other would otherwise be moved at once, each by the whole overlap of their
+// contact (method.md §7).
+void balance_and_turn(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
+                      std::vector<int>& colour) {
+  int turn = 0;
+  for (const std::vector<int>& members : components(graph, vertices, colour.size())) {
+    for (int pass = 0; pass < 2; ++pass) balance(graph, members, count, colour);
+    for (const int v : members) {
+      int& own = colour[static_cast<std::size_t>(v)];
+      own = (own + turn) % count;
+    }
+    turn = (turn + 1) % count;
   }
 }
 
@@ -218,8 +231,7 @@ Colouring colour_vertices(const RestState& rest) {
     result.colour = colour;
     result.count = count;
   }
-  for (int pass = 0; pass < 2; ++pass) balance(graph, vertices, result.count, result.colour);
-  turn_components(graph, vertices, result.count, result.colour);
+  balance_and_turn(graph, vertices, result.count, result.colour);
   result.order = vertices;
   std::stable_sort(result.order.begin(), result.order.end(),
                    [&](int a, int b) { return result.colour[static_cast<std::size_t>(a)] < result.colour[static_cast<std::size_t>(b)]; });

@@ -158,7 +158,7 @@ TEST_CASE("an audit of curves says that states say nothing about them, not that 
 
 // The two triangles that cross are all of the mesh, the two edges that pierce too: the picture shows both colours, the
 // .vtp reads back as a mesh.
-TEST_CASE("--show draws what intersects and writes it as a mesh that can be audited itself", "[unit]") {
+TEST_CASE("the option --show draws what intersects and writes it as a mesh that can be audited itself", "[unit]") {
   const TemporaryFolder folder;
   write_frames(folder);
   const std::string show = (folder / "show").string();

@@ -152,7 +152,7 @@ TEST_CASE("frames that a run exported are audited and asked for contacts", "[pro
   }
 }
 
-TEST_CASE("--no-triangulate and --no-drop-unused refuse what is taken otherwise, and name the option", "[unit]") {
+TEST_CASE("the option --no-triangulate and --no-drop-unused refuse what is taken otherwise, and name the option", "[unit]") {
   const TemporaryFolder folder;
   const StockShape plane = stock_shapes().front();
   const std::string file = write(folder, plane, own_formats[1]);

@@ -42,12 +42,7 @@ compare::Mesh layers(double gap) {
 
 }  // namespace
 
-// At rest a sheet, and the lower of two, lie on the ground: k_c was chosen so that ten of them press a contact no
-// further than to r/2.
-TEST_CASE(
-    "the run that ogc suggest prints keeps distances above 0 on the way, comes to rest outside of r/2, and is not "
-    "warned of",
-    "[property]") {
+TEST_CASE("the run that ogc suggest prints lands, keeps distances above 0 on the way, and is not warned of", "[property]") {
   for (const compare::Mesh& mesh : {experiments::grid(10, 0.5, 1), layers(0.02), layers(0.004)}) {
     const TemporaryFolder folder;
     compare::write_mesh(folder / "mesh.obj", mesh);
@@ -63,7 +58,6 @@ TEST_CASE(
     CHECK(summary.at("smallest_distance_m") > 0);
     CHECK(summary.at("warnings").empty());
     const std::vector<compare::StepMetrics> rows = compare::read_steps(folder / "run").rows;
-    CHECK(rows.back().smallest_distance > value(suggestion, "contact_radius") / 2);
     CHECK(rows.back().vertex_facet_contacts > 0);
   }
 }

@@ -122,7 +122,10 @@ TEST_CASE("every case of every generator is a legal question", "[property]") {
       for (std::uint64_t i = 0; i < (generator.least > 0 ? 2u : is_mesh_stage(stage) ? 60u : 400u); ++i) {
         const CaseName name{stage, std::string(generator.name), 3, i, "", {}};
         INFO(print_problem(name));
-        REQUIRE(std::visit(IsLegal{}, generate(name).data));
+        const TestCase test = generate(name);
+        const auto* of_scene = std::get_if<SweepCase>(&test.data);
+        INFO((of_scene != nullptr ? describe(validate(*of_scene->scene)) : ""));
+        REQUIRE(std::visit(IsLegal{}, test.data));
       }
 }
 

@@ -202,10 +202,10 @@ TEST_CASE("IPC: a start that intersects or touches is refused with the pairs", "
   crossing.name = "crossing";
   append_body(crossing, {.name = "a", .material = heavy()}, {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}, {}});
   append_body(crossing, {.name = "b", .material = heavy()}, {{{0.2, -0.5, 0.2}, {0.2, 0.5, 0.2}, {0.3, 0.5, 0.4}}, {{0, 1, 2}}, {}});
-  CHECK_THROWS_WITH(reference::start_ipc(crossing, {}), Contains("(vertices 3, 4) and triangle 0 (vertices 0, 1, 2) intersect"));
+  CHECK_THROWS_WITH(reference::start_ipc(crossing, {}), Contains("edge of body 'b' (vertices 0, 1) and triangle 0 of body 'a' (vertices 0, 1, 2) intersect"));
   compare::Scene thick = triangle_on_plane(1e-3, heavy());
   thick.settings.ipc_thickness = 2e-3;
-  CHECK_THROWS_WITH(reference::start_ipc(thick, {}), Contains("vertex 0 and triangle 1 (vertices 3, 4, 5) have no gap") && Contains("beyond the thickness"));
+  CHECK_THROWS_WITH(reference::start_ipc(thick, {}), Contains("vertex 0 of body 'block' and triangle 0 of body 'plane' (vertices 0, 1, 2; 1 in the scene) have no gap") && Contains("beyond the thickness"));
   CHECK_NOTHROW(reference::start_ipc(triangle_on_plane(1e-3, heavy()), {}));
 }
 
@@ -218,7 +218,7 @@ TEST_CASE("IPC: a time of impact of zero ends the step with the pair's name, nev
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].status == compare::step_not_converged);
   REQUIRE(rows[0].notes.size() == 2);
-  CHECK_THAT(rows[0].notes[0], Contains("held by vertex") && Contains("triangle 1") && Contains("follows the gradient"));
+  CHECK_THAT(rows[0].notes[0], Contains("held by vertex") && Contains("triangle 0 of body 'plane'") && Contains("follows the gradient"));
   CHECK_THAT(rows[0].notes[1], Contains("along the gradient"));
   CHECK(simulation->snapshot().step == 0);
 }
