@@ -6,11 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
+#include "compare/problem/validate_mesh.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/mesh_input.hpp"
 #include "experiments/mesh_scene.hpp"
+#include "experiments/option_checks.hpp"
 #include "experiments/output.hpp"
 #include "experiments/scenes/materials.hpp"
 #include "experiments/suggestion.hpp"
@@ -53,13 +54,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-double checked_fall(double fall) {
-  constexpr double most = 0x1p20;  // the largest coordinate that there is (method.md §2)
-  if (fall > 0 && fall <= most) return fall;
-  throw compare::InputError("--fall " + compare::shortest(fall) + ": give a height above 0, at most " +
-                            number(most, 7) + " m");
-}
-
 /// The run that has these settings, with the ground so far below that the mesh falls as was said.
 std::string command_line(const std::string& mesh, double ground, const std::vector<Row>& rows) {
   std::string text = "ogc run " + quoted(mesh) + " --ground " + compare::shortest(ground);
@@ -70,7 +64,7 @@ std::string command_line(const std::string& mesh, double ground, const std::vect
 void run(const Options& options, const CommandContext& context) {
   const MeshInput input = read_mesh_input(options.mesh, options.reading);
   const compare::Material cloth = layer_cloth();
-  const double fall = checked_fall(options.fall.value_or(default_fall(input.mesh)));
+  const double fall = options.fall.value_or(default_fall(input.mesh));
   const std::vector<Row> rows = rows_of(suggest(input.mesh, cloth, fall));
   const std::string command = command_line(options.mesh, lowest_point(input.mesh) - fall, rows);
   if (context.json) {
@@ -95,7 +89,8 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
   command->add_option("MESH", options->mesh, "A mesh file")->required();
   add_mesh_options(*command, options->reading);
   command->add_option("--fall", options->fall,
-                      "How far it falls before it meets something [m] (default: a tenth of its size)");
+                      "How far it falls before it meets something [m] (default: a tenth of its size)")
+      ->check(real_number(compare::least_length, compare::most_length, "m"));
   command->add_flag("--json", context.json, "Print settings, reasons and the command as JSON on standard output");
   command->footer(
       "The contact radius follows from edges and gaps (nothing is in contact at the start where that can be), the "

@@ -53,8 +53,12 @@ Json parse_results(const std::filesystem::path& file) {
   try {
     Json json = compare::parse_json(without_nan(compare::read_bytes(file)), file.string());
     if (json.at("benchmarks").is_array() && json.at("context").is_object()) return json;
+  } catch (const compare::InputError& error) {
+    throw compare::InputError(std::string(error.what()) +
+                              ": not a result of `ogc bench --json FILE`; name another file");
   } catch (const Json::exception& error) {
-    throw compare::InputError(file.string() + ": " + error.what() + ": not a result of `ogc bench --json FILE`; name another file");
+    throw compare::InputError(file.string() + ": " + error.what() +
+                              ": not a result of `ogc bench --json FILE`; name another file");
   }
   throw compare::InputError(file.string() + ": not a result of `ogc bench --json FILE`; name another file");
 }
