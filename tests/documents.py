@@ -263,7 +263,8 @@ class AsPrinted(Scratch):
         texts = documents()
         self.assertIn("`ogc scenes cloth_on_sphere --write my_scene`", texts["README.md"])
         for words in (["run", "cloth_on_sphere", "--scale", "smoke", "--out", "runs/my_run"],
-                      ["scenes", "cloth_on_sphere", "--write", "my_scene"]):
+                      ["scenes", "cloth_on_sphere", "--write", "my_scene"],
+                      ["export", "runs/my_run", "--format", "ply", "--out", "their_run"]):
             status, _, said = self.place.run([OGC, *words])
             self.assertEqual(status, 0, said)
         used = set()
