@@ -117,10 +117,11 @@ constexpr std::string_view soup = "soup", cloth = "cloth", few = "few", bits = "
                            stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands",
                            boundary = "ladder.boundary", field = "ladder.field";
 
-constexpr std::array<Generator, 14> table{{{soup, 16, true, about<soup>},
+constexpr std::array<Generator, 15> table{{{soup, 16, true, about<soup>},
                                            {cloth, 16, true, about<cloth>},
                                            {few, 2, true, about<few>},
                                            {bits, 12, false, about<bits>},
+                                           {"dust", 8, false, about<soup>},
                                            {lattice, 16, false, about<lattice>},
                                            {sheets, 8, false, about<sheets>},
                                            {fold, 8, false, about<fold>},

@@ -102,8 +102,9 @@ CaseData boundary(Random& random) {
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-constexpr std::array<Generator, 13> table{{{"uniform", 12, true, uniform},
+constexpr std::array<Generator, 14> table{{{"uniform", 12, true, uniform},
                                            {"bits", 12, false, bits},
+                                           {"dust", 6, false, uniform},
                                            {"lattice", 20, false, lattice},
                                            {"ladder.corner_plane", 8, false, corner_plane},
                                            {"ladder.edge_plane", 8, false, edge_plane},

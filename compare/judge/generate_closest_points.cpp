@@ -104,8 +104,9 @@ CaseData boundary(Random& random) {
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-constexpr std::array<Generator, 12> table{{{"uniform", 12, true, uniform},
+constexpr std::array<Generator, 13> table{{{"uniform", 12, true, uniform},
                                            {"bits", 12, false, bits},
+                                           {"dust", 6, false, uniform},
                                            {"lattice", 20, false, lattice},
                                            {"ladder.parallel", 10, false, parallel},
                                            {"ladder.threshold", 8, false, threshold},

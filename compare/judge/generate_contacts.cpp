@@ -107,9 +107,8 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Triangles and edges that are thin or short, as far as they are legal, or collapsed exactly.
-Shape thin(Random& random) {
-  const double thinness = random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5);
+/// Triangles and edges that are thin or short.
+Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle, random.between(0.05, 1));
   shape.turned = thinness > 0;
   const double b = random.between(-0.2, 1.2), c = random.one_in(2) ? random.between(-0.2, 1.2) : random.rung();
@@ -125,6 +124,10 @@ Shape thin(Random& random) {
   put_triangle(shape, base.second, base.third, b, c);
   return shape;
 }
+
+/// Down to where needles begin (compare/stages/contact_force.hpp), or collapsed exactly.
+Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
+Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 
 /// Angles around the rule for nearly parallel edges and towards 0, with an overlap that may end, inside or beyond.
 Shape nearly_parallel(Random& random) {
@@ -228,6 +231,7 @@ CaseData contact_uniform(Random& random) { return contact_case(random, inside(ra
 CaseData contact_lattice(Random& random) { return contact_case(random, on_grid(random)); }
 CaseData contact_feature(Random& random) { return contact_case(random, near_feature(random)); }
 CaseData contact_thin(Random& random) { return contact_case(random, thin(random)); }
+CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
 CaseData contact_parallel(Random& random) { return contact_case(random, nearly_parallel(random)); }
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
@@ -293,6 +297,7 @@ CaseData friction_of(Random& random, const Shape& shape) { return friction_case(
 
 CaseData friction_uniform(Random& random) { return friction_of(random, inside(random, any_sides(random), any_share(random))); }
 CaseData friction_feature(Random& random) { return friction_of(random, random.one_in(4) ? thin(random) : near_feature(random)); }
+CaseData friction_needle(Random& random) { return friction_of(random, needle(random)); }
 CaseData friction_parallel(Random& random) { return friction_of(random, nearly_parallel(random)); }
 CaseData friction_distance(Random& random) {
   return friction_of(random, random.one_in(3) ? near_touching(random) : random.one_in(2) ? near_switch(random) : near_radius(random));
@@ -341,11 +346,13 @@ CaseData friction_variants(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 12> contact_table{{{"uniform", 30, true, contact_uniform},
+constexpr std::array<Generator, 14> contact_table{{{"uniform", 30, true, contact_uniform},
                                                   {"bits", 10, false, contact_bits},
+                                                  {"dust", 8, false, contact_uniform},
                                                   {"lattice", 15, false, contact_lattice},
                                                   {"ladder.feature", 14, false, contact_feature},
                                                   {"ladder.thin", 8, false, contact_thin},
+                                                  {"ladder.needle", 8, false, contact_needle},
                                                   {"ladder.parallel", 10, false, contact_parallel},
                                                   {"ladder.radius", 6, false, contact_radius},
                                                   {"ladder.switch", 5, false, contact_switch},
@@ -353,10 +360,11 @@ constexpr std::array<Generator, 12> contact_table{{{"uniform", 30, true, contact
                                                   {"ladder.mollifier", 5, false, contact_mollifier},
                                                   {"ladder.variants", 25, false, contact_variants},
                                                   {"ladder.boundary", 150, false, contact_boundary}}};
-constexpr std::array<Generator, 11> friction_table{{{"uniform", 30, true, friction_uniform},
+constexpr std::array<Generator, 12> friction_table{{{"uniform", 30, true, friction_uniform},
                                                    {"bits", 10, false, friction_bits},
                                                    {"lattice", 12, false, friction_lattice},
                                                    {"ladder.feature", 14, false, friction_feature},
+                                                   {"ladder.needle", 8, false, friction_needle},
                                                    {"ladder.parallel", 8, false, friction_parallel},
                                                    {"ladder.distance", 10, false, friction_distance},
                                                    {"ladder.still", 10, false, friction_still},

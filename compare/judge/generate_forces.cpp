@@ -143,13 +143,14 @@ CaseData membrane_by_vertex(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 14> membrane_table{{{"uniform", 40, true, membrane_uniform},
+constexpr std::array<Generator, 15> membrane_table{{{"uniform", 40, true, membrane_uniform},
                                                    {"corner", 20, true, membrane_corner},
                                                    {"bits", 10, false, membrane_bits},
+                                                   {"dust", 8, false, membrane_corner},
                                                    {"neo_hookean_bits", 10, false, neo_hookean<membrane_bits>},
                                                    {"lattice", 15, false, membrane_lattice},
-                                                   {"ladder.rest", 25, false, membrane_rest},
-                                                   {"ladder.collapse", 15, false, membrane_collapse},
+                                                   {"ladder.rest", 29, false, membrane_rest},
+                                                   {"ladder.collapse", 19, false, membrane_collapse},
                                                    {"ladder.sign", 20, false, membrane_sign},
                                                    {"neo_hookean", 30, true, neo_hookean<membrane_corner>},
                                                    {"lattice.neo_hookean", 10, false, neo_hookean<membrane_lattice>},
@@ -297,8 +298,9 @@ CaseData bending_by_vertex(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 12> bending_table{{{"uniform", 40, true, bending_uniform},
+constexpr std::array<Generator, 13> bending_table{{{"uniform", 40, true, bending_uniform},
                                                   {"bits", 10, false, bending_bits},
+                                                  {"dust", 8, false, bending_uniform},
                                                   {"lattice", 15, false, bending_lattice},
                                                   {"ladder.flat", 20, false, bending_flat},
                                                   {"ladder.fold", 15, false, bending_fold},

@@ -113,8 +113,9 @@ CaseData still(Random& random) {
   return c;
 }
 
-constexpr std::array<Generator, 8> table{{{"uniform", 25, true, uniform},
+constexpr std::array<Generator, 9> table{{{"uniform", 25, true, uniform},
                                           {"bits", 15, false, bits},
+                                          {"dust", 8, false, uniform},
                                           {"lattice", 20, false, lattice},
                                           {"ladder.bound", 15, false, bound},
                                           {"ladder.fast", 10, false, fast},

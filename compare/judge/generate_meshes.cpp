@@ -249,11 +249,26 @@ CaseData field(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-constexpr std::array<Generator, 17> table{{{"soup", 20, true, soup},
+/// Triangles of which a height or a side tends to 0, about one another and with a point beside each: smallest distances are least certain there.
+CaseData needles(Random& random) {
+  MeshBuilder builder;
+  for (int i = 4 + random.below(8); i > 0; --i) {
+    const double side = random.magnitude(-3, 0), height = side * random.magnitude(0, 6), lean = random.between(-1, 1), along = random.between(-0.2, 1.2);
+    std::array<Vec3, 4> points{Vec3{side * random.rung(), along * side, side * random.rung()}, Vec3{}, Vec3{0, side, 0}, Vec3{height, lean * height, 0}};
+    rotate(random, points);
+    Index first = 0;
+    for (const Vec3& point : points) first = builder.add(scaled(point, 1 / std::max(1.0, height))) - 3;
+    builder.triangles.push_back({first + 1, first + 2, first + 3});
+  }
+  return finish(random, builder, {0, 0});
+}
+
+constexpr std::array<Generator, 19> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
                                            {"large", 600, true, large, large_run},
                                            {"bits", 10, false, bits},
+                                           {"dust", 8, false, soup},
                                            {"lattice", 15, false, lattice},
                                            {"ladder.sheets", 8, false, sheets},
                                            {"ladder.fold", 7, false, fold},
@@ -264,6 +279,7 @@ constexpr std::array<Generator, 17> table{{{"soup", 20, true, soup},
                                            {"ladder.strands", 4, false, strands},
                                            {"ladder.groups", 4, false, groups},
                                            {"ladder.seams", 5, false, seams},
+                                           {"ladder.needles", 5, false, needles},
                                            {"ladder.boundary", 450, false, boundary},
                                            {"ladder.field", 15000, false, field, large_run}}};
 

@@ -119,8 +119,9 @@ constexpr std::array<Generator, 8> activation_table{{{"uniform", 20, true, activ
                                                      {"ladder.touching", 10, false, activation_touching},
                                                      {"variants", 8, true, activation_variants},
                                                      {"ladder.variants", 40, false, activation_ladders}}};
-constexpr std::array<Generator, 6> truncate_table{{{"uniform", 20, true, truncate_uniform},
+constexpr std::array<Generator, 7> truncate_table{{{"uniform", 20, true, truncate_uniform},
                                                    {"bits", 20, false, truncate_bits},
+                                                   {"dust", 8, false, truncate_uniform},
                                                    {"lattice", 20, false, truncate_lattice},
                                                    {"ladder.bound", 60, false, truncate_bound},
                                                    {"ladder.far", 10, false, truncate_far},

@@ -124,8 +124,9 @@ CaseData closed(Random& random) {
   return seam_case(random, edge, ratio, length, before, rest_length, true);
 }
 
-constexpr std::array<Generator, 10> table{{{"uniform", 40, true, uniform},
+constexpr std::array<Generator, 11> table{{{"uniform", 40, true, uniform},
                                           {"bits", 15, false, bits},
+                                          {"dust", 8, false, uniform},
                                           {"lattice", 15, false, lattice},
                                           {"ladder.rest", 20, false, at_rest},
                                           {"ladder.zero", 15, false, at_zero},

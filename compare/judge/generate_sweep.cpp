@@ -353,15 +353,16 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 19> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 20> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
                                            {"alone", 5, true, alone},
                                            {"few", 3, false, few},
                                            {"bits", 6, false, bits},
+                                           {"dust", 6, false, sheets},
                                            {"lattice", 10, false, lattice},
-                                           {"ladder.rest", 8, false, at_rest},
+                                           {"ladder.rest", 14, false, at_rest},
                                            {"ladder.radius", 9, false, at_radius},
                                            {"ladder.stiff", 8, false, stiff},
                                            {"ladder.slip", 6, false, slip},

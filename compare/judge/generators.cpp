@@ -1,5 +1,7 @@
 #include "compare/judge/generators.hpp"
 
+#include "compare/judge/dust.hpp"
+#include "compare/judge/legal.hpp"
 #include "compare/judge/mutate.hpp"
 #include "compare/judge/parameters.hpp"
 #include "compare/judge/states.hpp"
@@ -54,7 +56,12 @@ TestCase generate(const Generator& generator, CaseName name, const States* state
   if (!generator.make && !states) throw InputError("'" + print_problem(name) + "' asks for real states: name the run folder, states=RUN");
   CaseData data = generator.make ? generator.make(random) : states->make(name.stage, name.index, random);
   TestCase test{std::move(name), std::move(data)};
-  if (generator.name == mutated_states.name) mutate(random, test.data);
+  if (generator.name == mutated_states.name) {
+    CaseData mutated = test.data;
+    mutate(random, mutated);
+    if (problem_of(mutated).empty()) test.data = std::move(mutated);
+  }
+  if (generator.name == "dust") add_dust(random, test.data);
   if (!test.name.overrides.empty()) apply_overrides(test);
   return test;
 }

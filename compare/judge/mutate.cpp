@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/legal.hpp"
 #include "compare/judge/placement.hpp"
 #include "compare/judge/rest_cases.hpp"
 
@@ -10,8 +11,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Coordinates between 0 and 2⁻²⁰ m are no legal input (method.md §2).
-float legal(double x) { return std::abs(x) < 0x1p-20 ? 0.0f : static_cast<float>(x); }
+/// Within what is legal (compare/judge/legal.hpp).
+float legal(double x) { return std::clamp(static_cast<float>(x), -most_coordinate, most_coordinate); }
 
 Vec3f point(double x, double y, double z) { return {legal(x), legal(y), legal(z)}; }
 

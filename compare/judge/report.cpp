@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/judge/loose.hpp"
 #include "compare/judge/stage_table.hpp"
 
 namespace ogc::compare {
@@ -50,7 +51,10 @@ std::string loose_metrics(const StageReport& report) {
   std::string names;
   const auto infos = metrics(report.tally.stage);
   for (std::size_t i = 0; i < infos.size(); ++i)
-    if (report.tally.metrics[i].is_loose(infos[i])) names += (names.empty() ? "" : ", ") + std::string(infos[i].name);
+    if (report.tally.metrics[i].is_loose(infos[i])) {
+      const auto reason = reason_of_loose(report.tally.stage, infos[i].name);
+      names += (names.empty() ? "" : ", ") + std::string(infos[i].name) + (reason ? " (" + std::string(*reason) + ")" : "");
+    }
   return names;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compare/judge/judge.hpp"
+#include "compare/judge/legal.hpp"
 
 namespace ogc::compare {
 
@@ -137,25 +138,10 @@ Numbers numbers_of(CaseData& data) {
   return numbers;
 }
 
-/// Smallest modulus of a coordinate that is not 0, at most 2⁻²⁰: what is below is no legal input (method.md §2), unless the case had it before.
-float least_coordinate(CaseData data) {
-  float least = 0x1p-20F;
-  for (const float* x : numbers_of(data).coordinates)
-    if (*x != 0) least = std::min(least, std::abs(*x));
-  return least;
-}
-
-bool is_legal(TestCase& test, float least) {
-  const Numbers numbers = numbers_of(test.data);
-  if (!std::all_of(numbers.coordinates.begin(), numbers.coordinates.end(), [&](const float* x) { return *x == 0 || std::abs(*x) >= least; })) return false;
-  const auto* mesh = std::get_if<MeshCase>(&test.data);
-  return !mesh || (mesh->contact_radius > 0 && mesh->contact_radius <= mesh->query_radius);
-}
-
 class Shrinker {
  public:
   Shrinker(const TestCase& test, const std::function<bool(const TestCase&)>& fails, const ShrinkOptions& options)
-      : best_(test), fails_(fails), options_(options), least_(least_coordinate(test.data)) {}
+      : best_(test), fails_(fails), options_(options), was_legal_(problem_of(test.data).empty()) {}
 
   TestCase run() {
     while (drop_primitives()) {
@@ -174,7 +160,7 @@ class Shrinker {
     if (out_of_budget()) return false;
     ++tries_;
     TestCase candidate{best_.name, data};
-    if (!is_legal(candidate, least_) || !fails_(candidate)) return false;
+    if ((was_legal_ && !problem_of(candidate.data).empty()) || !fails_(candidate)) return false;
     best_ = std::move(candidate);
     return true;
   }
@@ -238,7 +224,7 @@ class Shrinker {
   TestCase best_;
   const std::function<bool(const TestCase&)>& fails_;
   const ShrinkOptions& options_;
-  float least_;
+  bool was_legal_;  ///< a saved case may be of another version's contract: then all is tried
   std::size_t tries_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -14,7 +14,7 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr std::size_t largest_count = 16;
+constexpr std::size_t least_frames = 16, most_frames = 100, vertices_kept = std::size_t{1} << 22;
 constexpr int questions = 256;  // of stage block about one frame
 
 double mean_edge_length(const Topology& topology, const std::vector<Vec3f>& positions) {
@@ -44,7 +44,8 @@ States::States(const std::filesystem::path& folder, const Authority& authority) 
   contact_radius_ = static_cast<float>(scene.settings.contact_radius);
   query_radius_cap_ = static_cast<float>(scene.settings.query_radius_cap);
   bound_relaxation_ = static_cast<float>(scene.settings.bound_relaxation);
-  const std::size_t count = std::min(run.frame_count(), largest_count);
+  const std::size_t affordable = vertices_kept / std::max<std::size_t>(1, scene.mesh.positions.size());
+  const std::size_t count = std::min(run.frame_count(), std::clamp(affordable, least_frames, most_frames));
   for (std::size_t i = 0; i < count; ++i) {
     Frame frame = run.frame(count == 1 ? 0 : i * (run.frame_count() - 1) / (count - 1));
     if (i == 0) cell_size_ = mean_edge_length(*topology_, frame.positions);
@@ -54,6 +55,7 @@ States::States(const std::filesystem::path& folder, const Authority& authority) 
     states_.push_back(std::move(state));
   }
   smallest_distances_.resize(states_.size());
+  contacts_.resize(states_.size());
 }
 
 std::string States::missing(Stage stage) const {
@@ -62,6 +64,9 @@ std::string States::missing(Stage stage) const {
     case Stage::membrane: return rest_.triangles.empty() ? "no body that moves has a membrane" : "";
     case Stage::bending: return rest_.hinges.empty() ? "no body that moves bends" : "";
     case Stage::spring: return scene_->springs.empty() ? "its scene has no spring" : "";
+    case Stage::activation:
+    case Stage::contact_force:
+    case Stage::friction_force: return frame_with_contact(0) ? "" : "none of its frames has a contact";
     case Stage::rest_state:
     case Stage::sweep:
     case Stage::step: return problems_of(RestStateCase{scene_, topology_});
@@ -89,62 +94,6 @@ Index States::neighbour(const State& state, Index v, Random& random) const {
     if (other != v) return other;
   }
   return v;
-}
-
-std::array<Index, 4> States::vertex_and_triangle(const State& state, Random& random) const {
-  const Index v = random.below(topology_->vertex_count);
-  const auto candidates = topology_->vertex_triangles[static_cast<std::size_t>(neighbour(state, v, random))];
-  const auto any = static_cast<Index>(random.bits() % topology_->triangles.size());
-  const Triangle t = topology_->triangles[candidates.empty() ? any : random.pick(candidates)];
-  return {v, t[0], t[1], t[2]};
-}
-
-std::array<Index, 4> States::pair_of_edges(const State& state, Random& random) const {
-  const Index v = random.below(topology_->vertex_count);
-  const auto edge_of = [&](Index vertex) {
-    const auto candidates = topology_->vertex_edges[static_cast<std::size_t>(vertex)];
-    return candidates.empty() ? static_cast<Index>(random.bits() % topology_->edges.size()) : random.pick(candidates);
-  };
-  const Index a = edge_of(v), b = edge_of(neighbour(state, v, random));
-  const Edge e = topology_->edges[std::min(a, b)], f = topology_->edges[std::max(a, b)];
-  return {e[0], e[1], f[0], f[1]};
-}
-
-CaseData States::vertex_triangle(const State& state, Random& random) const {
-  const auto [v, a, b, c] = vertex_and_triangle(state, random);
-  return ClosestFaceCase{state.positions[v], {state.positions[a], state.positions[b], state.positions[c]}};
-}
-
-CaseData States::edge_edge(const State& state, Random& random) const {
-  const auto [a, b, c, d] = pair_of_edges(state, random);
-  return ClosestPointsCase{{state.positions[a], state.positions[b]}, {state.positions[c], state.positions[d]}};
-}
-
-FrictionForceCase States::contact(const State& state, Random& random) const {
-  FrictionForceCase c;
-  const bool edges = topology_->triangles.empty() || random.one_in(2);
-  const std::array<Index, 4> vertices = edges ? pair_of_edges(state, random) : vertex_and_triangle(state, random);
-  c.contact.sides = edges ? ContactSides::edge_edge : ContactSides::point_triangle;
-  c.contact.own = random.below(4);
-  const double h = scene_->settings.time_step;
-  for (std::size_t k = 0; k < 4; ++k) {
-    c.contact.vertex[k] = moved(state, vertices[k]);
-    c.contact.detected[k] = c.start[k] = state.positions[vertices[k]];
-  }
-  if (edges && !topology_->triangles.empty()) {
-    const auto squared = [&](Index a, Index b) {
-      const Vec3 &p = scene_->rest_positions[a], &q = scene_->rest_positions[b];
-      return static_cast<float>((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
-    };
-    c.contact.rest_squared = {squared(vertices[0], vertices[1]), squared(vertices[2], vertices[3])};
-  }
-  const MeetingMaterial material = meeting(vertices[0], vertices[edges ? 2 : 1]);
-  c.contact.contact_radius = contact_radius_;
-  c.contact.stiffness = material.stiffness;
-  c.contact.activation = scene_->settings.activation;
-  c.friction = material.friction;
-  c.slip_limit = static_cast<float>(scene_->settings.friction_velocity * h);
-  return c;
 }
 
 CaseData States::moved_vertex(std::size_t frame, Random& random) const {
@@ -216,16 +165,16 @@ CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
   const std::size_t frame = index % states_.size();
   const State& state = states_[frame];
   switch (stage) {
-    case Stage::closest_face: return vertex_triangle(state, random);
-    case Stage::closest_points: return edge_edge(state, random);
-    case Stage::contact_force: return contact(state, random).contact;
-    case Stage::friction_force: return contact(state, random);
+    case Stage::closest_face: return vertex_triangle(frame, random);
+    case Stage::closest_points: return edge_edge(frame, random);
+    case Stage::contact_force: return contact(*frame_with_contact(frame), random).contact;
+    case Stage::friction_force: return contact(*frame_with_contact(frame), random);
     case Stage::truncate: return moved_vertex(frame, random);
     case Stage::rest_state: return RestStateCase{scene_, topology_};
     case Stage::initial_guess: return guessed_vertex(state, random);
     case Stage::block: return BlockCase{topology_, state.positions, block_questions(random, *topology_, state.positions, questions)};
     case Stage::bound: return bound(frame);
-    case Stage::activation: return pair_distance(state, random);
+    case Stage::activation: return contact_distance(*frame_with_contact(frame), random);
     case Stage::membrane: return triangle(state, random);
     case Stage::bending: return hinge(state, random);
     case Stage::spring: return spring(state, random);

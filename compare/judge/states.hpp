@@ -1,5 +1,5 @@
-// Cases from real states: the frames of a run folder, whole for detection, or pairs of neighbours and stencils drawn from them for the other stages. What a
-// run folder does not hold, because it is computed (rest data, distances), is asked of an authority.
+// Cases from real states: the frames of a run folder, whole for detection, or stencils drawn from their lists for the other stages: of the elements of the rest
+// state, of the contacts of the frame. What a run folder does not hold, because it is computed (rest data, distances, contacts), is asked of an authority.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace ogc::compare {
 
-/// Up to 16 frames, evenly spread over the run (first and last included), with the scene's topology, groups, r and cap of r_q.
+/// Up to 100 frames, of large meshes fewer (16 from 262,144 vertices on), evenly spread over the run (first and last included), with the scene's topology, groups, r and cap of r_q.
 class States {
  public:
   /// Asks the authority for rest data. Throws InputError where the folder is no run or holds no frame.
@@ -24,6 +24,7 @@ class States {
   /// Why the run has no cases for the stage; empty where it has.
   std::string missing(Stage stage) const;
   /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError that says what is missing.
+  /// Of what comes of contacts (activation, contact_force, friction_force) frames without any are skipped.
   CaseData make(Stage stage, std::uint64_t index, Random& random) const;
   const std::string& folder() const { return folder_; }
 
@@ -36,29 +37,39 @@ class States {
     std::int64_t step = 0;
     std::vector<std::pair<std::uint64_t, Index>> cells;
   };
+  /// The contact sets of a frame, in canonical order.
+  struct Contacts {
+    std::vector<VertexFacetContact> vertex_facet;
+    std::vector<EdgeEdgeContact> edge_edge;
+    std::size_t size() const { return vertex_facet.size() + edge_edge.size(); }
+  };
+  /// Asked of the authority once a frame.
+  const Contacts& contacts(std::size_t frame) const;
+  /// The first frame from this one on, and around, that has a contact; none where the run has none.
+  std::optional<std::size_t> frame_with_contact(std::size_t frame) const;
   std::uint64_t cell(const Vec3f& position) const;
   /// A vertex in the same cell or one of its neighbours; v itself where there is no other.
   Index neighbour(const State& state, Index v, Random& random) const;
-  /// A vertex and the corners of a triangle near it; the ends of two edges near each other, the lower-numbered first.
-  std::array<Index, 4> vertex_and_triangle(const State& state, Random& random) const;
-  std::array<Index, 4> pair_of_edges(const State& state, Random& random) const;
-  CaseData vertex_triangle(const State& state, Random& random) const;
-  CaseData edge_edge(const State& state, Random& random) const;
-  /// Of either kind of pair, found at the frame, after a step at the frame's velocities.
-  FrictionForceCase contact(const State& state, Random& random) const;
+  /// A vertex and the corners of a triangle, the ends of two edges, the lower-numbered first: in half of the draws those of a contact, if the frame has any, else
+  /// near each other.
+  std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
+  std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
+  CaseData vertex_triangle(std::size_t frame, Random& random) const;
+  CaseData edge_edge(std::size_t frame, Random& random) const;
+  /// A contact of the frame's lists, there or a part of a step later at the frame's velocities.
+  FrictionForceCase contact(std::size_t frame, Random& random) const;
   CaseData moved_vertex(std::size_t frame, Random& random) const;
   CaseData guessed_vertex(const State& state, Random& random) const;
   /// The smallest distances of the frame, asked of the authority once.
   CaseData bound(std::size_t frame) const;
-  /// The distance of a pair near each other: of 16 draws the first that is in contact, or the nearest.
-  CaseData pair_distance(const State& state, Random& random) const;
-  double distance(const CaseData& pair) const;
+  /// The distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
+  CaseData contact_distance(std::size_t frame, Random& random) const;
   /// Stencils of the rest data, after a step at the frame's velocities.
   CaseData triangle(const State& state, Random& random) const;
   CaseData hinge(const State& state, Random& random) const;
   CaseData spring(const State& state, Random& random) const;
-  /// x after a step at the frame's velocity.
-  Vec3f moved(const State& state, Index v) const;
+  /// x after this part of a step at the frame's velocity.
+  Vec3f moved(const State& state, Index v, double part = 1) const;
   MeetingMaterial meeting(Index v, Index w) const;
   /// The first sweep of the step that follows the frame.
   CaseData sweep(const State& state, Random& random) const;
@@ -77,6 +88,7 @@ class States {
   std::vector<State> states_;
   /// By frame; filled when asked for, by any thread.
   mutable std::vector<std::optional<BoundCase>> smallest_distances_;
+  mutable std::vector<std::optional<Contacts>> contacts_;
   mutable std::mutex filling_;
 };
 

@@ -8,9 +8,6 @@ namespace ogc::compare {
 
 namespace {
 
-constexpr int draws = 16;
-constexpr double least_distance = 0x1p-20;
-
 float single(double x) { return static_cast<float>(x); }
 
 template <class Item>
@@ -20,34 +17,11 @@ const Item& any(Random& random, const std::vector<Item>& items) {
 
 }  // namespace
 
-Vec3f States::moved(const State& state, Index vertex) const {
+Vec3f States::moved(const State& state, Index vertex, double part) const {
   const auto i = static_cast<std::size_t>(vertex);
-  const double h = scene_->settings.time_step;
+  const double h = part * scene_->settings.time_step;
   const Vec3f &x = state.positions[i], &v = state.velocities[i];
   return {single(x.x + h * v.x), single(x.y + h * v.y), single(x.z + h * v.z)};
-}
-
-MeetingMaterial States::meeting(Index v, Index w) const {
-  const auto body = [&](Index vertex) { return static_cast<std::size_t>(body_[static_cast<std::size_t>(vertex)]); };
-  return rest_.meetings[body(v) * scene_->bodies.size() + body(w)];
-}
-
-double States::distance(const CaseData& pair) const {
-  if (const auto* face = std::get_if<ClosestFaceCase>(&pair)) return authority_.closest_face({{face->point}, {face->triangle}}).distance[0];
-  const auto& edges = std::get<ClosestPointsCase>(pair);
-  return authority_.closest_points({{edges.first}, {edges.second}}).contact_distance[0];
-}
-
-CaseData States::pair_distance(const State& state, Random& random) const {
-  ActivationCase c{2 * contact_radius_, contact_radius_, 1, scene_->settings.activation};
-  for (int draw = 0; draw < draws && c.distance >= contact_radius_; ++draw) {
-    const bool edges = topology_->triangles.empty() || random.one_in(2);
-    const auto d = single(distance(edges ? edge_edge(state, random) : vertex_triangle(state, random)));
-    if (d >= single(least_distance)) c.distance = std::min(c.distance, d);
-  }
-  const float stiffness = any(random, rest_.meetings).stiffness;
-  if (stiffness > 0) c.stiffness = stiffness;
-  return c;
 }
 
 CaseData States::triangle(const State& state, Random& random) const {

@@ -1,8 +1,8 @@
 // Verdict of the stages that answer with a force and a block.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "compare/judge/units.hpp"
 #include "compare/judge/verdict.hpp"
 
 namespace ogc::compare {
@@ -14,8 +14,6 @@ struct ForceErrors {
   double force = 0, block = 0;
 };
 
-double in_units(double error, double scale) { return error == 0 ? 0 : error / (unit_roundoff * scale); }
-
 ForceErrors errors_of(const Vec3f& force, const std::array<float, 6>& block, const ForceAnswer& exact) {
   double squared = 0;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -24,12 +22,6 @@ ForceErrors errors_of(const Vec3f& force, const std::array<float, 6>& block, con
   }
   const double off = std::hypot(force.x - exact.force.x, force.y - exact.force.y, force.z - exact.force.z);
   return {in_units(off, exact.force_scale), in_units(std::sqrt(squared), exact.block_scale)};
-}
-
-std::string text(const char* what, double a, double b) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, "%s %.9g, exact %.9g", what, a, b);
-  return buffer;
 }
 
 bool is_within(const ForceErrors& errors, std::span<const MetricInfo> infos) {
@@ -62,10 +54,10 @@ void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tall
     const ForceAnswer& exact = nearest(accepted, force, out.block[i], infos);
     const ForceErrors errors = errors_of(force, out.block[i], exact);
     if (is_within(errors, infos) && !is_within(errors_of(force, out.block[i], accepted.front()), infos)) tally.answered_not_exactly();
-    tally.error(0, errors.force, [&] { return text("modulus", std::hypot(force.x, force.y, force.z), std::hypot(exact.force.x, exact.force.y, exact.force.z)); });
+    tally.error(0, errors.force, [&] { return text("modulus %.9g, exact %.9g", std::hypot(force.x, force.y, force.z), std::hypot(exact.force.x, exact.force.y, exact.force.z)); });
     tally.error(1, errors.block, [&] {
       const auto& b = out.block[i];
-      return text("trace", double{b[0]} + b[3] + b[5], exact.block[0] + exact.block[3] + exact.block[5]);
+      return text("trace %.9g, exact %.9g", double{b[0]} + b[3] + b[5], exact.block[0] + exact.block[3] + exact.block[5]);
     });
   }
 }

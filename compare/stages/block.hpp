@@ -25,7 +25,7 @@ struct BlockQuestion {
   friend bool operator==(const BlockQuestion&, const BlockQuestion&) = default;
 };
 
-/// Positions are finite, 0 or within 2⁻²⁰ … 2²⁰ m; collapsed triangles and edges are legal.
+/// Positions are at most 2²⁰ m in modulus, however small; collapsed triangles and edges are legal.
 struct BlockIn {
   const Topology* topology = nullptr;
   std::span<const Vec3f> positions;  ///< [m], length vertex_count

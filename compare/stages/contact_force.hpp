@@ -24,9 +24,9 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and force and block are 0. e_k = q(2 − q), q = c/ε for c < ε, else 1, with
 /// c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for other sides and where the rest lengths are 0.
 ///
-/// Legal are triangles whose smallest height is 0 or at least 2⁻⁹ of their longest side, and edges of length 0 or at least 2⁻⁹ of the other one: a normal of
-/// height h is known to u/h, and the place of the foot across it to u d/h² of the width for a distance of d longest sides: a first order that holds for d up to 3
-/// needs that well below 1, and it is 3/64 at h = 2⁻⁹. Lengths are 0 or as in validate, d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one: its
+/// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and e_k g''
+/// at the exact distance, which no point of it can exceed. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;
   std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1

@@ -1,5 +1,5 @@
-// What the energies of a sweep share: the answer for one vertex of one stencil, and how it is judged. In each of these stages a question is one stencil
-// with the vertex that is asked about; the reference gives the energy's derivative and the block of method.md §4.
+// What the energies of a sweep share: a question is a stencil and the vertex asked about. Its longest length is 0 or at least
+// 2⁻³⁰ m (fourth powers are normal numbers), all are 0 or at least 2⁻⁵⁰ m (bending: 2⁻³⁰ m). The reference gives the energy's derivative and the block of method.md §4.
 #pragma once
 
 #include <array>

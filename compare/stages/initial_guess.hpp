@@ -9,8 +9,8 @@
 
 namespace ogc::compare {
 
-/// Coordinates of xᵗ, X_prev, vᵗ and a are 0 or within 2⁻¹⁰⁰ … 2²⁰, h within 2⁻²⁰ … 1, b_v 0 or within 2⁻¹⁰⁰ … 2⁴⁰: nothing overflows, and no product of
-/// two underflows.
+/// Coordinates of xᵗ, X_prev, vᵗ and a are at most 2²⁰ in modulus, however small, h is within 2⁻²⁰ … 1, b_v up to 2⁴⁰:
+/// nothing overflows.
 struct InitialGuessCase {
   Vec3f start, velocity, acceleration;  ///< xᵗ [m], vᵗ [m/s], a_ext [m/s²]
   float time_step = 0;                  ///< h [s]

@@ -39,17 +39,17 @@ compare::ForceAnswer acting(const Meeting& meeting, std::size_t own) {
   return result;
 }
 
-compare::ForceAnswer largest(const compare::ContactForceCase& q) {
-  const LargestSlopes slopes = largest_slopes(q);
+compare::ForceAnswer largest(const compare::ContactForceCase& q, double distance) {
+  const LargestSlopes slopes = largest_slopes(q, distance);
   compare::ForceAnswer bounds;
-  bounds.force_scale = slopes.first / compare::unit_roundoff;
-  bounds.block_scale = slopes.second / compare::unit_roundoff;
+  bounds.force_scale = slopes.first * units_of_whole(compare::contact_force_tolerance);
+  bounds.block_scale = slopes.second * units_of_whole(compare::contact_block_tolerance);
   return bounds;
 }
 
 std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& question, const std::vector<Meeting>& all) {
   const auto own = static_cast<std::size_t>(question.own);
-  return answers(all, largest(question), [&](const Meeting& meeting) { return acting(meeting, own); });
+  return answers(all, [&](double distance) { return largest(question, distance); }, [&](const Meeting& meeting) { return acting(meeting, own); });
 }
 
 }  // namespace

@@ -70,17 +70,18 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
 }
 
 /// f₁ is at most 1, f₁/y at most 2/ε; ‖I − n nᵀ‖ = √2.
-compare::ForceAnswer largest(const compare::FrictionForceCase& q) {
+compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distance) {
   compare::ForceAnswer bounds;
-  bounds.force_scale = q.friction * largest_slopes(q.contact).first / compare::unit_roundoff;
-  bounds.block_scale = 4 * bounds.force_scale / q.slip_limit;
+  const double force = q.friction * largest_slopes(q.contact, distance).first;
+  bounds.force_scale = force * units_of_whole(compare::friction_force_tolerance);
+  bounds.block_scale = 2 * std::sqrt(2.0) * force / q.slip_limit * units_of_whole(compare::friction_block_tolerance);
   return bounds;
 }
 
 /// Near where the contact is, or, if it acts, the slip.
 Accepted answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
   bool near = is_near_decision(question.contact, all.front());
-  std::vector<compare::ForceAnswer> accepted = answers(all, largest(question), [&](const Meeting& meeting) {
+  std::vector<compare::ForceAnswer> accepted = answers(all, [&](double distance) { return largest(question, distance); }, [&](const Meeting& meeting) {
     const Friction friction = acting(meeting, question);
     near = near || (&meeting == &all.front() && friction.near_limit);
     return friction.answer;

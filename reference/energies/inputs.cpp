@@ -4,9 +4,16 @@
 
 namespace ogc::reference {
 
+namespace {
+
+/// A length as it counts in a condition: products of shorter ones than 2⁻¹⁰⁰ m with what an energy has may underflow.
+double sized(double length) { return length == 0 ? 0 : std::max(length, 0x1p-100); }
+
+}  // namespace
+
 Triple<Input> Inputs::vector(const compare::Vec3f& p, const compare::Vec3f& from) {
   const std::array<double, 3> relative{double{p.x} - from.x, double{p.y} - from.y, double{p.z} - from.z};
-  groups_.push_back({used_, 3, std::hypot(relative[0], relative[1], relative[2]), relative});
+  groups_.push_back({used_, 3, sized(std::hypot(relative[0], relative[1], relative[2])), relative});
   Triple<Input> point;
   for (std::size_t k = 0; k < 3; ++k) point[k] = Input(relative[k], used_++);
   return point;
@@ -34,7 +41,7 @@ double norm(const Rows& rows) {
   return std::sqrt(squared);
 }
 
-double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) { return sized(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])); }
 
 }  // namespace
 

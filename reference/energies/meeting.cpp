@@ -185,6 +185,20 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
+/// A foot is known to u d/h² of the width across a height of h, in longest sides: 3/64 at h = 2⁻⁹ for a distance of d = 3.
+bool has_needle(const ContactForceCase& q, const Vertices& x) {
+  constexpr double least_squared = 0x1p-18;
+  const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };
+  if (q.sides == ContactSides::edge_edge) {
+    const double e = squared(0, 1), f = squared(2, 3);
+    return std::min(e, f) > 0 && std::min(e, f) < least_squared * std::max(e, f);
+  }
+  if (q.sides != ContactSides::point_triangle) return false;
+  const Triple<Input> n = cross(x[2] - x[1], x[3] - x[1]);
+  const double longest = std::max({squared(1, 2), squared(2, 3), squared(3, 1)});
+  return dot(n, n).value < least_squared * longest * longest;
+}
+
 bool near_features(const ContactForceCase& q) {
   const auto& x = q.vertex;
   switch (q.sides) {
@@ -218,6 +232,7 @@ double Meeting::slope_doubt() const {
 
 std::vector<Meeting> meetings(const ContactForceCase& question) {
   Meeting common = begun(question);
+  common.needle = has_needle(question, common.vertex);
   const std::vector<Parameters> all = all_parameters(common.inputs, question, common.vertex);
   const bool has_parameters = question.sides != ContactSides::point_point;
   const Input first_error = has_parameters ? common.inputs.number(0, 1) : zero, second_error = has_parameters ? common.inputs.number(0, 1) : zero;
@@ -242,18 +257,24 @@ bool is_near_decision(const ContactForceCase& question, const Meeting& exact) {
   return near(exact.radius.value) || (has_stages && near(0.5 * exact.radius.value)) || near_features(question);
 }
 
-LargestSlopes largest_slopes(const ContactForceCase& question) {
+LargestSlopes largest_slopes(const ContactForceCase& question, double distance) {
   using Once = Derivative<double, 1>;
   using Twice = Derivative<Once, 1>;
   const double r = question.contact_radius;
-  const Twice g = activation_energy(question.activation, Twice(Once(0x1p-23 * r, 0), 0), r, double{question.stiffness});
-  return {-g.value.slope[0], g.slope[0].slope[0]};
+  LargestSlopes largest;
+  // g' falls from the nearest distance on, but that of ogc_as_printed jumps at τ.
+  for (const double d : {std::max(0x1p-23 * r, distance), std::max(0.5 * r, distance)}) {
+    const Twice g = activation_energy(question.activation, Twice(Once(d, 0), 0), r, double{question.stiffness});
+    largest = {std::max(largest.first, -g.value.slope[0]), std::max(largest.second, g.slope[0].slope[0])};
+  }
+  return largest;
 }
 
-std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting) {
   std::vector<compare::ForceAnswer> all;
   bool none = false, any = false;
+  double nearest = 0;
   for (const Meeting& meeting : meetings) {
     const bool acts = meeting.acts(), ends = meeting.distance.value > 0 && meeting.may_end();
     if (!acts && all.empty()) {
@@ -262,10 +283,13 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, 
     }
     if (acts || ends) all.push_back(acting(meeting));
     none = none || !acts || ends;
-    any = any || (meeting.doubt > 0 && meeting.may_touch());
+    const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_needle = meeting.needle && (acts || ends);
+    const double distance = touches ? 0 : meeting.distance.value - meeting.distance_doubt;
+    if (touches || of_needle) nearest = any ? std::min(nearest, distance) : distance;
+    any = any || touches || of_needle;
   }
   if (none && meetings.front().acts()) all.push_back({});
-  if (any) all.push_back(largest);
+  if (any) all.push_back(largest(nearest));
   return all;
 }
 

@@ -28,6 +28,7 @@ struct Meeting {
   Input distance;               ///< d, without derivatives where it is 0
   double doubt = 0;             ///< how far the vector between the contact points can be off [m]
   double distance_doubt = 0;    ///< how far d can be off, to first order [m]
+  bool needle = false;          ///< the first order may not hold for the place of the contact points (compare/stages/contact_force.hpp)
 
   /// Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
@@ -68,15 +69,18 @@ std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
 
 /// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force and a block, by their moduli in
-/// the scales, that no answer can exceed wherever the points touch.
-std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const compare::ForceAnswer& largest,
+/// the scales, that no answer can exceed at this distance [m] or a larger one: where points cannot be told from touching ones, and of needles.
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
 
-/// −g' and g'' at 2⁻²³ r [N], [N/m]: no contact's are larger.
+/// The largest −g' and g'' from this distance on [N], [N/m]; 2⁻²³ r stands for all that are nearer.
 struct LargestSlopes {
   double first = 0, second = 0;
 };
-LargestSlopes largest_slopes(const compare::ContactForceCase& question);
+LargestSlopes largest_slopes(const compare::ContactForceCase& question, double distance);
+
+/// The scale of a number's error where all of it may be wrong, and rounded as others are.
+inline double units_of_whole(double tolerance) { return 1 / (compare::unit_roundoff * tolerance) + 1; }
 
 /// The largest modulus that an answer of several numbers can be taken for.
 double reach(const Inputs& inputs, std::span<const Input> answer);

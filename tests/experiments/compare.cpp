@@ -10,6 +10,7 @@
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/explain/explanation.hpp"
 #include "compare/judge/judge.hpp"
+#include "compare/judge/loose.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
@@ -115,16 +116,23 @@ TEST_CASE("of a mesh stage no thread begins more than one batch that nobody want
   CHECK(asked <= report.tally.questions + meshes * options.threads);
 }
 
-TEST_CASE("the fast path on the CPU agrees with the reference in every stage", "[agreement]") {
+TEST_CASE("the fast path on the CPU agrees with the reference in every stage, and no tolerance is loose without a reason", "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant fast = fast::contestant(fast::Backend::cpu);
+  std::vector<TestCase> nearest;
+  for (const CaseName& name : load_batch(OGC_SOURCE_DIR "/tests/experiments/nearest.txt")) nearest.push_back(generate(name));
+  std::vector<StageReport> reports = judge_cases(nearest, fast, authority);
   for (const Stage stage : all_stages) {
     JudgeOptions options = few_cases(stage);
     options.cases *= 10;
-    const StageReport report = judge_stage(stage, fast, authority, options);
-    INFO(first_mismatch(report));
-    REQUIRE(report.passed());
+    reports.push_back(judge_stage(stage, fast, authority, options));
   }
+  for (const StageReport& report : reports) {
+    INFO(first_mismatch(report));
+    CHECK(report.tally.mismatched == 0);
+    CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));  // of few cases the grey share says nothing
+  }
+  CHECK(loose_problems(reports) == std::vector<std::string>{});
 }
 
 TEST_CASE("cases that once told the two sides apart no longer do", "[agreement]") {

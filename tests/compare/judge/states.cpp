@@ -29,6 +29,32 @@ Scene full_scene() {
   scene.bodies[0].fixed = false;
   scene.bodies[2].fixed = true;
   scene.springs.push_back({1, 5, 20, 0.5, 0.001});
+  scene.settings.contact_radius = 2;  // frames lie within it
+  return scene;
+}
+
+/// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the upper one falls at 1 mm/s.
+Scene facing_sheets() {
+  Scene scene;
+  scene.name = "facing_sheets";
+  constexpr Index side = 5;
+  constexpr double edge = 0.01;
+  for (Index body = 0; body < 3; ++body) {
+    for (Index i = 0; i < side * side; ++i)
+      scene.mesh.positions.push_back({edge * (i % side) + (body == 2 ? 1.0 : 0.0), body == 1 ? 0.0025 : 0.0, edge * (i / side)});
+    for (Index j = 0; j + 1 < side; ++j)
+      for (Index i = 0; i + 1 < side; ++i) {
+        const Index a = body * side * side + j * side + i;
+        scene.mesh.triangles.push_back({a, a + 1, a + side});
+        scene.mesh.triangles.push_back({a + 1, a + side + 1, a + side});
+      }
+    scene.bodies.push_back({.name = "sheet_" + std::to_string(body), .first_vertex = body * side * side, .vertex_count = side * side,
+                            .first_triangle = body * 2 * (side - 1) * (side - 1), .triangle_count = 2 * (side - 1) * (side - 1), .fixed = false, .material = {}});
+  }
+  scene.rest_positions = scene.mesh.positions;
+  scene.velocities.assign(scene.mesh.positions.size(), {});
+  for (Index v = side * side; v < 2 * side * side; ++v) scene.velocities[static_cast<std::size_t>(v)] = {0, -0.001, 0};
+  round_to_single(scene);
   return scene;
 }
 
@@ -71,12 +97,37 @@ TEST_CASE("every stage has cases of a run that has everything, as they are and m
   }
 }
 
+TEST_CASE("stencils of contact and friction are contacts of the frame, and nearly all of them act", "[property]") {
+  const Scratch scratch;
+  const Scene scene = facing_sheets();
+  const Authority authority = ogc::reference::authority();
+  RunWriter run(scratch / "run", scene, recorded_provenance(), {});
+  run.add_frame({.step = 0, .time = 0, .positions = to_single(scene.mesh.positions), .velocities = to_single(scene.velocities), .bounds = {}});
+  run.finish("finished");
+  const States states(scratch / "run", authority);
+  int acting = 0, pairs_in_reach = 0;
+  constexpr int count = 200;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto make = [&](Stage stage) { return generate({stage, "states", 1, i, states.folder(), {}}, &states).data; };
+    const auto contact = std::get<ContactForceCase>(make(Stage::contact_force));
+    acting += authority.contact_force({{contact}}).accepted[0][0].block != std::array<double, 6>{};
+    const auto friction = std::get<FrictionForceCase>(make(Stage::friction_force));
+    for (const Vec3f& x : friction.start) CHECK(x.x < 0.5f);  // nothing touches the third sheet
+    CHECK(std::get<ActivationCase>(make(Stage::activation)).distance < static_cast<float>(scene.settings.contact_radius));
+    const auto pair = std::get<ClosestFaceCase>(make(Stage::closest_face));
+    pairs_in_reach += authority.closest_face({{pair.point}, {pair.triangle}}).distance[0] < scene.settings.contact_radius;
+  }
+  CHECK(acting >= count * 9 / 10);
+  CHECK(pairs_in_reach >= count / 3);
+}
+
 TEST_CASE("a stage of which a run has nothing says why, in the report and to who asks for a case", "[unit]") {
   const Scratch scratch;
   const Authority authority = ogc::reference::authority();
   const States states(write_run(scratch / "run", recorded_scene()), authority);
   REQUIRE(states.missing(Stage::spring) == "its scene has no spring");
   REQUIRE_THAT(states.missing(Stage::sweep), ContainsSubstring("has no triangle"));
+  REQUIRE(states.missing(Stage::contact_force) == "none of its frames has a contact");
   REQUIRE_THROWS_WITH(generate({Stage::spring, "states", 1, 0, states.folder(), {}}, &states), ContainsSubstring("its scene has no spring"));
   Contestant contestant;
   contestant.spring = [&](const SpringIn& in) {

@@ -149,3 +149,20 @@ TEST_CASE("where a decision is grey both answers are accepted, the exact one fir
   REQUIRE(on_side[0].force.z == 0);
   REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);  // not to be told from touching: anything up to the force at 2^-23 r
 }
+
+TEST_CASE("of a needle no force is accepted that is larger than at the exact distance, and of other shapes none at all", "[unit]") {
+  ContactForceCase c = above(0.3f);
+  c.vertex = {{{5, 0.005f, 0.3f}, {0, 0, 0}, {10, 0, 0}, {5, 0.01f, 0}}};
+  const auto needle = reference::contact_force(c);
+  REQUIRE(needle.size() == 2);
+  CHECK(needle[1].force == compare::Vec3{});
+  CHECK(compare::contact_force_tolerance * compare::unit_roundoff * needle[1].force_scale == Approx(8 * (0.5 - 0.3)).epsilon(1e-4));  // k (r − d)
+  CHECK(compare::contact_block_tolerance * compare::unit_roundoff * needle[1].block_scale == Approx(8).epsilon(1e-4));
+  c.vertex[3].y = 0.1f;
+  c.vertex[0].y = 0.03f;
+  CHECK(reference::contact_force(c).size() == 1);
+  c.sides = ContactSides::edge_edge;
+  c.vertex = {{{-5, 0, 0}, {5, 0, 0}, {0.1f, 0, 0.3f}, {0.1f, 0.01f, 0.3f}}};
+  CHECK(reference::contact_force(c).back().force_scale > 0);
+  CHECK(reference::contact_force(c).back().force == compare::Vec3{});
+}
