@@ -12,6 +12,12 @@ OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vec
   return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
 }
 
+/// The same from cross products, in which the parts along e cancel term by term: of parts across it that are 2⁻¹⁰⁰ of those along
+/// it, as small coordinates are beside an edge on an axis, the sums of the form above keep nothing even in double-double.
+OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wide>& w, const Vector<Wide>& e) {
+  return dot(cross(u, e), cross(w, e));
+}
+
 /// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for an edge of zero length.
 struct End {
   static constexpr int degree = 2;

@@ -145,6 +145,15 @@ TEST_CASE("cases that once told the two sides apart no longer do", "[agreement]"
   }
 }
 
+TEST_CASE("coordinates of 10^-28 beside an axis decide which face is closest", "[agreement]") {
+  const Vec3f a{0, 0, 0.25f}, b{1.1920929e-07f, 0, 0}, c{0, 4.03896783e-28f, 0};
+  const CaseName name{Stage::closest_face, "dust", 1, 0, "", {}};
+  const std::vector<TestCase> cases{{name, ClosestFaceCase{{}, {a, b, c}}}, {name, ClosestFaceCase{{}, {b, c, a}}}, {name, ClosestFaceCase{{}, {b, a, c}}}};
+  const std::vector<StageReport> reports = judge_cases(cases, fast::contestant(fast::Backend::cpu), reference::authority());
+  INFO(first_mismatch(reports[0]));
+  CHECK(reports[0].tally.mismatched == 0);
+}
+
 TEST_CASE("what a contestant throws reaches the caller", "[agreement]") {
   const Authority authority = reference::authority();
   Contestant broken = tests::exact_contestant(authority);
