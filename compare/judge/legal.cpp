@@ -127,7 +127,7 @@ struct Checked {
     problem.require(c.positions.size() == n && c.rigid_groups.size() == n,
                     "an array does not have one entry for each vertex");
     problem.vectors("a coordinate", c.positions);
-    problem.number("a contact radius", c.contact_radius, least, most);
+    problem.number("a contact radius", c.contact_radius, 0x1p-60f, most);  // its square is a normal number
     problem.number("a query radius", c.query_radius, c.contact_radius, vast);
   }
   void operator()(const BlockCase& c) {
@@ -146,7 +146,7 @@ struct Checked {
   }
   void operator()(const ActivationCase& c) {
     problem.number("a contact radius", c.contact_radius, least, most);
-    problem.number("a distance", c.distance, std::min(least, 0x1p-23f * c.contact_radius), most);
+    problem.number("a distance", c.distance, std::min(least, 0x1p-40f * c.contact_radius), most);
     problem.number("a stiffness", c.stiffness, 0x1p-30f, vast);
   }
   void operator()(const TruncateCase& c) {

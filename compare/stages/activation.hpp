@@ -9,7 +9,8 @@
 
 namespace ogc::compare {
 
-/// n cases: r [m] and k_c [N/m] within 2⁻²⁰ … 2²⁰, distance d [m] from 2⁻²⁰ or 2⁻²³ r to 2²⁰; which energy.
+/// n cases: r [m] and k_c [N/m] within 2⁻²⁰ … 2²⁰, distance d [m] from the smaller of
+/// 2⁻²⁰ and 2⁻⁴⁰ r to 2²⁰; which energy.
 struct ActivationIn {
   std::vector<float> distance, contact_radius, stiffness;
   std::vector<ContactActivation> activation;

@@ -1,5 +1,7 @@
 #include "compare/judge/states.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/corpus.hpp"
@@ -33,15 +35,19 @@ Scene full_scene() {
   return scene;
 }
 
-/// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the upper one falls at 1 mm/s.
+/// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the upper
+/// one falls at 1 mm/s, and is turned: contacts of parallel edges have no stiffness.
 Scene facing_sheets() {
   Scene scene;
   scene.name = "facing_sheets";
   constexpr Index side = 5;
   constexpr double edge = 0.01;
   for (Index body = 0; body < 3; ++body) {
-    for (Index i = 0; i < side * side; ++i)
-      scene.mesh.positions.push_back({edge * (i % side) + (body == 2 ? 1.0 : 0.0), body == 1 ? 0.0025 : 0.0, edge * (i / side)});
+    for (Index i = 0; i < side * side; ++i) {
+      const double x = edge * (i % side), z = edge * (i / side), angle = body == 1 ? 0.3 : 0.0;
+      scene.mesh.positions.push_back({x * std::cos(angle) - z * std::sin(angle) + (body == 2 ? 1.0 : 0.0),
+                                      body == 1 ? 0.0025 : 0.0, x * std::sin(angle) + z * std::cos(angle)});
+    }
     for (Index j = 0; j + 1 < side; ++j)
       for (Index i = 0; i + 1 < side; ++i) {
         const Index a = body * side * side + j * side + i;
@@ -102,7 +108,12 @@ TEST_CASE("stencils of contact and friction are contacts of the frame, and nearl
   const Scene scene = facing_sheets();
   const Authority authority = ogc::reference::authority();
   RunWriter run(scratch / "run", scene, recorded_provenance(), {});
-  run.add_frame({.step = 0, .time = 0, .positions = to_single(scene.mesh.positions), .velocities = to_single(scene.velocities), .bounds = {}});
+  const std::vector<Vec3f> positions = to_single(scene.mesh.positions);
+  run.add_frame({.step = 0,
+                 .time = 0,
+                 .positions = positions,
+                 .velocities = to_single(scene.velocities),
+                 .bounds = std::vector<float>(positions.size(), 0.0025f)});
   run.finish("finished");
   const States states(scratch / "run", authority);
   int acting = 0, pairs_in_reach = 0;
