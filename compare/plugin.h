@@ -22,7 +22,7 @@
 #include <stdint.h>
 
 /* Of this interface. A library built for a newer one is refused by name. */
-#define OGC_PLUGIN_VERSION 4
+#define OGC_PLUGIN_VERSION 5
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1
@@ -279,6 +279,7 @@ typedef struct ogc_contact_force_case {
   float rest_squared[2];
   float contact_radius, stiffness;
   int64_t activation;
+  uint8_t together; /* bit k: vertex k is updated together with the own one */
 } ogc_contact_force_case;
 
 typedef struct ogc_contact_force_in {

@@ -14,6 +14,7 @@ struct Writer {
   Json json;
   void operator()(const char* name, float x) { json[name] = hexadecimal(x); }
   void operator()(const char* name, std::int32_t x) { json[name] = x; }
+  void operator()(const char* name, std::uint8_t bits) { json[name] = bits; }
   void operator()(const char* name, Named auto x) { json[name] = names_of(x)[static_cast<std::size_t>(x)]; }
   template <std::size_t n>
   void operator()(const char* name, const std::array<Vec3f, n>& points) {
@@ -31,6 +32,13 @@ struct Reader {
   void operator()(const char* name, std::int32_t& x) const {
     x = json.at(name).get<std::int32_t>();
     if (x < 0 || x > 3) throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
+  }
+  /// Bits of vertices; none in files that are older than they.
+  void operator()(const char* name, std::uint8_t& bits) const {
+    const auto given = json.value(name, std::int32_t{0});
+    if (given < 0 || given > 15)
+      throw InputError(std::string(name) + ": " + std::to_string(given) + " are not bits of four vertices; use 0 to 15");
+    bits = static_cast<std::uint8_t>(given);
   }
   template <Named Enum>
   void operator()(const char* name, Enum& x) const {

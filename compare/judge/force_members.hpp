@@ -67,6 +67,7 @@ void visit_members(Case& c, Visit visit) {
   visit("contact_radius", "m", c.contact_radius);
   visit("stiffness", "N/m", c.stiffness);
   visit("activation", "", c.activation);
+  visit("together", "", c.together);
 }
 
 template <class Case, class Visit>

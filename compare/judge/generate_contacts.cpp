@@ -266,6 +266,13 @@ CaseData contact_variants(Random& random) {
   return question;
 }
 
+/// Any vertices are updated together.
+CaseData contact_together(Random& random) {
+  auto question = std::get<ContactForceCase>(contact_case(random, any_shape(random)));
+  question.together = static_cast<std::uint8_t>(1 + random.below(15));
+  return question;
+}
+
 /// c → ε and c → 0 at the last detection.
 CaseData contact_mollifier(Random& random) {
   Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
@@ -346,7 +353,14 @@ CaseData friction_variants(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 14> contact_table{{{"uniform", 30, true, contact_uniform},
+CaseData friction_together(Random& random) {
+  auto question =
+      std::get<FrictionForceCase>(friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
+  question.contact.together = static_cast<std::uint8_t>(1 + random.below(15));
+  return question;
+}
+
+constexpr std::array<Generator, 15> contact_table{{{"uniform", 30, true, contact_uniform},
                                                   {"bits", 10, false, contact_bits},
                                                   {"dust", 8, false, contact_uniform},
                                                   {"lattice", 15, false, contact_lattice},
@@ -359,8 +373,9 @@ constexpr std::array<Generator, 14> contact_table{{{"uniform", 30, true, contact
                                                   {"ladder.touching", 7, false, contact_touching},
                                                   {"ladder.mollifier", 5, false, contact_mollifier},
                                                   {"ladder.variants", 25, false, contact_variants},
+                                                  {"ladder.together", 12, false, contact_together},
                                                   {"ladder.boundary", 150, false, contact_boundary}}};
-constexpr std::array<Generator, 12> friction_table{{{"uniform", 30, true, friction_uniform},
+constexpr std::array<Generator, 13> friction_table{{{"uniform", 30, true, friction_uniform},
                                                    {"bits", 10, false, friction_bits},
                                                    {"lattice", 12, false, friction_lattice},
                                                    {"ladder.feature", 14, false, friction_feature},
@@ -371,6 +386,7 @@ constexpr std::array<Generator, 12> friction_table{{{"uniform", 30, true, fricti
                                                    {"ladder.limit", 8, false, friction_limit},
                                                    {"ladder.lift", 8, false, friction_lift},
                                                    {"ladder.variants", 20, false, friction_variants},
+                                                   {"ladder.together", 12, false, friction_together},
                                                    {"ladder.boundary", 140, false, friction_boundary}}};
 
 }  // namespace

@@ -195,6 +195,7 @@ struct Checked {
   }
   void operator()(const ContactForceCase& c) {
     problem.require(c.own >= 0 && c.own < vertex_count(c.sides), "no such vertex is asked about");
+    problem.require(c.together < 16, "bits of more than four vertices are set");
     problem.vectors("a coordinate", c.vertex);
     problem.vectors("a coordinate at the detection", c.detected);
     const auto count = static_cast<std::size_t>(vertex_count(c.sides));

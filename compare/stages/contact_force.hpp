@@ -20,13 +20,14 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 }
 
 /// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the closest points of the closed faces, for nearly parallel edges those of closest_points. Force
-/// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) w² n nᵀ (method.md §4). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
+/// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together, itself included: w² mostly
+/// (method.md §4, §7). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
 /// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and force and block are 0. e_k = q(2 − q), q = c/ε for c < ε, else 1, with
 /// c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for other sides and where the rest lengths are 0.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one: its
-/// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and e_k g''
-/// at the exact distance, which no point of it can exceed. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and 2 e_k g''
+/// at the exact distance, which no point of it can exceed (moduli of weights add up to 2). d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;
   std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1
@@ -35,6 +36,7 @@ struct ContactForceCase {
   std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 in meshes without triangles, where nothing is mollified
   float contact_radius = 0, stiffness = 0;  ///< r [m], k_c [N/m]
   ContactActivation activation = ContactActivation::ogc;
+  std::uint8_t together = 0;  ///< bit k: vertex k is updated together with the own one, whose bit means nothing
 };
 
 struct ContactForceIn {
@@ -47,8 +49,9 @@ struct ContactForceIn {
 /// (4; of ipc_log 9), its products with weight and normal (2): 47. e_k comes another way: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q),
 /// its product with k_c: 15.
 inline constexpr double contact_force_tolerance = 47;
-/// As far as the normal 36, the curvature (5; of ipc_log 8), w² and its product (2), an outer product (2).
-inline constexpr double contact_block_tolerance = 48;
+/// As far as the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
+/// (2), an outer product (2).
+inline constexpr double contact_block_tolerance = 51;
 /// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a root (1), twice for weights that are
 /// not quite those of the closest points. Contacts within it of r, of another feature, of touching or, with
 /// ogc_as_printed, of the jump at τ are grey. Where they cannot be told from touching,

@@ -19,7 +19,7 @@ static_assert(sizeof(Vec3f) == sizeof(ogc_vec3));
 static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) && offsetof(MembraneCase, damping_form) == offsetof(ogc_membrane_case, damping_form));
 static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) && offsetof(BendingCase, damping_form) == offsetof(ogc_bending_case, damping_form));
 static_assert(sizeof(SpringCase) == sizeof(ogc_spring_case) && offsetof(SpringCase, damping_form) == offsetof(ogc_spring_case, damping_form));
-static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) && offsetof(ContactForceCase, activation) == offsetof(ogc_contact_force_case, activation));
+static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) && offsetof(ContactForceCase, together) == offsetof(ogc_contact_force_case, together));
 static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) && offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
 static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) && offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
 static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) && offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));

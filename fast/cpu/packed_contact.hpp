@@ -4,6 +4,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 
 #include "fast/cpu/pack.hpp"
 #include "fast/cpu/packed_items.hpp"
@@ -96,10 +97,23 @@ P own_weight(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>&
   return P::of_each([&](int k) { return slot[items.at[k]->own][k]; });
 }
 
+/// ContactAt::majorant of each.
+template <class P>
+P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights) {
+  float slot[4][P::width];
+  for (int s = 0; s < 4; ++s) weights.slot[s].store(slot[s]);
+  return P::of_each([&](int k) {
+    const float own = std::abs(slot[items.at[k]->own][k]);
+    float together = own;
+    for (int s = 0; s < 4; ++s) together += (items.at[k]->together >> s & 1) != 0 ? std::abs(slot[s][k]) : 0.0F;
+    return own * together;
+  });
+}
+
 /// add_friction at items with friction.
 template <class P>
 void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights, const Vector<P>* x,
-              const Vector<P>& normal, P weight, P normal_force, ForceAndBlockOf<P>& sum) {
+              const Vector<P>& normal, P weight, P majorant, P normal_force, ForceAndBlockOf<P>& sum) {
   const P friction = items.each([](const ContactIncidence& i) { return i.friction; });
   const typename P::Mask slips = friction > 0.0F;
   if (is_false(slips)) return;
@@ -110,7 +124,7 @@ void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, co
   const P* w = weights.slot;
   const Vector<P> relative = w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2] + w[3] * moved[3];
   ForceAndBlockOf<P> with = sum;
-  add_friction(normal, relative, weight, friction, normal_force, view.friction_limit, with);
+  add_friction(normal, relative, weight, majorant, friction, normal_force, view.friction_limit, with);
   sum = selected<P>(slips, with, sum);
 }
 
@@ -127,8 +141,9 @@ void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items
   if (is_false(acts)) return;
   const ContactShapeOf<P> shape{(1.0F / distance) * separation, distance, acts};
   ForceAndBlockOf<P> term;
-  const P normal_force = add_contact(ContactActivation::ogc, shape, weight, view.radius, items.each([](const Incidence& i) { return i.stiffness; }), term);
-  add_slip(view, items, weights, x, shape.normal, weight, normal_force, term);
+  const P majorant = majorants(items, weights);
+  const P normal_force = add_contact(ContactActivation::ogc, shape, weight, majorant, view.radius, items.each([](const Incidence& i) { return i.stiffness; }), term);
+  add_slip(view, items, weights, x, shape.normal, weight, majorant, normal_force, term);
   sum += selected<P>(acts, term, {});
 }
 

@@ -1,5 +1,5 @@
 // A contact between two sides, each the closed face of a record (fast/contact_view.hpp), at the positions that a vertex update reads: closest points
-// in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4).
+// in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4, and §7 for w²).
 //
 //   kind              slots       Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals
 //   point_point       0 | 2       reaction whatever the weights. Slots that a kind lacks repeat slot 0: their weight is 0 and they cost no branch.
@@ -168,13 +168,15 @@ OGC_HD T activation_distance(const T& distance, float radius) {
   return select(distance > least, distance, T{least});
 }
 
-/// Adds the force and block of a vertex with weight w to `sum`. Returns the normal force λ = −g' ≥ 0 [N].
+/// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt). Returns
+/// the normal force λ = −g' ≥ 0 [N].
 template <class T>
-OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, const T& weight, float radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
+OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
+                     float radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
   const T distance = activation_distance(shape.distance, radius);
   const ActivationSlopeOf<T> activation = activation_slope(kind, distance, radius, stiffness);
   sum.add_force(-activation.slope * weight, shape.normal);
-  sum.add_outer(activation.curvature * (weight * weight), shape.normal);
+  sum.add_outer(activation.curvature * majorant, shape.normal);
   return -activation.slope;
 }
 

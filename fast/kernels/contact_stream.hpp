@@ -62,6 +62,11 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   return contact;
 }
 
+/// Bit k: the kind has slot k.
+OGC_HD inline int slots_of(ContactKind kind) {
+  return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
+}
+
 /// Slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the second side otherwise.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
@@ -101,7 +106,10 @@ struct ResolveContact {
     ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number]) : contact_of(tables, view.vertex_facet[number]);
     contact.own = slot_of_role(edge_edge, contact.kind, static_cast<int>(code & 3u));
     const int own = colour[contact.index[contact.own]];
-    for (int& index : contact.index) {
+    for (int k = 0; k < 4; ++k) {
+      int& index = contact.index[k];
+      const bool is_other = k != contact.own && (slots_of(contact.kind) >> k & 1) != 0;
+      if (is_other && colour[index] == own) contact.together |= static_cast<std::uint8_t>(1 << k);
       if (colour[index] < own) index = ~index;
     }
     stream[place] = contact;

@@ -14,16 +14,17 @@ OGC_HD inline float friction_slope_over_slip(float slip, float limit) {
   return slip < limit ? (2.0f - slip / limit) / limit : 1.0f / slip;
 }
 
-/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ). `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N];
+/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), `majorant` in place of w². `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N];
 /// `limit` ε_v h [m].
 template <class T>
-OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& friction, const T& normal_force, float limit,
+OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& majorant, const T& friction,
+                         const T& normal_force, float limit,
                          ForceAndBlockOf<T>& sum) {
   const Vector<T> slip = moved - dot(normal, moved) * normal;
   const T strength = friction * normal_force * friction_slope_over_slip(root(dot(slip, slip)), limit);
   sum.add_force(-strength * weight, slip);
-  sum.add_identity(strength * (weight * weight));
-  sum.add_outer(-strength * (weight * weight), normal);
+  sum.add_identity(strength * majorant);
+  sum.add_outer(-strength * majorant, normal);
 }
 
 }  // namespace ogc::fast

@@ -51,6 +51,7 @@ struct alignas(16) ContactIncidence {
   float stiffness = 0, friction = 0;
   ContactKind kind = ContactKind::point_point;
   std::uint8_t own = 0;
+  std::uint8_t together = 0;  ///< bit k: the vertex of slot k, another one than the own, has its colour
 };
 
 /// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
@@ -171,6 +172,7 @@ struct ContactAt {
   ContactWeights weights;
   ContactShape shape;
   float weight = 0;  ///< of the vertex itself
+  float majorant = 0;  ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
 
   OGC_HD bool acts() const { return shape.acts && weight != 0; }
 };
@@ -178,7 +180,10 @@ struct ContactAt {
 template <ContactSort sort = ContactSort::any>
 OGC_HD ContactAt contact_at(const ContactIncidence& incidence, const ContactReads& reads, float radius) {
   const ContactWeights weights = contact_weights<sort>(incidence.kind, reads.x);
-  return {weights, contact_shape(weighted_sum(weights, reads.x), radius), weights.of(incidence.own)};
+  const float own = weights.of(incidence.own);
+  float together = fabsf(own);
+  for (int k = 0; k < 4; ++k) together += (incidence.together >> k & 1) != 0 ? fabsf(weights.slot[k]) : 0.0f;
+  return {weights, contact_shape(weighted_sum(weights, reads.x), radius), own, fabsf(own) * together};
 }
 
 /// The friction of a contact that acts with the normal force λ.
@@ -189,7 +194,7 @@ OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const
   for (int k = 0; k < 4; ++k) moved[k] = reads.x[k] - reads.start[k];
   const float* w = at.weights.slot;
   const Vec relative = w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2] + w[3] * moved[3];
-  add_friction(at.shape.normal, relative, at.weight, incidence.friction, normal_force, limit, sum);
+  add_friction(at.shape.normal, relative, at.weight, at.majorant, incidence.friction, normal_force, limit, sum);
 }
 
 template <ContactSort sort>
@@ -197,7 +202,7 @@ OGC_HD ForceAndBlock contact_term(const SweepView& view, ContactActivation kind,
   ForceAndBlock term;
   const ContactAt at = contact_at<sort>(incidence, reads, view.radius);
   if (!at.acts()) return term;
-  const float normal_force = add_contact(kind, at.shape, at.weight, view.radius, incidence.stiffness, term);
+  const float normal_force = add_contact(kind, at.shape, at.weight, at.majorant, view.radius, incidence.stiffness, term);
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, term);
   return term;
 }

@@ -20,6 +20,7 @@ void append(ContactBatch& batch, const compare::ContactForceCase& contact, const
   batch.slip_limit.push_back(slip_limit);
   batch.role.push_back(contact.own);
   batch.is_edge_edge.push_back(edge_edge);
+  batch.together.push_back(contact.together);
   batch.activation.push_back(contact.activation);
 }
 

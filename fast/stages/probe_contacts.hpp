@@ -21,7 +21,7 @@ struct ContactBatch {
   std::vector<compare::Vec3f> positions, detected, start;
   std::vector<float> rest_squared, radius, slip_limit;
   std::vector<int> body, role;
-  std::vector<std::uint8_t> is_edge_edge;
+  std::vector<std::uint8_t> is_edge_edge, together;
   std::vector<ContactActivation> activation;
 };
 
@@ -36,7 +36,7 @@ struct ProbeContact {
   const EdgeEdgeRecord* edge_edge;
   const float *radius, *slip_limit;
   const int* role;
-  const std::uint8_t* is_edge_edge;
+  const std::uint8_t *is_edge_edge, *together;
   const ContactActivation* activation;
   bool friction;  ///< of friction alone, or of the normal force alone
   ForceArrays out;
@@ -47,12 +47,16 @@ struct ProbeContact {
     here.friction_limit = slip_limit[i];
     ContactIncidence incidence = is_edge_edge[i] != 0 ? contact_of(tables, edge_edge[i]) : contact_of(tables, vertex_facet[i]);
     incidence.own = slot_of_role(is_edge_edge[i] != 0, incidence.kind, role[i]);
+    for (int k = 0; k < 4; ++k) {
+      const int slot = slot_of_role(is_edge_edge[i] != 0, incidence.kind, k);
+      if (k != role[i] && (together[i] >> k & 1) != 0) incidence.together |= static_cast<std::uint8_t>(1 << slot);
+    }
     ForceAndBlock sum;
     const ContactReads reads = read_contact(here, incidence);
     const ContactAt at = contact_at(incidence, reads, here.radius);
     if (at.acts()) {
       ForceAndBlock normal;
-      const float normal_force = add_contact(activation[i], at.shape, at.weight, here.radius, incidence.stiffness, normal);
+      const float normal_force = add_contact(activation[i], at.shape, at.weight, at.majorant, here.radius, incidence.stiffness, normal);
       if (friction) add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
       else sum = normal;
     }
@@ -74,7 +78,8 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   backend.for_each(static_cast<int>(n),
                    ProbeContact{view, tables, memory.template in<VertexFacetRecord>(batch.vertex_facet), memory.template in<EdgeEdgeRecord>(batch.edge_edge),
                                 memory.template in<float>(batch.radius), memory.template in<float>(batch.slip_limit), memory.template in<int>(batch.role),
-                                memory.template in<std::uint8_t>(batch.is_edge_edge), memory.template in<ContactActivation>(batch.activation), friction, force_arrays(memory, out, n)});
+                                memory.template in<std::uint8_t>(batch.is_edge_edge), memory.template in<std::uint8_t>(batch.together),
+                                memory.template in<ContactActivation>(batch.activation), friction, force_arrays(memory, out, n)});
   memory.fetch();
   return out;
 }

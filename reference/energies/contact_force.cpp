@@ -9,10 +9,10 @@ namespace {
 using ByDistance = Derivative<Input, 1>;
 using ByDistanceTwice = Derivative<ByDistance, 1>;
 
-/// d as a function of the vertex asked about, at the origin of its displacements.
-ByVertex distance_of(const Meeting& meeting, std::size_t own) {
+/// d as a function of a vertex with this weight, at the origin of its displacements.
+ByVertex distance_of(const Meeting& meeting, const Input& weight) {
   Triple<ByVertex> apart = fixed(meeting.separation());
-  apart = apart + ByVertex(meeting.weight[own]) * own_vertex();
+  apart = apart + ByVertex(weight) * own_vertex();
   return sqrt(dot(apart, apart));
 }
 
@@ -27,15 +27,16 @@ Slopes slopes(const Meeting& meeting) {
   return {energy.value.slope[0], energy.slope[0].slope[0]};
 }
 
-compare::ForceAnswer acting(const Meeting& meeting, std::size_t own) {
-  const ByVertex distance = distance_of(meeting, own);
+compare::ForceAnswer acting(const Meeting& meeting, const compare::ContactForceCase& question) {
+  const ByVertex distance = distance_of(meeting, meeting.weight[static_cast<std::size_t>(question.own)]),
+                 of_whole = distance_of(meeting, 1.0);
   const ByVertex energy = meeting.energy(meeting.acting_distance(distance));
   const Slopes at = slopes(meeting);
   Block block;
-  add_outer(block, at.second, distance, distance);
+  add_outer(block, at.second * meeting.majorant(question), of_whole, of_whole);
   compare::ForceAnswer result = answer(meeting.inputs, energy, block);
   result.force_scale += meeting.slope_doubt() / (compare::unit_roundoff * compare::contact_force_tolerance);
-  add_weight_error(meeting, meeting.weight[own], reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}), result);
+  add_weight_error(meeting, question, reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}), result);
   return result;
 }
 
@@ -43,13 +44,12 @@ compare::ForceAnswer largest(const compare::ContactForceCase& q, double distance
   const LargestSlopes slopes = largest_slopes(q, distance);
   compare::ForceAnswer bounds;
   bounds.force_scale = slopes.first * units_of_whole(compare::contact_force_tolerance);
-  bounds.block_scale = slopes.second * units_of_whole(compare::contact_block_tolerance);
+  bounds.block_scale = 2 * slopes.second * units_of_whole(compare::contact_block_tolerance);
   return bounds;
 }
 
 std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& question, const std::vector<Meeting>& all) {
-  const auto own = static_cast<std::size_t>(question.own);
-  return answers(all, [&](double distance) { return largest(question, distance); }, [&](const Meeting& meeting) { return acting(meeting, own); });
+  return answers(all, [&](double distance) { return largest(question, distance); }, [&](const Meeting& meeting) { return acting(meeting, question); });
 }
 
 }  // namespace

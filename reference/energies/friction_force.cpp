@@ -50,16 +50,19 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   }
   const Input limit = inputs.number(q.slip_limit), strength = inputs.number(q.friction) * normal_force(meeting);
   const Triple<Input> normal = Input(1.0) / meeting.distance * meeting.separation();
-  const Triple<ByVertex> all = fixed(moved) + ByVertex(meeting.weight[own]) * own_vertex();
-  const Triple<ByVertex> slip = all - dot(fixed(normal), all) * fixed(normal);
+  const auto slip_of = [&](const Input& weight) {
+    const Triple<ByVertex> all = fixed(moved) + ByVertex(weight) * own_vertex();
+    return all - dot(fixed(normal), all) * fixed(normal);
+  };
+  const Triple<ByVertex> slip = slip_of(meeting.weight[own]), of_whole = slip_of(1.0);
   const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
   const Input y = length(inputs, u), stiffness = strength * slope_over_slip(y, limit);
   const ByVertex energy = chained(Input(strength * potential(y, limit)), Input(Input(0.5) * stiffness), dot(slip, slip));
   Block block;
-  for (const ByVertex& along : slip) add_outer(block, stiffness, along, along);
+  for (const ByVertex& along : of_whole) add_outer(block, stiffness * meeting.majorant(q.contact), along, along);
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double stiff = reach(inputs, {&stiffness, 1});
-  add_weight_error(meeting, meeting.weight[own], stiff * reach(inputs, u), 2 * stiff, result);
+  add_weight_error(meeting, q.contact, stiff * reach(inputs, u), 2 * stiff, result);
   // Where both vanish, at the radius and without slip, the first order says nothing of their product.
   result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) * inputs.condition(u);
   const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;
@@ -69,12 +72,12 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   return {result, std::abs(beyond.value) <= compare::near_factor * inputs.condition({&beyond, 1})};
 }
 
-/// f₁ is at most 1, f₁/y at most 2/ε; ‖I − n nᵀ‖ = √2.
+/// f₁ is at most 1, f₁/y at most 2/ε, |w| Σ |w_u| at most 2; ‖I − n nᵀ‖ = √2.
 compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distance) {
   compare::ForceAnswer bounds;
   const double force = q.friction * largest_slopes(q.contact, distance).first;
   bounds.force_scale = force * units_of_whole(compare::friction_force_tolerance);
-  bounds.block_scale = 2 * std::sqrt(2.0) * force / q.slip_limit * units_of_whole(compare::friction_block_tolerance);
+  bounds.block_scale = 4 * std::sqrt(2.0) * force / q.slip_limit * units_of_whole(compare::friction_block_tolerance);
   return bounds;
 }
 

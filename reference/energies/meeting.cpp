@@ -215,7 +215,25 @@ bool near_features(const ContactForceCase& q) {
   }
 }
 
+Input modulus(const Input& x) { return x.value < 0 ? -x : x; }
+
+/// Of the vertex asked about, and then of those that are updated together with it.
+std::vector<Input> updated_weights(const Meeting& meeting, const ContactForceCase& q) {
+  const auto own = static_cast<std::size_t>(q.own);
+  std::vector<Input> all{meeting.weight[own]};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(q.sides)); ++k)
+    if (k != own && (q.together >> k & 1) != 0) all.push_back(meeting.weight[k]);
+  return all;
+}
+
 }  // namespace
+
+Input Meeting::majorant(const ContactForceCase& question) const {
+  const std::vector<Input> all = updated_weights(*this, question);
+  Input sum = zero;
+  for (const Input& w : all) sum = sum + modulus(w);
+  return modulus(all.front()) * sum;
+}
 
 Triple<Input> Meeting::separation() const {
   Triple<Input> sum;
@@ -299,12 +317,19 @@ double reach(const Inputs& inputs, std::span<const Input> answer) {
   return std::sqrt(squared) + compare::contact_grey * compare::unit_roundoff * inputs.condition(answer);
 }
 
-void add_weight_error(const Meeting& meeting, const Input& weight, double force, double curvature, compare::ForceAnswer& answer) {
-  if (meeting.inputs.condition({&weight, 1}) == 0) return;
-  double worst = 0;
+void add_weight_error(const Meeting& meeting, const ContactForceCase& question, double force, double curvature,
+                      compare::ForceAnswer& answer) {
+  const Input& own = meeting.weight[static_cast<std::size_t>(question.own)];
+  const std::vector<Input> all = updated_weights(meeting, question);
+  const bool is_exact = std::all_of(all.begin(), all.end(), [&](const Input& w) { return meeting.inputs.condition({&w, 1}) == 0; });
+  if (is_exact) return;
+  double worst = 0, sum = 0;
   for (const Input& w : meeting.weight) worst = std::max(worst, meeting.inputs.condition({&w, 1}));
-  answer.force_scale += force * worst;
-  answer.block_scale += curvature * worst * (2 * std::abs(weight.value) + compare::contact_grey * compare::unit_roundoff * worst);
+  for (const Input& w : all) sum += std::abs(w.value);
+  const auto n = static_cast<double>(all.size());
+  if (meeting.inputs.condition({&own, 1}) > 0) answer.force_scale += force * worst;
+  const double second_order = compare::contact_grey * compare::unit_roundoff * worst;
+  answer.block_scale += curvature * worst * (sum + n * std::abs(own.value) + n * second_order);
 }
 
 }  // namespace ogc::reference

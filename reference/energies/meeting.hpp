@@ -30,6 +30,8 @@ struct Meeting {
   double distance_doubt = 0;    ///< how far d can be off, to first order [m]
   bool needle = false;          ///< the first order may not hold for the place of the contact points (compare/stages/contact_force.hpp)
 
+  /// |w| Σ |w_u| over the vertex asked about and those that are updated together with it.
+  Input majorant(const compare::ContactForceCase& question) const;
   /// Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
   /// The distance that slope and curvature belong to: d, but not below 2⁻²³ r. It keeps d's derivatives on both sides of that corner.
@@ -87,7 +89,9 @@ double reach(const Inputs& inputs, std::span<const Input> answer);
 
 /// Adds to the scales what the error of the own weight does beside those of its inputs: where weights are computed one by one, as in closest_face, each
 /// can be off by u times the largest condition of them all, even one that is 0, where the first order of the block's w² vanishes. `force` and `curvature`
-/// are the largest ones of w = 1.
-void add_weight_error(const Meeting& meeting, const Input& weight, double force, double curvature, compare::ForceAnswer& answer);
+/// are the largest ones of w = 1. With n vertices updated together the block has |w| Σ |w_u|, which is off by the error of the one times the other, and of
+/// the other, n errors, times the one.
+void add_weight_error(const Meeting& meeting, const compare::ContactForceCase& question, double force, double curvature,
+                      compare::ForceAnswer& answer);
 
 }  // namespace ogc::reference

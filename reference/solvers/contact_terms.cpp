@@ -19,6 +19,8 @@ compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::ve
     contact.vertex[k] = x[stencil.vertex[k]];
     contact.detected[k] = in.previous[v];
     question.start[k] = in.start[v];
+    if (in.colour[v] == in.colour[static_cast<std::size_t>(stencil.vertex[own])])
+      contact.together |= static_cast<std::uint8_t>(1u << k);
   }
   contact.rest_squared = mollified_rest_squared(*in.topology, *in.rest, stencil);
   const compare::MeetingMaterial& material = material_of(*in.rest, in.scene->bodies.size(), body, stencil);

@@ -139,16 +139,28 @@ void add_spring(const SpringTerm& term, std::size_t place, const std::array<Trip
   add_outer(term.stiffness * (1 - across + term.damping), length.slope, length.slope, sum);
 }
 
-void add_friction(const FrictionTerm& term, const std::array<Triple<Own>, 4>& x, VertexSystem& sum) {
+/// Of a contact's vertices those that are updated at the same time, the own one among them.
+using Updated = std::array<bool, 4>;
+
+/// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so that they majorise what all of them do
+/// (method.md §7). Any number where the own one's weight is 0.
+double majorant(const ClosestForm& form, const Updated& updated, std::size_t own) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(form.weight[k]) : 0;
+  return form.weight[own] == 0 ? 1 : sum / std::abs(form.weight[own]);
+}
+
+void add_friction(const FrictionTerm& term, double factor, const std::array<Triple<Own>, 4>& x, VertexSystem& sum) {
   const Triple<Own> slip = term.slip(x);
   const Own squared = dot(slip, slip);
   const double slope = along(squared.value, [&](const Second<1>& s) { return term.energy_of(s); }).slope[0];
   add_force(slope, squared.slope, sum);
-  for (const Own& component : slip) add_outer(2 * slope, component.slope, component.slope, sum);
+  for (const Own& component : slip) add_outer(2 * factor * slope, component.slope, component.slope, sum);
 }
 
 /// Slope and curvature below 2⁻²³ r are those there, as in the stage contact_force.
-void add_contact(const Potential& potential, const ContactTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
+void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
+                 const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);
   const std::array<Triple<Own>, 4> x = with_own<Own>(corners, place);
   const Triple<Own> apart = separation(form.weight, x);
@@ -157,8 +169,9 @@ void add_contact(const Potential& potential, const ContactTerm& term, std::size_
   const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.radius),
                                  [&](const Second<1>& d) { return contact_activation(term.activation, d, term.radius, term.mollifier * term.stiffness); });
   add_force(energy.slope[0], distance.slope, sum);
-  add_outer(energy.bend(0), distance.slope, distance.slope, sum);
-  if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, x, sum);
+  const double factor = majorant(form, updated, place);
+  add_outer(factor * energy.bend(0), distance.slope, distance.slope, sum);
+  if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, factor, x, sum);
 }
 
 }  // namespace
@@ -201,7 +214,12 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   }
   for (const Part& part : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[part.stencil];
-    add_contact(potential_, term, part.place, plain_corners(term.vertex, vertex, x), sum);
+    Updated updated{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Index u = term.vertex[k];
+      updated[k] = u == vertex || (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
+    }
+    add_contact(potential_, term, updated, part.place, plain_corners(term.vertex, vertex, x), sum);
   }
   return sum;
 }

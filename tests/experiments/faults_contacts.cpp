@@ -84,7 +84,9 @@ std::vector<Fault> contact_force_faults() {
                       if (c.sides != ContactSides::edge_edge) return;
                       c.vertex = {c.vertex[2], c.vertex[3], c.vertex[0], c.vertex[1]};
                       c.own ^= 2;
+                      c.together = static_cast<std::uint8_t>((c.together & 3) << 2 | c.together >> 2);
                     }),
+      contact_asked("block that knows nothing of vertices that are updated together", [](ContactForceCase& c) { c.together = 0; }),
       contact_asked("radius 0.01 % too large", [](ContactForceCase& c) { c.contact_radius *= 1.0001f; }),
   };
 }
@@ -93,6 +95,7 @@ std::vector<Fault> friction_force_faults() {
   return {
       friction_asked("1/y below the limit too", [](FrictionForceCase& c) { c.slip_limit *= 1e-3f; }),
       friction_asked("slip since now, not since the start of the step", [](FrictionForceCase& c) { c.start = c.contact.vertex; }),
+      friction_asked("block that knows nothing of vertices that are updated together", [](FrictionForceCase& c) { c.contact.together = 0; }),
       friction_asked("normal force without the mollifier", [](FrictionForceCase& c) { c.contact.rest_squared = {}; }),
       friction_spoiled("I in place of T T^T",
                        [](const FrictionForceCase&, Vec3f&, std::array<float, 6>& block) {

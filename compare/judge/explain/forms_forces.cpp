@@ -111,6 +111,8 @@ void add_contact(std::vector<WrongForm>& forms, Member<In> stage, Contact contac
           [](ContactForceCase& c) { c.rest_squared = {}; });
   changed("mollifier_of_present_edges", "e_k of the present edges, not of those at the last detection",
           [](ContactForceCase& c) { c.detected = c.vertex; });
+  changed("block_of_own_weight_alone", "w² in the block where other vertices are updated together with it",
+          [](ContactForceCase& c) { c.together = 0; });
   changed("ends_exchanged", "the weight of the edge's other end", [](ContactForceCase& c) {
     if (c.sides == ContactSides::edge_edge) c.own ^= 1;
     if (c.sides == ContactSides::point_edge && c.own > 0) c.own = 3 - c.own;

@@ -50,6 +50,12 @@ class StencilInputs {
   void operator()(const char* name, const char*, std::int32_t own) {
     inputs_.push_back(word(name, roles_.at(static_cast<std::size_t>(own))));
   }
+  void operator()(const char* name, const char*, std::uint8_t bits) {
+    std::string all;
+    for (std::size_t k = 0; k < roles_.size(); ++k)
+      if ((bits >> k & 1) != 0) all += (all.empty() ? "" : "; ") + roles_[k];
+    inputs_.push_back(word(name, all.empty() ? "none" : all));
+  }
   void operator()(const char* name, const char*, Named auto x) {
     inputs_.push_back(word(name, std::string(names_of(x)[static_cast<std::size_t>(x)])));
   }
