@@ -26,8 +26,8 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for other sides and where the rest lengths are 0.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one: its
-/// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and 2 e_k g''
-/// at the exact distance, which no point of it can exceed (moduli of weights add up to 2). d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and e_k g''
+/// at the exact distance, which no point of it can exceed, or 2 e_k g'' where others are updated together. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;
   std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1

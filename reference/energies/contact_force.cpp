@@ -44,7 +44,7 @@ compare::ForceAnswer largest(const compare::ContactForceCase& q, double distance
   const LargestSlopes slopes = largest_slopes(q, distance);
   compare::ForceAnswer bounds;
   bounds.force_scale = slopes.first * units_of_whole(compare::contact_force_tolerance);
-  bounds.block_scale = 2 * slopes.second * units_of_whole(compare::contact_block_tolerance);
+  bounds.block_scale = largest_majorant(q) * slopes.second * units_of_whole(compare::contact_block_tolerance);
   return bounds;
 }
 

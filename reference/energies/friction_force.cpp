@@ -72,12 +72,12 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   return {result, std::abs(beyond.value) <= compare::near_factor * inputs.condition({&beyond, 1})};
 }
 
-/// f₁ is at most 1, f₁/y at most 2/ε, |w| Σ |w_u| at most 2; ‖I − n nᵀ‖ = √2.
+/// f₁ is at most 1, f₁/y at most 2/ε, ‖I − n nᵀ‖ = √2.
 compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distance) {
   compare::ForceAnswer bounds;
   const double force = q.friction * largest_slopes(q.contact, distance).first;
   bounds.force_scale = force * units_of_whole(compare::friction_force_tolerance);
-  bounds.block_scale = 4 * std::sqrt(2.0) * force / q.slip_limit * units_of_whole(compare::friction_block_tolerance);
+  bounds.block_scale = 2 * largest_majorant(q.contact) * std::sqrt(2.0) * force / q.slip_limit * units_of_whole(compare::friction_block_tolerance);
   return bounds;
 }
 

@@ -80,6 +80,8 @@ struct LargestSlopes {
   double first = 0, second = 0;
 };
 LargestSlopes largest_slopes(const compare::ContactForceCase& question, double distance);
+/// |w| Σ |w_u| is no larger: moduli of all weights add up to 2.
+inline double largest_majorant(const compare::ContactForceCase& question) { return question.together == 0 ? 1 : 2; }
 
 /// The scale of a number's error where all of it may be wrong, and rounded as others are.
 inline double units_of_whole(double tolerance) { return 1 / (compare::unit_roundoff * tolerance) + 1; }

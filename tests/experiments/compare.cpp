@@ -10,11 +10,11 @@
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/explain/explanation.hpp"
 #include "compare/judge/judge.hpp"
-#include "compare/judge/loose.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/judge/faults.hpp"
+#include "tests/compare/judge/loose_problems.hpp"
 #include "tests/experiments/program.hpp"
 
 using namespace ogc;
@@ -132,7 +132,7 @@ TEST_CASE("the fast path on the CPU agrees with the reference in every stage, an
     CHECK(report.tally.mismatched == 0);
     CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));  // of few cases the grey share says nothing
   }
-  CHECK(loose_problems(reports) == std::vector<std::string>{});
+  CHECK(tests::loose_problems(reports) == std::vector<std::string>{});
 }
 
 TEST_CASE("cases that once told the two sides apart no longer do", "[agreement]") {

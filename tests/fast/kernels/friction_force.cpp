@@ -13,7 +13,7 @@ constexpr float friction = 0.3f, normal_force = 0.02f, limit = 1e-4f;
 
 ForceAndBlock of(const Vec& normal, const Vec& moved, float weight = 1) {
   ForceAndBlock sum;
-  add_friction<float>(normal, moved, weight, friction, normal_force, limit, sum);
+  add_friction<float>(normal, moved, weight, weight * weight, friction, normal_force, limit, sum);
   return sum;
 }
 

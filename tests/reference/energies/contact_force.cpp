@@ -81,6 +81,33 @@ TEST_CASE("the reference's contact block is g'' w^2 n n^T: along the force, posi
   }
 }
 
+TEST_CASE("blocks of vertices that are updated together majorise what the contact couples", "[property]") {
+  Draw draw(4);
+  for (int i = 0; i < 200; ++i) {
+    ContactForceCase c = random_contact(draw, all_sides[static_cast<std::size_t>(i) % 4]);
+    c.together = static_cast<std::uint8_t>(1 + i / 4 % 15);
+    const std::array<Point, 4> x = points(c.vertex);
+    const Weights w = weights(c.sides, x);
+    double whole = 0, sum = 0, coupled = 0, blocks = 0;
+    for (c.own = 0; c.own < vertex_count(c.sides); ++c.own) {
+      if ((c.together >> c.own & 1) == 0) continue;
+      const double weight = w[static_cast<std::size_t>(c.own)];
+      ContactForceCase alone = c;
+      alone.together = 0;
+      if (weight != 0) whole = trace(exact(alone)) / (weight * weight);
+      sum += std::abs(weight);
+    }
+    for (c.own = 0; c.own < vertex_count(c.sides); ++c.own) {
+      if ((c.together >> c.own & 1) == 0) continue;
+      const double weight = w[static_cast<std::size_t>(c.own)], step = draw.single(-1, 1);
+      coupled += weight * step;
+      blocks += trace(exact(c)) * step * step;
+      REQUIRE(trace(exact(c)) == Approx(whole * std::abs(weight) * sum).margin(1e-9 * whole));
+    }
+    REQUIRE(blocks >= whole * coupled * coupled - 1e-9 * whole);
+  }
+}
+
 TEST_CASE("a point above a large triangle is pushed by k (r - d), below r/2 by k r^2/(4 d), and the corners share the reaction", "[unit]") {
   for (const float d : {0.0625f, 0.125f, 0.25f, 0.375f}) {
     ContactForceCase c = above(d);
