@@ -25,7 +25,7 @@ struct Seen {
 };
 
 inline std::map<std::pair<Stage, std::string_view>, Seen> seen_in(std::span<const StageReport> reports) {
-  inline std::map<std::pair<Stage, std::string_view>, Seen> all;
+  std::map<std::pair<Stage, std::string_view>, Seen> all;
   for (const StageReport& report : reports) {
     const std::span<const MetricInfo> infos = metrics(report.tally.stage);
     for (std::size_t i = 0; i < infos.size(); ++i) {
