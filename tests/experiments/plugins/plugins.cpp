@@ -175,7 +175,7 @@ TEST_CASE("a library that is no plug-in for this program is refused with exit st
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 5");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 6");
   refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
   refuses(folder + "/libplugin_empty.so", "", "no stage's function");
   refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");
