@@ -191,6 +191,55 @@ CaseData strands(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
+/// A flat sheet at rest, whose radius reaches across its cells: each edge has parallel neighbours within it.
+CaseData flat(Random& random) {
+  MeshBuilder builder;
+  const Vec3 column{random.pick(std::span<const double>(std::array{-0.5, 0.0, 0.5})), 1, 0};
+  builder.grid(1 + random.below(5), 1 + random.below(5), {}, {1, 0, 0}, column);
+  return finish(random, builder, {jitter_rung(random), random.between(0.8, 2.5)});
+}
+
+/// What hangs at one end of an edge, or at both: a triangle on the edge, one beside it, another edge. It points towards
+/// what lies above, away from it, along the plane between, or a rung beside that.
+void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
+  constexpr std::array<double, 4> ways{-1, 0, 0, 1};
+  const auto arm = [&](Index at) {
+    const Vec3 step{0.5 * (random.below(3) - 1), random.pick(std::span<const double>(ways)),
+                    random.one_in(3) ? random.rung() : random.pick(std::span<const double>(ways))};
+    return builder.add(sum(builder.points[static_cast<std::size_t>(at)], step));
+  };
+  if (random.one_in(2)) builder.triangles.push_back({a, b, arm(a)});
+  for (const Index end : {a, b}) {
+    const int kind = random.below(4);
+    if (kind == 0) builder.loose_edges.push_back({end, arm(end)});
+    if (kind == 1) builder.triangles.push_back({end, arm(end), arm(end)});
+  }
+}
+
+/// Edges one above the other, tilted by a rung or not at all, that end at the same place, beside each other or anywhere:
+/// what hangs at their ends decides whether one end, both or none of the overlap lies in the blocks.
+MeshBuilder pile_of(Random& random, double gap) {
+  MeshBuilder builder;
+  for (int k = 0, count = 2 + random.below(3); k < count; ++k) {
+    const double start = random.one_in(2) ? 0.5 * random.below(3) : random.one_in(2) ? random.rung() : random.unit();
+    const double length = random.sign() * (random.one_in(2) ? 1 : random.between(0.2, 2));
+    const Vec3 tilt = random.one_in(2) ? Vec3{} : Vec3{0, random.rung(), random.rung()};
+    const Index a = builder.add({start, 0, k * gap}), b = builder.add(sum({start + length, 0, k * gap}, tilt));
+    builder.loose_edges.push_back({a, b});
+    hang(random, builder, a, b);
+  }
+  return builder;
+}
+
+/// Piles in a row along the edges, so that tilts keep their digits.
+CaseData parallel(Random& random) {
+  constexpr double spacing = 10;
+  MeshBuilder builder;
+  const double gap = random.magnitude(-2, 0);
+  for (int i = 2 + random.below(8); i > 0; --i) builder.append(pile_of(random, gap), {i * spacing, 0, 0});
+  return finish(random, builder, {random.one_in(2) ? 0 : jitter_rung(random), gap * random.between(0.9, 3)});
+}
+
 /// Sheets that belong to rigid groups, to the same one, to none.
 CaseData groups(Random& random) {
   MeshBuilder builder;
@@ -263,7 +312,7 @@ CaseData needles(Random& random) {
   return finish(random, builder, {0, 0});
 }
 
-constexpr std::array<Generator, 19> table{{{"soup", 20, true, soup},
+constexpr std::array<Generator, 21> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
                                            {"large", 600, true, large, large_run},
@@ -277,6 +326,8 @@ constexpr std::array<Generator, 19> table{{{"soup", 20, true, soup},
                                            {"ladder.above", 7, false, above},
                                            {"ladder.book", 4, false, book},
                                            {"ladder.strands", 4, false, strands},
+                                           {"ladder.parallel", 8, false, parallel},
+                                           {"ladder.flat", 4, false, flat},
                                            {"ladder.groups", 4, false, groups},
                                            {"ladder.seams", 5, false, seams},
                                            {"ladder.needles", 5, false, needles},

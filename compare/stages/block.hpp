@@ -15,8 +15,8 @@ struct BlockQuestion {
     /// x is vertex `of`; U_a of Eq. 8, 9, 10 for a vertex, edge (between its end planes too) or triangle.
     vertex_in_surface,
     /// x is the point of edge `of` closest to a; U_a of Eq. 14, 15 for an edge or vertex of the edge-only manifold. To a vertex one point is closest. To an
-    /// edge it is one unless the two are parallel, and nearly parallel ones (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) make a contact without this question: they are no
-    /// legal question of this stage (compare/stages/closest_points.hpp decides about them).
+    /// edge it is one unless the two are parallel: nearly parallel ones (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) are no legal question
+    /// of this stage (their contacts: compare/stages/detect_edge_edge.hpp).
     edge_in_edges,
   };
   Kind kind = Kind::vertex_in_surface;

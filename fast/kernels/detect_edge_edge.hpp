@@ -102,15 +102,51 @@ struct CollectEdgeEdge {
     const EdgePairFeatures on = closest_edge_features(first, second);
     const auto is_near = [first, second, on, r = contact_radius] { return is_within(first, second, on, edge_edge_distance(first, second), r); };
     if (!certain && !called(is_near)) return none;
-    if (is_overlapping_parallel(first, second)) return contact(surface.edge_face(low), surface.edge_face(high), low, high);
-    const bool is_first_inside = on.first == EdgeFeature::interior, is_second_inside = on.second == EdgeFeature::interior;
-    const int v = on.first == EdgeFeature::end_0 ? p.a : p.b, w = on.second == EdgeFeature::end_0 ? q.a : q.b;
-    if (!is_first_inside && !is_end_hit(v, is_second_inside, w, q)) return none;
-    if (!is_second_inside && !is_end_hit(w, is_first_inside, v, p)) return none;
-    return contact(is_first_inside ? surface.edge_face(low) : v, is_second_inside ? surface.edge_face(high) : w, low, high);
+    const bool hit = is_hit(p, q, on);
+    if (is_overlapping_parallel(first, second)) {
+      const auto is_hit_elsewhere = [*this, p, q] { return is_hit_beside(p, q); };
+      const bool counts = hit || (is_loose(low) && is_loose(high)) || called(is_hit_elsewhere);
+      return counts ? contact(surface.edge_face(low), surface.edge_face(high), low, high) : none;
+    }
+    if (!hit) return none;
+    const int v = end_of(p, on.first), w = end_of(q, on.second);
+    return contact(v < 0 ? surface.edge_face(low) : v, w < 0 ? surface.edge_face(high) : w, low, high);
   }
 
  private:
+  /// No triangle has it.
+  OGC_HD bool is_loose(int e) const { return surface.opposites.offsets[e] == surface.opposites.offsets[e + 1]; }
+
+  /// −1 for the interior.
+  OGC_HD static int end_of(const EdgeEnds& e, EdgeFeature feature) {
+    return feature == EdgeFeature::interior ? -1 : feature == EdgeFeature::end_0 ? e.a : e.b;
+  }
+
+  /// Both blocks hold the other side's closest point, given that these features hold the closest points (Eq. 14, 15). An
+  /// interior's holds it always.
+  OGC_HD bool is_hit(const EdgeEnds& p, const EdgeEnds& q, EdgePairFeatures on) const {
+    const int v = end_of(p, on.first), w = end_of(q, on.second);
+    return (v < 0 || is_end_hit(v, w < 0, w, q)) && (w < 0 || is_end_hit(w, v < 0, v, p));
+  }
+
+  /// The same at any end that lies beside the other edge or at an end of it: both, where exactly parallel edges cease to
+  /// overlap. Where blocks hold the points that are the feet of each other, no points are nearer: their own edges say so.
+  OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
+    for (int i = 0; i < 2; ++i) {
+      const auto end = static_cast<EdgeFeature>(i);
+      if (is_hit(p, q, {end, EdgeFeature::end_0, true}) || is_hit(p, q, {end, EdgeFeature::end_1, true})) return true;
+      if (is_beside(end_of(p, end), q) && is_hit(p, q, {end, EdgeFeature::interior, true})) return true;
+      if (is_beside(end_of(q, end), p) && is_hit(p, q, {EdgeFeature::interior, end, true})) return true;
+    }
+    return false;
+  }
+
+  /// The vertex is seen between the ends of the edge.
+  OGC_HD bool is_beside(int v, const EdgeEnds& e) const {
+    const Vec x = positions[v], a = positions[e.a], b = positions[e.b];
+    return exact_sign(End{x, a, b}) > 0 && exact_sign(End{x, b, a}) > 0;
+  }
+
   /// The closest point on the other edge, inside it or its end w, lies in the block of v (Eq. 15).
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions) : in_vertex_block(positions[w], v, surface, positions);

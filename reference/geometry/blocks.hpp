@@ -24,6 +24,8 @@ struct Complex {
   std::span<const Index> triangles_of(Index e) const { return topology.edge_triangles[static_cast<std::size_t>(e)]; }
   /// The vertex of edge e that is not `vertex`.
   Index across(Index e, Index vertex) const { return edge(e)[0] == vertex ? edge(e)[1] : edge(e)[0]; }
+  /// No triangle contains edge e.
+  bool is_loose(Index e) const { return triangles_of(e).empty(); }
   /// The vertex of triangle t that is not on edge e.
   Index opposite(Index t, Index e) const;
   /// The vertices of a face; `count` of them are used.

@@ -28,7 +28,8 @@ inline EdgeFeatures edge_features(int number) { return {static_cast<EdgeFeature>
 /// parallel; then the first in the order of edge_features. A zero-length edge is its end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
-/// Whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest ones are certain, no others can be.
+/// Whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest ones are
+/// certain, no others can be, but of exactly parallel edges at the other end of their overlap.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
 /// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the projection of the second edge on the line of the first overlaps the first in more than a point.

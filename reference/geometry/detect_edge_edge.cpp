@@ -80,19 +80,69 @@ class EdgeQuery {
     answer_.generated.push_back({faces, edge_, other, exact, certain});
   }
 
+  FacePair interiors(Index other) const { return ordered(edge_face(edge_), edge_face(other)); }
+
   void enter(Index other, const EdgePair& pair, EdgeFeatures closest, bool within, bool doubtful) {
-    const FacePair interiors = ordered(edge_face(edge_), edge_face(other));
     const Membership rule = are_nearly_parallel(pair);
-    if (rule.possible) {
-      add(interiors, other, rule.exact && within, rule.certain && within && !doubtful);
-      if (doubtful) answer_.doubts.push_back({interiors, interiors, false});
-      if (rule.certain) return;
-    }
+    if (rule.possible) enter_interiors(other, pair, rule, within, doubtful);
+    if (rule.certain) return;
+    const Membership local = are_closest(pair, closest);
+    // Whether the pair counts without the rule as well: else its interiors may be missing.
+    if (rule.possible && !(local.certain && membership(faces_of(other, closest)).certain)) accept_absence(other);
     enter_features(other, pair, closest, closest, rule);
-    if (are_closest(pair, closest).certain) return;
+    if (local.certain) return;
     for (int k = 0; k < edge_feature_pairs; ++k) {
       if (edge_features(k) != closest) enter_features(other, pair, edge_features(k), closest, rule);
     }
+  }
+
+  void accept_absence(Index other) { answer_.doubts.push_back({interiors(other), interiors(other), false}); }
+
+  /// What the rule for nearly parallel edges enters.
+  void enter_interiors(Index other, const EdgePair& pair, const Membership& rule, bool within, bool doubtful) {
+    const bool both_loose = mesh_.is_loose(edge_) && mesh_.is_loose(other);
+    const Membership tested = both_loose ? Membership{} : in_blocks_where_closest(other, pair);
+    if (!tested.possible) return;
+    add(interiors(other), other, rule.exact && tested.exact && within,
+        rule.certain && tested.certain && within && !doubtful);
+    if (doubtful || !tested.certain) accept_absence(other);
+  }
+
+  /// Whether closest points of nearly parallel edges lie in each other's blocks: those at one of the overlap's ends,
+  /// where the edges are exactly parallel. Rounding can make closest any features that may be: certain is what passes
+  /// whichever they are, or at features that are closest without a doubt.
+  Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
+    Membership some{false, false, false};
+    bool all_certain = true;
+    for (int k = 0; k < edge_feature_pairs; ++k) {
+      const Membership local = are_closest(pair, edge_features(k));
+      if (!local.possible) continue;
+      const Membership inside = in_other_blocks(other, edge_features(k));
+      some.exact = some.exact || (local.exact && inside.exact);
+      some.possible = some.possible || inside.possible;
+      some.certain = some.certain || (local.certain && inside.certain);
+      all_certain = all_certain && inside.certain;
+    }
+    some.certain = some.certain || all_certain;
+    return some;
+  }
+
+  /// The conditions of the features' blocks that are none of the closest points of the two edges alone.
+  Membership in_other_blocks(Index other, EdgeFeatures features) const {
+    Membership inside;
+    visit_pair(mesh_, faces_of(other, features), [&](const PairBoundary& boundary) {
+      const FacePair& across = boundary.across;
+      const bool is_own = (is_on(across.first, edge_) && is_on(across.second, other)) ||
+                          (is_on(across.first, other) && is_on(across.second, edge_));
+      if (!is_own) require(inside, boundary.condition);
+      return inside.possible;
+    });
+    return inside;
+  }
+
+  bool is_on(Face face, Index e) const {
+    if (face.kind == FaceKind::edge) return face.index == e;
+    return face.index == mesh_.edge(e)[0] || face.index == mesh_.edge(e)[1];
   }
 
   /// One of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the order of closest_features.
@@ -109,7 +159,7 @@ class EdgeQuery {
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
     add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact), is_closest && inside.certain && unaffected);
-    if (!unaffected) answer_.doubts.push_back({faces, ordered(edge_face(edge_), edge_face(other)), true});
+    if (!unaffected) answer_.doubts.push_back({faces, interiors(other), true});
     if (!inside.certain) note_boundaries(faces);
   }
 

@@ -5,8 +5,8 @@
 
 namespace ogc::reference {
 
-/// Edges in parallel; the answer does not depend on the number of threads. Nearly parallel edges count as interior–interior wherever their distance is
-/// below r: the points of the contact are projections of each other, so only the slope separates them from the blocks.
+/// Edges in parallel; the answer does not depend on the number of threads. Nearly parallel edges nearer than r count as
+/// interior–interior where closest points of theirs lie in each other's blocks, and wherever neither has a triangle.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 
 /// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not examined.

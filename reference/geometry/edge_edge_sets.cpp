@@ -120,22 +120,25 @@ Quotient<Exact> squared_distance(const Candidate& c) {
 
 bool smaller(const Quotient<Exact>& a, const Quotient<Exact>& b) { return sign_of(a.numerator * b.denominator - b.numerator * a.denominator) < 0; }
 
-/// The nearest of all pairs of features; the first of those equally near.
+/// A pair of features with its closest points.
 struct Closest {
   EdgeFeatures features;
   Candidate points;
   Quotient<Exact> squared;
 };
 
-Closest closest_of(const Segment& e, const Segment& f) {
-  std::optional<Closest> best;
+/// The nearest of all pairs of features: several where the edges are parallel, in the order of edge_features.
+std::vector<Closest> closest_of(const Segment& e, const Segment& f) {
+  std::vector<Closest> best;  // never empty: two ends always are a candidate
   for (int k = 0; k < edge_feature_pairs; ++k) {
     const auto found = candidate(e, f, edge_features(k));
     if (!found) continue;
     const Quotient<Exact> squared = squared_distance(*found);
-    if (!best || smaller(squared, best->squared)) best = Closest{edge_features(k), *found, squared};
+    if (!best.empty() && smaller(best.front().squared, squared)) continue;
+    if (!best.empty() && smaller(squared, best.front().squared)) best.clear();
+    best.push_back({edge_features(k), *found, squared});
   }
-  return *best;  // two ends always are a candidate
+  return best;
 }
 
 /// method.md §1: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖², projections that overlap in more than a point.
@@ -150,16 +153,34 @@ bool by_rule_parallel(const Segment& e, const Segment& f) {
 
 std::array<Vec3f, 2> ends_of(const Complex& mesh, Index e) { return {mesh.at(mesh.edge(e)[0]), mesh.at(mesh.edge(e)[1])}; }
 
+bool are_in_blocks(const Complex& mesh, const FacePair& faces) {
+  bool inside = true;
+  visit_pair(mesh, faces, [&](const PairBoundary& boundary) { return inside = holds(boundary.condition); });
+  return inside;
+}
+
+/// Whether some closest points of nearly parallel edges lie in each other's blocks: such conditions hold of features
+/// that are the closest only, at each end of the overlap where the edges are exactly parallel.
+bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
+  for (int k = 0; k < edge_feature_pairs; ++k) {
+    const auto [first, second] = edge_features(k);
+    if (are_in_blocks(mesh, ordered(face_of(mesh, e, first), face_of(mesh, f, second)))) return true;
+  }
+  return false;
+}
+
 /// Alg. 2 lines 6–10 (corrected) for the candidate of edges e < f.
 void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, Index f, Entered& entered) {
   const EdgePair pair{ends_of(mesh, e), ends_of(mesh, f)};
   const EdgeFeatures closest = closest_features(pair);
   if (sign(with_radius(feature_gap(pair, closest), in.contact_radius)) >= 0) return;
-  const bool parallel = nearly_parallel(pair);
-  const FacePair faces = parallel ? ordered(edge_face(e), edge_face(f)) : ordered(face_of(mesh, e, closest.first), face_of(mesh, f, closest.second));
-  bool inside = true;
-  if (!parallel) visit_pair(mesh, faces, [&](const PairBoundary& boundary) { return inside = holds(boundary.condition); });
-  if (inside) enter(entered, faces, {e, f});
+  if (nearly_parallel(pair)) {
+    const bool both_loose = mesh.is_loose(e) && mesh.is_loose(f);
+    if (both_loose || is_some_end_in_blocks(mesh, e, f)) enter(entered, ordered(edge_face(e), edge_face(f)), {e, f});
+    return;
+  }
+  const FacePair faces = ordered(face_of(mesh, e, closest.first), face_of(mesh, f, closest.second));
+  if (are_in_blocks(mesh, faces)) enter(entered, faces, {e, f});
 }
 
 /// Alg. 2 line 3: a ball about the middle of the edge with radius r_q + l/2.
@@ -200,16 +221,21 @@ std::vector<EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in
   Entered entered;
   for_each_pair(in, [&](Index e, Index f) {
     const Segment first = segment_of(mesh, e), second = segment_of(mesh, f);
-    const Closest closest = closest_of(first, second);
-    if (!smaller(closest.squared, {r * r, Exact(1)})) return;
+    const std::vector<Closest> closest = closest_of(first, second);
+    if (!smaller(closest.front().squared, {r * r, Exact(1)})) return;
+    const auto in_both = [&](const Closest& points) {
+      const Face p = face_of(mesh, e, points.features.first), q = face_of(mesh, f, points.features.second);
+      return blocks.cones().contains_edge_only(p, points.points.second, in.contact_radius) &&
+             blocks.cones().contains_edge_only(q, points.points.first, in.contact_radius);
+    };
     if (by_rule_parallel(first, second)) {
-      enter(entered, ordered(edge_face(e), edge_face(f)), {e, f});
-      return;
+      const bool both_loose = mesh.is_loose(e) && mesh.is_loose(f);
+      if (both_loose || std::ranges::any_of(closest, in_both))
+        enter(entered, ordered(edge_face(e), edge_face(f)), {e, f});
+    } else if (in_both(closest.front())) {
+      const EdgeFeatures features = closest.front().features;
+      enter(entered, ordered(face_of(mesh, e, features.first), face_of(mesh, f, features.second)), {e, f});
     }
-    const Face p = face_of(mesh, e, closest.features.first), q = face_of(mesh, f, closest.features.second);
-    const bool in_both = blocks.cones().contains_edge_only(p, closest.points.second, in.contact_radius) &&
-                         blocks.cones().contains_edge_only(q, closest.points.first, in.contact_radius);
-    if (in_both) enter(entered, ordered(p, q), {e, f});
   });
   return canonical(mesh, entered);
 }

@@ -75,19 +75,30 @@ void without_feasible_region(const DetectIn& in, const Authority& authority, Det
   }
 }
 
-/// The region rule that accepts all but pairs of end points.
-void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
-  const auto& edges = in.topology->edges;
+/// All pairs of edges that have no vertex in common and are in no rigid group, e < f.
+struct EdgePairs {
   ClosestPointsIn question;
   std::vector<std::array<Index, 2>> asked;
+};
+
+EdgePairs edge_pairs(const DetectIn& in) {
+  const auto& edges = in.topology->edges;
+  EdgePairs pairs;
   for (Index e = 0; e < static_cast<Index>(edges.size()); ++e)
     for (Index f = e + 1; f < static_cast<Index>(edges.size()); ++f) {
       const Edge &a = edges[e], &b = edges[f];
       if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] || rigid(in, {a[0], a[1], b[0], b[1]})) continue;
-      question.first.push_back({in.positions[a[0]], in.positions[a[1]]});
-      question.second.push_back({in.positions[b[0]], in.positions[b[1]]});
-      asked.push_back({e, f});
+      pairs.question.first.push_back({in.positions[a[0]], in.positions[a[1]]});
+      pairs.question.second.push_back({in.positions[b[0]], in.positions[b[1]]});
+      pairs.asked.push_back({e, f});
     }
+  return pairs;
+}
+
+/// The region rule that accepts all but pairs of end points.
+void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
+  const auto& edges = in.topology->edges;
+  const auto [question, asked] = edge_pairs(in);
   const ClosestPointsOut answer = authority.closest_points(question).exact;
   const auto face = [&](Index e, EdgeFeature feature) {
     return feature == EdgeFeature::interior ? Face{FaceKind::edge, e} : Face{FaceKind::vertex, edges[e][static_cast<std::size_t>(feature)]};
@@ -100,6 +111,86 @@ void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEd
     if (std::none_of(out.contacts.begin(), out.contacts.end(), [&](const auto& c) { return c.first == contact.first && c.second == contact.second; }))
       out.contacts.push_back(contact);
   }
+}
+
+/// Nearly parallel edges let in wherever they are nearer than r: a flat sheet at rest then pushes itself.
+void nearly_parallel_untested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
+  const auto [question, asked] = edge_pairs(in);
+  const ClosestPointsOut answer = authority.closest_points(question).exact;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (answer.nearly_parallel[i] == 0 || answer.distance_below[i] >= in.contact_radius) continue;
+    const auto [e, f] = asked[i];
+    const EdgeEdgeContact contact{{FaceKind::edge, e}, {FaceKind::edge, f}, e, f};
+    if (std::find(out.contacts.begin(), out.contacts.end(), contact) == out.contacts.end()) out.contacts.push_back(contact);
+  }
+}
+
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 difference(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+/// An end of the overlap of two nearly parallel edges.
+struct OverlapEnd {
+  double squared_distance = 0;  ///< [m²]
+  bool in_blocks = false;
+};
+
+/// In double. Of exactly parallel edges their own are at right angles to what joins them, so a rounding above 0 is none.
+std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
+  const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
+  const auto in_block = [&](Index v, const Vec3& c) {
+    return std::ranges::all_of(in.topology->vertex_neighbours[v], [&](Index w) {
+      const Vec3 u = difference(c, at(v)), arm = difference(at(w), at(v));
+      return dot(u, arm) <= 1e-12 * std::sqrt(dot(u, u) * dot(arm, arm));
+    });
+  };
+  std::vector<OverlapEnd> ends;
+  const auto add = [&](const Edge& of, const Edge& other, bool at_ends_too) {
+    for (const Index v : of) {
+      const Vec3 a = at(other[0]), along = difference(at(other[1]), a);
+      const double t = dot(difference(at(v), a), along) / dot(along, along);
+      if (t < 0 || t > 1 || (!at_ends_too && (t == 0 || t == 1))) continue;
+      const Vec3 c{a.x + t * along.x, a.y + t * along.y, a.z + t * along.z};
+      const bool theirs = (t > 0 && t < 1) || in_block(other[t == 0 ? 0 : 1], at(v));
+      ends.push_back({dot(difference(c, at(v)), difference(c, at(v))), in_block(v, c) && theirs});
+    }
+  };
+  add(e, f, true);
+  add(f, e, false);
+  return ends;
+}
+
+bool is_exactly_parallel(const DetectIn& in, const Edge& e, const Edge& f) {
+  const auto along = [&](const Edge& edge) {
+    const Vec3f &a = in.positions[edge[0]], &b = in.positions[edge[1]];
+    return Vec3{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
+  };
+  const Vec3 u = along(e), v = along(f);
+  return u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z && u.x * v.y == u.y * v.x;
+}
+
+bool is_loose(const DetectIn& in, Index e) { return in.topology->edge_triangles[e].empty(); }
+
+/// Exactly parallel edges asked at one end of their overlap alone.
+void one_end_of_overlap(const DetectIn& in, const Authority&, DetectEdgeEdgeOut& out) {
+  std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
+    if (c.first.kind != FaceKind::edge || (is_loose(in, c.first_edge) && is_loose(in, c.second_edge))) return false;
+    const Edge &e = in.topology->edges[c.first_edge], &f = in.topology->edges[c.second_edge];
+    const auto ends = ends_of_overlap(in, e, f);
+    return is_exactly_parallel(in, e, f) && !ends.empty() && !ends.front().in_blocks;
+  });
+}
+
+/// The block test for loose edges, too: strands side by side, tilted by nothing to speak of, lose nearly all contacts.
+void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
+  std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
+    if (c.first.kind != FaceKind::edge || !is_loose(in, c.first_edge) || !is_loose(in, c.second_edge)) return false;
+    const Edge &e = in.topology->edges[c.first_edge], &f = in.topology->edges[c.second_edge];
+    const auto& x = in.positions;
+    if (authority.closest_points({{{x[e[0]], x[e[1]]}}, {{x[f[0]], x[f[1]]}}}).exact.nearly_parallel[0] == 0) return false;
+    const auto ends = ends_of_overlap(in, e, f);
+    const auto nearest = std::ranges::min_element(ends, {}, &OverlapEnd::squared_distance);
+    return nearest != ends.end() && !nearest->in_blocks;
+  });
 }
 
 void fixed_capacity(const DetectIn&, const Authority&, DetectVertexFacetOut& out) {
@@ -196,6 +287,9 @@ std::vector<Fault> edge_faults() {
                  }),
       partners_ignored(Stage::detect_edge_edge),
       edge_fault("detect_edge_edge: all but pairs of end points", all_but_end_points),
+      edge_fault("detect_edge_edge: nearly parallel edges untested", nearly_parallel_untested),
+      edge_fault("detect_edge_edge: parallel edges asked at one end of their overlap", one_end_of_overlap),
+      edge_fault("detect_edge_edge: parallel loose edges tested", strands_tested),
       edge_fault("detect_edge_edge: edge ends swapped",
                  [](const auto& in, const auto&, auto& out) {
                    for (EdgeEdgeContact& c : out.contacts) {

@@ -162,6 +162,64 @@ TEST_CASE("detect_edge_edge: nearly parallel edges are one interior pair, from t
   CHECK(sloped.exact.d_min_edge[0] == 1);
 }
 
+TEST_CASE("detect_edge_edge: nearly parallel edges count where an end of their overlap lies in the blocks", "[unit]") {
+  // Edge 01 of a triangle below edge 23 of another one, each given its third vertex.
+  const auto pair_with = [](Vec3f below, Vec3f above, float tilt, float shift) {
+    const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1 + shift, 0, 1}, {5 + shift, 0, 1 + tilt}, below, above},
+                          {{0, 1, 4}, {2, 3, 5}}, {}, {}};
+    const auto topology = surface.topology();
+    const Index e = compare::find_edge(topology, 0, 1), f = compare::find_edge(topology, 2, 3);
+    const auto found = detect(surface, 1.25f, 3).exact.contacts;
+    return std::find(found.begin(), found.end(), EdgeEdgeContact{edge_face(e), edge_face(f), e, f}) != found.end();
+  };
+  const Vec3f down{2, 3, -1}, up{3, 3, 2}, aside{2, 3, 0}, beside{3, 3, 1};
+  for (const float shift : {0.0f, -1.0f}) {
+    for (const float tilt : {0.0f, 0x1p-40f, -0x1p-40f, 0x1p-11f}) {
+      CHECK(pair_with(down, up, tilt, shift));
+      CHECK(pair_with(aside, beside, 0, shift));
+      CHECK_FALSE(pair_with({2, 3, 1}, {3, 3, 0}, tilt, shift));  // each leans towards the other, at both its ends
+    }
+  }
+  // A third vertex whose triangle leans over vertex 1 alone: at that end of the overlap no contact, at vertex 2 there is.
+  const auto leaning_at = [](float tilt) {
+    const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1 + tilt}, {4, 2, 1}, {5, 2, 1}, {2, 2, -1}, {2, 2, 2}},
+                          {{0, 1, 6}, {1, 4, 5}, {2, 3, 7}}, {}, {}};
+    const auto topology = surface.topology();
+    const Index e = compare::find_edge(topology, 0, 1), f = compare::find_edge(topology, 2, 3);
+    const auto found = detect(surface, 1.25f, 3).exact.contacts;
+    return std::find(found.begin(), found.end(), EdgeEdgeContact{edge_face(e), edge_face(f), e, f}) != found.end();
+  };
+  CHECK(leaning_at(0));
+  CHECK(leaning_at(0x1p-20f));         // vertex 2 is nearest
+  CHECK_FALSE(leaning_at(-0x1p-20f));  // vertex 1 is
+}
+
+TEST_CASE("detect_edge_edge: a flat sheet has no contact with itself at rest, however far the radius reaches", "[unit]") {
+  const auto count = [](const Surface& surface, float r) { return detect(surface, r, 2 * r).exact.contacts.size(); };
+  for (const float r : {0.9f, 1.1f, 1.5f, 2.5f}) {
+    CHECK(count(grid(7), r) == 0);
+    CHECK(count(mapped(grid(7), turned), turned_scale * r) == 0);
+  }
+  // Two of them face each other, edge above edge.
+  const Surface sheets = together(grid(5), grid(5, 0.5f));
+  for (const auto& c : detect(sheets, 1.5f, 3).exact.contacts) CHECK((c.first_edge < 56) != (c.second_edge < 56));
+  CHECK(count(sheets, 1.5f) > 56);
+}
+
+TEST_CASE("detect_edge_edge: parallel strands keep their contacts at any tilt, exactly parallel or not", "[unit]") {
+  const Index n = 100;
+  for (const float tilt : {0.0f, 1e-12f, -1e-12f, 1e-9f, 1e-6f}) {
+    Surface strands;
+    for (Index k = 0; k <= n; ++k) strands.positions.push_back({static_cast<float>(k), 0, 0});
+    for (Index k = 0; k <= n; ++k) strands.positions.push_back({static_cast<float>(k) + 0.25f, tilt * static_cast<float>(k), 1});
+    for (Index k = 0; k < n; ++k) strands.loose_edges.push_back({k, k + 1});
+    for (Index k = 0; k < n; ++k) strands.loose_edges.push_back({n + 1 + k, n + 2 + k});
+    std::size_t interiors = 0;
+    for (const auto& c : detect(strands, 1.0001f, 2).exact.contacts) interiors += c.first.kind == FaceKind::edge;
+    CHECK(interiors == 2 * static_cast<std::size_t>(n) - 1);
+  }
+}
+
 TEST_CASE("detect_edge_edge: two parallel flat sheets have interior pairs only, along the normal", "[unit]") {
   // The second sheet is turned by a 3-4-5 angle and shifted: no two edges across the sheets are parallel.
   const int n = 7;
@@ -293,10 +351,22 @@ TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place
     const auto nudge = [&](float c) { return c + static_cast<float>(step(random)) * 0x1p-17f; };
     return Vec3f{nudge(x.x), nudge(x.y), nudge(x.z)};
   };
-  for (const float r : {12.5f, 15.0f, 20.0f}) {
+  for (const float r : {12.5f, 15.0f, 20.0f, 30.0f}) {
     const auto truth = detect(flat, r, 30);
     CHECK(accepted(truth, truth.exact.contacts));
     for (int k = 0; k < 10; ++k) CHECK(accepted(truth, detect(mapped(flat, moved), r, 30).exact.contacts));
+  }
+  // Exactly parallel edges 01 and 23 whose blocks hold one end of their overlap, the other, both, none, or end there.
+  for (int way = 0; way < 81; ++way) {
+    const auto lean = [way](int place) { return static_cast<float>(way / place % 3 - 1); };
+    const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1}, {4, 2, lean(1)}, {5, 2, lean(3)}, {1, 2, 1 + lean(9)},
+                           {0, 2, 1 + lean(27)}, {2, 2, -1}, {2, 2, 2}},
+                          {{0, 1, 8}, {1, 4, 5}, {2, 3, 9}, {2, 6, 7}}, {}, {}};
+    const Surface oblique = mapped(surface, turned);
+    const auto truth = detect(oblique, 1.25f * turned_scale, 60);
+    CHECK(accepted(truth, truth.exact.contacts));
+    for (int k = 0; k < 10; ++k)
+      CHECK(accepted(truth, detect(mapped(oblique, moved), 1.25f * turned_scale, 60).exact.contacts));
   }
 }
 
