@@ -276,7 +276,7 @@ typedef struct ogc_contact_force_case {
   uint8_t sides;
   int32_t own;
   ogc_vec3 vertex[4], detected[4];
-  float rest_squared[2];
+  float rest_squared[2]; /* 0 of an edge without triangles: compare/stages/contact_force.hpp */
   float contact_radius, stiffness;
   int64_t activation;
   uint8_t together; /* bit k: vertex k is updated together with the own one */

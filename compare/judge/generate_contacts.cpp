@@ -195,6 +195,7 @@ FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Ve
     const double stretch = random.one_in(2) ? 1 : random.magnitude(-0.5, 0.5);
     contact.rest_squared = {std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[0], contact.vertex[1])),
                             std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[2], contact.vertex[3]))};
+    if (random.one_in(8)) contact.rest_squared[static_cast<std::size_t>(random.below(2))] = 0;
   }
   return question;
 }
@@ -232,7 +233,11 @@ CaseData contact_lattice(Random& random) { return contact_case(random, on_grid(r
 CaseData contact_feature(Random& random) { return contact_case(random, near_feature(random)); }
 CaseData contact_thin(Random& random) { return contact_case(random, thin(random)); }
 CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
-CaseData contact_parallel(Random& random) { return contact_case(random, nearly_parallel(random)); }
+CaseData contact_parallel(Random& random) {
+  auto question = std::get<ContactForceCase>(contact_case(random, nearly_parallel(random)));
+  if (random.one_in(2)) question.rest_squared = {};  // whose energy is that of their overlap
+  return question;
+}
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }

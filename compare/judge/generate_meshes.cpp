@@ -216,8 +216,8 @@ void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   }
 }
 
-/// Edges one above the other, tilted by a rung or not at all, that end at the same place, beside each other or anywhere:
-/// what hangs at their ends decides whether one end, both or none of the overlap lies in the blocks.
+/// Edges one above the other, tilted by a rung or not at all, that end at the same place, beside each other or
+/// anywhere: what hangs at their ends decides whether one end, both or none of the overlap lies in the blocks.
 MeshBuilder pile_of(Random& random, double gap) {
   MeshBuilder builder;
   for (int k = 0, count = 2 + random.below(3); k < count; ++k) {

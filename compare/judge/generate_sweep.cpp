@@ -283,6 +283,23 @@ CaseData crossing(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
+/// Loose edges, each between the corners of two triangles, side by side, shifted along each other and tilted by a rung.
+CaseData strands(Random& random) {
+  Cloth cloth;
+  const double gap = cloth.radius * random.between(0.3, 0.9);
+  for (int k = 0, count = 2 + random.below(2); k < count; ++k) {
+    const double length = random.between(0.5, 2), end = 1 + length;
+    const Mesh mesh{{{0, 0.5, 0}, {0, -0.5, 0}, {1, 0, 0}, {end, 0, 0}, {end + 1, -0.5, 0}, {end + 1, 0.5, 0}},
+                    {{0, 1, 2}, {3, 4, 5}}, {{2, 3}}};
+    const double shift = random.between(-0.5, 0.5), tilt = random.one_in(2) ? 0 : 0.01 * random.rung();
+    add_body(cloth, body(random), mesh, [=](const Vec3& p) { return Vec3{p.x + shift, p.y + tilt * p.x, k * gap}; });
+  }
+  Motion motion;
+  motion.exact = random.one_in(2);
+  motion.step = random.one_in(2) ? 0 : std::abs(random.rung());
+  return finish(random, std::move(cloth), motion);
+}
+
 /// A triangle, or several, without area or almost so.
 CaseData collapse(Random& random) {
   Cloth cloth;
@@ -353,7 +370,7 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 20> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 21> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -367,6 +384,7 @@ constexpr std::array<Generator, 20> table{{{"sheets", 16, true, sheets},
                                            {"ladder.stiff", 8, false, stiff},
                                            {"ladder.slip", 6, false, slip},
                                            {"ladder.crossing", 6, false, crossing},
+                                           {"ladder.strands", 4, false, strands},
                                            {"ladder.collapse", 5, false, collapse},
                                            {"ladder.bound", 6, false, at_bound},
                                            {"models", 8, false, with_models<sheets>},

@@ -166,8 +166,8 @@ struct Checked {
   void operator()(const MembraneCase& c) {
     problem.vectors("a coordinate", c.corner);
     problem.vectors("a coordinate at the start", c.start);
-    check_lengths(problem, c.corner, 0x1p-50f);
-    check_lengths(problem, c.start, 0x1p-50f);
+    check_lengths(problem, c.corner, 0x1p-50f, 0x1p-50f);
+    check_lengths(problem, c.start, 0x1p-50f, 0x1p-50f);
     problem.number("an area", c.area, std::numeric_limits<float>::min(), vast);
     problem.number("a first Lamé constant", c.lame_lambda, none, vast);
     problem.number("a second Lamé constant", c.lame_mu, 0x1p-30f, vast);

@@ -133,9 +133,11 @@ FrictionForceCase States::contact(std::size_t frame, Random& random) const {
     c.contact.vertex[k] = moved(state, met.vertex[k], part);
     c.contact.detected[k] = c.start[k] = state.positions[static_cast<std::size_t>(met.vertex[k])];
   }
-  if (met.sides == ContactSides::edge_edge && !topology_->triangles.empty())
-    for (std::size_t k = 0; k < 2; ++k)
-      c.contact.rest_squared[k] = rest_.edge_length_squared[static_cast<std::size_t>(met.edge[k])];
+  if (met.sides == ContactSides::edge_edge)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto e = static_cast<std::size_t>(met.edge[k]);
+      c.contact.rest_squared[k] = topology_->edge_triangles[e].empty() ? 0 : rest_.edge_length_squared[e];
+    }
   const MeetingMaterial material = meeting(met.vertex[0], met.vertex[met.sides == ContactSides::edge_edge ? 2 : 1]);
   c.contact.contact_radius = contact_radius_;
   c.contact.stiffness = material.stiffness;

@@ -32,8 +32,8 @@ bool excludes(const Topology& topology, const VertexFacetContact& a, const Verte
   return a.vertex == b.vertex && is_part(topology, a.face, b.face);
 }
 
-/// Never: nearly parallel edges meet interior to interior also where an end is closest, beside the contact of that end with
-/// the same edge that another edge at it generates.
+/// Never: nearly parallel edges meet interior to interior also where an end is closest, beside the contact of that end
+/// with the same edge that another edge at it generates.
 bool excludes(const Topology&, const EdgeEdgeContact&, const EdgeEdgeContact&) { return false; }
 
 template <class Contact>

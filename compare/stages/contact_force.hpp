@@ -20,10 +20,14 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 }
 
 /// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the closest points of the closed faces, for nearly parallel edges those of closest_points. Force
-/// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together, itself included: w² mostly
-/// (method.md §4, §7). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
-/// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and force and block are 0. e_k = q(2 − q), q = c/ε for c < ε, else 1, with
-/// c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for other sides and where the rest lengths are 0.
+/// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are
+/// updated together, itself included: w² mostly (method.md §4, §7). A contact acts while 0 < d < r. Below 2⁻²³ r slope
+/// and curvature are those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and both are 0.
+///
+/// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for
+/// other sides and where one of the rest lengths is 0. Where both are, and the edges were nearly parallel at the last
+/// detection (closest_points: decided exactly), e_k is the length of their overlap, seen along the first, over that of
+/// the shorter one.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one: its
 /// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and e_k g''
@@ -33,7 +37,7 @@ struct ContactForceCase {
   std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1
   std::array<Vec3f, 4> vertex;              ///< x [m]; what the sides lack is 0
   std::array<Vec3f, 4> detected;            ///< x at the last detection [m], for e_k
-  std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 in meshes without triangles, where nothing is mollified
+  std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 of an edge without triangles
   float contact_radius = 0, stiffness = 0;  ///< r [m], k_c [N/m]
   ContactActivation activation = ContactActivation::ogc;
   std::uint8_t together = 0;  ///< bit k: vertex k is updated together with the own one, whose bit means nothing
@@ -43,11 +47,14 @@ struct ContactForceIn {
   std::vector<ContactForceCase> cases;
 };
 
-/// In units of u · scale. On the longest way from an input to the force lie a difference (1), the first parameter of two edges (two cross products (4), their
-/// product (3) over the square of the one (2 + 3), a quotient (1)), from it the second (two products of vectors (6), a product, a difference, a quotient
-/// (3), the other square (3)), its complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the normal (2), the slope
-/// (4; of ipc_log 9), its products with weight and normal (2): 47. e_k comes another way: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q),
-/// its product with k_c: 15.
+/// In units of u · scale. On the longest way from an input to the force lie a difference (1), the first parameter of
+/// two edges (two cross products (4), their product (3) over the square of the one (2 + 3), a quotient (1)), from it
+/// the second (two products of vectors (6), a product, a difference, a quotient (3), the other square (3)), its
+/// complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the normal (2), the
+/// slope (4; of ipc_log 9), its products with weight and normal (2): 47. e_k comes another way: a difference, a cross
+/// product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15. As a share of the overlap: a
+/// difference, two products of vectors (6), a quotient for each end, their difference, the root of a quotient of
+/// squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
 /// As far as the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
 /// (2), an outer product (2).

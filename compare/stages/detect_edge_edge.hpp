@@ -8,11 +8,11 @@
 namespace ogc::compare {
 
 /// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are, if nearer than r, a contact of their
-/// interiors where closest points of theirs lie in each other's blocks, of exactly parallel ones those at either end of the
-/// overlap; two edges without triangles are one without that test.
+/// interiors where closest points of theirs lie in each other's blocks, of exactly parallel ones those at either end of
+/// the overlap; two edges without triangles are one without that test.
 ///
 /// {p, q}, each a vertex or the interior of an edge, first < second as faces. `first_edge` ∋ first and `second_edge` ∋
-/// second are the lowest-numbered edges that generate the pair: lexicographically smallest (min, max) of the two numbers.
+/// second are the lowest-numbered edges that generate the pair: lexicographically smallest (min, max) of both.
 struct EdgeEdgeContact {
   Face first, second;
   Index first_edge = -1, second_edge = -1;

@@ -189,4 +189,13 @@ OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_sq
   return q * (2.0f - q);
 }
 
+/// Of nearly parallel edges: their overlap, seen along the first, over the shorter one's length. To where the second
+/// one starts and ends, from the first one's start.
+OGC_HD inline float overlap_share(const Vec& first, const Vec& second, const Vec& to_start, const Vec& to_end) {
+  const float aa = dot(first, first), bb = dot(second, second);
+  const float start = clamp_unit(dot(first, to_start) / aa), end = clamp_unit(dot(first, to_end) / aa);
+  const float part = start < end ? end - start : start - end;
+  return bb < aa ? part * sqrtf(aa / bb) : part;
+}
+
 }  // namespace ogc::fast

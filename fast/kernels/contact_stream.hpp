@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/sweep.hpp"
@@ -16,9 +17,8 @@ struct ContactTables {
   const int* body = nullptr;                  ///< by vertex
   const ContactMaterial* materials = nullptr; ///< of bodies a and b, at a · body_count + b
   int body_count = 0;
-  const float* rest_squared = nullptr;        ///< ‖ē‖² by edge [m²]
-  const Vec* detected = nullptr;              ///< positions of the detection, for the mollifier
-  bool mollify = true;                        ///< false in meshes without triangles: parallel strands must repel
+  const float* rest_squared = nullptr;        ///< ‖ē‖² by edge [m²]; 0 without triangles: parallel strands must repel
+  const Vec* detected = nullptr;              ///< positions of the detection, for e_k
 };
 
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
@@ -48,6 +48,18 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Ver
   return contact;
 }
 
+/// e_k of two interiors: the mollifier; of two edges without triangles the share that nearly parallel ones overlap.
+OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeRecord& record) {
+  const Vec* x = tables.detected;
+  const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
+  const Vec first = p.b - p.a, second = q.b - q.a;
+  const float rest_first = tables.rest_squared[record.first_edge], rest_second = tables.rest_squared[record.second_edge];
+  if (rest_first > 0 && rest_second > 0) return mollifier(first, second, rest_first, rest_second);
+  if (rest_first > 0 || rest_second > 0) return 1.0f;
+  const auto is_shared = [p, q] { return is_overlapping_parallel(p, q); };
+  return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
+}
+
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
@@ -55,10 +67,7 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   if (q[1] < 0) set_slots(contact, ContactKind::point_point, p[0], p[0], q[0], p[0]);
   else if (p[1] < 0) set_slots(contact, ContactKind::point_segment, p[0], p[0], q[0], q[1]);
   else set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
-  if (contact.kind == ContactKind::segment_segment && tables.mollify) {
-    const Vec* x = tables.detected;
-    contact.stiffness *= mollifier(x[p[1]] - x[p[0]], x[q[1]] - x[q[0]], tables.rest_squared[record.first_edge], tables.rest_squared[record.second_edge]);
-  }
+  if (contact.kind == ContactKind::segment_segment) contact.stiffness *= energy_share(tables, record);
   return contact;
 }
 

@@ -122,15 +122,16 @@ struct CollectEdgeEdge {
     return feature == EdgeFeature::interior ? -1 : feature == EdgeFeature::end_0 ? e.a : e.b;
   }
 
-  /// Both blocks hold the other side's closest point, given that these features hold the closest points (Eq. 14, 15). An
-  /// interior's holds it always.
+  /// Both blocks hold the other side's closest point, given that these features hold the closest points (Eq. 14, 15).
+  /// An interior's holds it always.
   OGC_HD bool is_hit(const EdgeEnds& p, const EdgeEnds& q, EdgePairFeatures on) const {
     const int v = end_of(p, on.first), w = end_of(q, on.second);
     return (v < 0 || is_end_hit(v, w < 0, w, q)) && (w < 0 || is_end_hit(w, v < 0, v, p));
   }
 
-  /// The same at any end that lies beside the other edge or at an end of it: both, where exactly parallel edges cease to
-  /// overlap. Where blocks hold the points that are the feet of each other, no points are nearer: their own edges say so.
+  /// The same at any end that lies beside the other edge or at an end of it: both, where exactly parallel edges cease
+  /// to overlap. Where blocks hold the points that are the feet of each other, no points are nearer: their own edges
+  /// say so.
   OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
     for (int i = 0; i < 2; ++i) {
       const auto end = static_cast<EdgeFeature>(i);

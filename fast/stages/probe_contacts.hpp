@@ -73,7 +73,7 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   view.start = {memory.places(batch.start)};
   // Without a body count the material of a pair is that of its second body, here of its case.
   const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials), 0,
-                             memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.detected), true};
+                             memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.detected)};
   const std::size_t n = batch.role.size();
   backend.for_each(static_cast<int>(n),
                    ProbeContact{view, tables, memory.template in<VertexFacetRecord>(batch.vertex_facet), memory.template in<EdgeEdgeRecord>(batch.edge_edge),

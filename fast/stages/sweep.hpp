@@ -120,6 +120,15 @@ inline SweepStreams build_streams(const RestState& rest, const Colouring& colour
   return streams;
 }
 
+/// ‖ē‖² by edge, 0 of an edge without triangles.
+inline std::vector<float> rest_squared_with_triangles(const compare::Topology& topology, const RestState& rest) {
+  std::vector<float> squared = rest.edge_length_squared;
+  for (std::size_t e = 0; e < squared.size(); ++e) {
+    if (topology.edge_triangles[e].empty()) squared[e] = 0;
+  }
+  return squared;
+}
+
 /// Whether a scene needs GatherEveryModel: something that GatherDefault leaves out.
 inline bool needs_every_model(const RestState& rest) {
   if (rest.activation != ContactActivation::ogc || !rest.springs.empty()) return true;
@@ -147,10 +156,11 @@ class Sweep {
     upload(springs_, streams.springs);
     upload(spring_rows_, streams.spring_rows);
     upload(contact_materials_, rest.contact);
-    upload(rest_squared_, rest.edge_length_squared);
+    upload(rest_squared_, rest_squared_with_triangles(topology, rest));
     contact_rows_.resize(streams.vertices.size());
     contact_rows_.fill_zero();
-    tables_ = {body_.data(), contact_materials_.data(), static_cast<int>(rest.materials.size()), rest_squared_.data(), nullptr, !topology.triangles.empty()};
+    const int bodies = static_cast<int>(rest.materials.size());
+    tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
     vertex_count_ = static_cast<int>(rest.mass.size());
     lanes_ = static_cast<int>(scene.settings.lanes > 0 ? scene.settings.lanes : static_cast<std::int64_t>(default_lanes(rest.mass.size())));
     for (std::size_t v = 0; v < rest.mobility.size(); ++v) {

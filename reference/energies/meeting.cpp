@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/energies/mollifier.hpp"
+#include "reference/energies/overlap_share.hpp"
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/closest_points.hpp"
 
@@ -30,12 +31,6 @@ Input at_end(const Inputs& inputs, Input free, double end) {
   if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1}))) return Input(end);
   free.value = end;
   return free;
-}
-
-/// Clamped to [0, 1]; keeps its derivatives, which hold on one side of the corner at least.
-Input clamped(Input x) {
-  x.value = x.value < 0 ? 0 : x.value > 1 ? 1 : x.value;
-  return x;
 }
 
 /// Of the foot in the triangle's plane.
@@ -109,8 +104,8 @@ Parameters on_edges(const Inputs& inputs, bool skew, EdgeFeatures features, cons
 
 /// The rule for nearly parallel edges: the middle of the overlap, then its projection.
 Parameters middle_of_overlap(const Vertices& x) {
-  const Input s = Input(0.5) * (clamped(foot(x[2], x[0], x[1])) + clamped(foot(x[3], x[0], x[1])));
-  return {s, clamped(foot(x[0] + s * (x[1] - x[0]), x[2], x[3]))};
+  const Input s = Input(0.5) * (within_unit(foot(x[2], x[0], x[1])) + within_unit(foot(x[3], x[0], x[1])));
+  return {s, within_unit(foot(x[0] + s * (x[1] - x[0]), x[2], x[3]))};
 }
 
 std::vector<Parameters> all_on_edges(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
@@ -157,13 +152,34 @@ Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const Triple<Input> e = own.vector(q.detected[1], q.detected[0]), f = own.vector(q.detected[3], q.detected[2]);
   const Mollifier<Input> mollifier(e, f, own.number(q.rest_squared[0]), own.number(q.rest_squared[1]));
-  if (!mollifier.acts()) return inputs.number(1, 0);
+  if (!mollifier.acts()) return one;
   const Input result = mollifier.value();
   const double square = 2 * 16 * compare::unit_roundoff * dot(e, e).value * dot(f, f).value / mollifier.limit.value;
   return inputs.number(result.value, own.condition({&result, 1}) + square);
 }
 
-/// Everything but the weights.
+/// e_k where it is constant.
+Input shared(const ContactForceCase& q, Inputs& inputs) {
+  Inputs own;
+  const auto& x = q.detected;
+  const Triple<Input> first = own.vector(x[1], x[0]), start = own.vector(x[2], x[0]), end = own.vector(x[3], x[0]);
+  const Input result = overlap_share(first, end - start, start);
+  return inputs.number(result.value, own.condition({&result, 1}));
+}
+
+/// e_k: the exact one, then the one across a grey decision.
+std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
+  if (q.sides != ContactSides::edge_edge) return {one};
+  if (q.rest_squared[0] > 0 && q.rest_squared[1] > 0) return {mollified(q, inputs)};
+  if (q.rest_squared[0] != 0 || q.rest_squared[1] != 0) return {one};
+  const Membership rule = are_nearly_parallel({{q.detected[0], q.detected[1]}, {q.detected[2], q.detected[3]}});
+  if (!rule.possible) return {one};
+  const Input share = shared(q, inputs);
+  if (rule.certain) return {share};
+  return rule.exact ? std::vector{share, one} : std::vector{one, share};
+}
+
+/// Everything but the weights and e_k.
 Meeting begun(const ContactForceCase& q) {
   Meeting meeting;
   const std::size_t base = q.sides == ContactSides::edge_edge ? 0 : 1;
@@ -173,7 +189,6 @@ Meeting begun(const ContactForceCase& q) {
   meeting.radius = meeting.inputs.number(q.contact_radius);
   meeting.stiffness = meeting.inputs.number(q.stiffness);
   meeting.activation = q.activation;
-  if (q.sides == ContactSides::edge_edge) meeting.stiffness = meeting.stiffness * mollified(q, meeting.inputs);
   return meeting;
 }
 
@@ -250,15 +265,19 @@ double Meeting::slope_doubt() const {
 
 std::vector<Meeting> meetings(const ContactForceCase& question) {
   Meeting common = begun(question);
+  const std::vector<Input> shares = energy_shares(question, common.inputs);
   common.needle = has_needle(question, common.vertex);
   const std::vector<Parameters> all = all_parameters(common.inputs, question, common.vertex);
   const bool has_parameters = question.sides != ContactSides::point_point;
   const Input first_error = has_parameters ? common.inputs.number(0, 1) : zero, second_error = has_parameters ? common.inputs.number(0, 1) : zero;
   std::vector<Meeting> result;
-  for (const Parameters& at : all) {
-    Meeting& meeting = result.emplace_back(common);
-    meeting.weight = weights(question.sides, at[0] + first_error, at[1] + second_error);
-    measure(meeting);
+  for (const Input& share : shares) {
+    for (const Parameters& at : all) {
+      Meeting& meeting = result.emplace_back(common);
+      meeting.stiffness = common.stiffness * share;
+      meeting.weight = weights(question.sides, at[0] + first_error, at[1] + second_error);
+      measure(meeting);
+    }
   }
   for (std::size_t i = 0, count = result.size(); i < count; ++i) {
     if (!result[i].may_jump()) continue;

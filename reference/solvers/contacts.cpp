@@ -26,8 +26,12 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Edge
 }
 
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest, const ContactStencil& stencil) {
-  if (stencil.edge[0] < 0 || topology.triangles.empty()) return {};
-  return {rest.edge_length_squared[static_cast<std::size_t>(stencil.edge[0])], rest.edge_length_squared[static_cast<std::size_t>(stencil.edge[1])]};
+  if (stencil.edge[0] < 0) return {};
+  const auto squared = [&](Index e) {
+    const auto i = static_cast<std::size_t>(e);
+    return topology.edge_triangles[i].empty() ? 0 : rest.edge_length_squared[i];
+  };
+  return {squared(stencil.edge[0]), squared(stencil.edge[1])};
 }
 
 const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count, std::span<const Index> body,

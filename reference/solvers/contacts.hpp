@@ -29,7 +29,7 @@ struct ContactStencil {
 ContactStencil stencil_of(const compare::Topology& topology, const compare::VertexFacetContact& contact);
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Squared rest lengths of the two edges whose energy is mollified [m²]; zeros where it is not: contacts with a vertex, meshes without a triangle.
+/// Squared rest lengths of two edges that meet [m²]; 0 of one without triangles. Zeros for contacts with a vertex.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest, const ContactStencil& stencil);
 
 /// Of the two bodies that meet. `body`: by vertex.

@@ -7,7 +7,9 @@
 
 #include "compare/problem/error.hpp"
 #include "reference/energies/mollifier.hpp"
+#include "reference/energies/overlap_share.hpp"
 #include "reference/energies/rest_state.hpp"
+#include "reference/geometry/closest_points.hpp"
 #include "reference/solvers/newton_batches.hpp"
 
 namespace ogc::reference {
@@ -25,6 +27,20 @@ auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const St
     case 3: return visit(gathered<3>(vertex, x));
     default: return visit(gathered<4>(vertex, x));
   }
+}
+
+/// e_k (compare/stages/contact_force.hpp), by the positions in single precision that the detection saw.
+double energy_share(const std::array<float, 2>& rest_squared, const std::array<Triple<double>, 4>& x) {
+  if (rest_squared[0] > 0 && rest_squared[1] > 0) {
+    const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
+    return mollifier.acts() ? mollifier.value() : 1;
+  }
+  if (rest_squared[0] > 0 || rest_squared[1] > 0) return 1;
+  const auto seen = [&](std::size_t k) {
+    return Vec3f{static_cast<float>(x[k][0]), static_cast<float>(x[k][1]), static_cast<float>(x[k][2])};
+  };
+  if (!nearly_parallel(EdgePair{{seen(0), seen(1)}, {seen(2), seen(3)}})) return 1;
+  return overlap_share(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
 }
 
 double contact_term_energy(const ContactTerm& term, const State& x) {
@@ -133,11 +149,9 @@ void Potential::add_contact(const ContactStencil& stencil, const State& detected
   if (material.stiffness == 0) return;
   contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1, double{material.friction},
                        scene_.settings.activation});
+  if (stencil.sides != ContactSides::edge_edge) return;
   const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
-  if (rest_squared[0] == 0) return;
-  const auto x = gathered<4>(stencil.vertex, detected);
-  const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
-  if (mollifier.acts()) contacts_.back().mollifier = mollifier.value();
+  contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, detected));
 }
 
 std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const {

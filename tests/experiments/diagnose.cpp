@@ -107,6 +107,7 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
       {"closest_face: distance_below always 0", "distance_below_is_zero"},
       {"closest_points: rule for nearly parallel edges ignored", "parallel_rule_missing"},
       {"contact_force: mollifier forgotten", "mollifier_missing"},
+      {"contact_force: share of the overlap forgotten", "overlap_share_missing"},
       {"contact_force: mollifier of the present edges", "mollifier_of_present_edges"},
       {"contact_force: weights of the two sides exchanged", "sides_exchanged"},
       {"contact_force: radius 0.01 % too large", ""},

@@ -59,6 +59,11 @@ ForceOut of_the_point(const ContactForceIn& in, const std::function<ForceOut(con
   return right(other);
 }
 
+/// Rest lengths that are none, and not 0 either: e_k is 1.
+void without_mollifier(ContactForceCase& c) {
+  if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
+}
+
 std::vector<Fault> contact_force_faults() {
   return {
       {"contact_force: Eq. 19 as printed", Stage::contact_force,
@@ -77,7 +82,11 @@ std::vector<Fault> contact_force_faults() {
        }},
       contact_asked("weights of the two ends of an edge exchanged", [](ContactForceCase& c) { if (c.sides == ContactSides::edge_edge) c.own ^= 1; }),
       contact_asked("weights of the two sides exchanged", [](ContactForceCase& c) { if (c.sides == ContactSides::edge_edge) c.own ^= 2; }),
-      contact_asked("mollifier forgotten", [](ContactForceCase& c) { c.rest_squared = {}; }),
+      contact_asked("mollifier forgotten", without_mollifier),
+      contact_asked("share of the overlap forgotten",
+                    [](ContactForceCase& c) {
+                      if (c.rest_squared == std::array<float, 2>{}) c.rest_squared = {-1, -1};
+                    }),
       contact_asked("mollifier of the present edges", [](ContactForceCase& c) { c.detected = c.vertex; }),
       contact_asked("edges in the wrong order, so that the middle of the overlap is taken on the other one",
                     [](ContactForceCase& c) {
@@ -96,7 +105,7 @@ std::vector<Fault> friction_force_faults() {
       friction_asked("1/y below the limit too", [](FrictionForceCase& c) { c.slip_limit *= 1e-3f; }),
       friction_asked("slip since now, not since the start of the step", [](FrictionForceCase& c) { c.start = c.contact.vertex; }),
       friction_asked("block that knows nothing of vertices that are updated together", [](FrictionForceCase& c) { c.contact.together = 0; }),
-      friction_asked("normal force without the mollifier", [](FrictionForceCase& c) { c.contact.rest_squared = {}; }),
+      friction_asked("normal force without the mollifier", [](FrictionForceCase& c) { without_mollifier(c.contact); }),
       friction_spoiled("I in place of T T^T",
                        [](const FrictionForceCase&, Vec3f&, std::array<float, 6>& block) {
                          const float half = (block[0] + block[3] + block[5]) / 2;

@@ -121,7 +121,7 @@ void nearly_parallel_untested(const DetectIn& in, const Authority& authority, De
     if (answer.nearly_parallel[i] == 0 || answer.distance_below[i] >= in.contact_radius) continue;
     const auto [e, f] = asked[i];
     const EdgeEdgeContact contact{{FaceKind::edge, e}, {FaceKind::edge, f}, e, f};
-    if (std::find(out.contacts.begin(), out.contacts.end(), contact) == out.contacts.end()) out.contacts.push_back(contact);
+    if (std::ranges::find(out.contacts, contact) == out.contacts.end()) out.contacts.push_back(contact);
   }
 }
 
@@ -134,7 +134,8 @@ struct OverlapEnd {
   bool in_blocks = false;
 };
 
-/// In double. Of exactly parallel edges their own are at right angles to what joins them, so a rounding above 0 is none.
+/// In double. Of exactly parallel edges their own are at right angles to what joins them, so a rounding above 0 is
+/// none.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {
@@ -186,7 +187,8 @@ void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEd
     if (c.first.kind != FaceKind::edge || !is_loose(in, c.first_edge) || !is_loose(in, c.second_edge)) return false;
     const Edge &e = in.topology->edges[c.first_edge], &f = in.topology->edges[c.second_edge];
     const auto& x = in.positions;
-    if (authority.closest_points({{{x[e[0]], x[e[1]]}}, {{x[f[0]], x[f[1]]}}}).exact.nearly_parallel[0] == 0) return false;
+    const ClosestPointsIn pair{{{x[e[0]], x[e[1]]}}, {{x[f[0]], x[f[1]]}}};
+    if (authority.closest_points(pair).exact.nearly_parallel[0] == 0) return false;
     const auto ends = ends_of_overlap(in, e, f);
     const auto nearest = std::ranges::min_element(ends, {}, &OverlapEnd::squared_distance);
     return nearest != ends.end() && !nearest->in_blocks;

@@ -107,8 +107,13 @@ void add_contact(std::vector<WrongForm>& forms, Member<In> stage, Contact contac
     });
   changed("ogc_for_every_activation", "`ogc`, whichever activation is asked for",
           [](ContactForceCase& c) { c.activation = ContactActivation::ogc; });
-  changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full",
-          [](ContactForceCase& c) { c.rest_squared = {}; });
+  // A rest length that is none, and not 0 either: e_k is 1.
+  changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full", [](ContactForceCase& c) {
+    if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
+  });
+  changed("overlap_share_missing", "e_k is 1 for nearly parallel edges without triangles", [](ContactForceCase& c) {
+    if (c.rest_squared == std::array<float, 2>{}) c.rest_squared = {-1, -1};
+  });
   changed("mollifier_of_present_edges", "e_k of the present edges, not of those at the last detection",
           [](ContactForceCase& c) { c.detected = c.vertex; });
   changed("block_of_own_weight_alone", "w² in the block where other vertices are updated together with it",

@@ -116,7 +116,7 @@ std::vector<WrongForm> sweep_forms() {
       sweep_asked("bending_missing", "no hinge acts", [](Read& read) { read.rest.hinges.clear(); }),
       sweep_asked("springs_missing", "no spring acts", [](Read& read) { read.scene.springs.clear(); }),
       sweep_asked("mollifier_missing", "e_k is 1: nearly parallel edges act in full",
-                  [](Read& read) { read.rest.edge_length_squared.assign(read.rest.edge_length_squared.size(), 0); }),
+                  [](Read& read) { read.rest.edge_length_squared.assign(read.rest.edge_length_squared.size(), -1); }),
       sweep_asked("damping_missing", "membranes, hinges and springs without damping",
                   [](Read& read) {
                     materials([](Material& m) { m.membrane_damping = m.bending_damping = 0; })(read);

@@ -183,6 +183,17 @@ TEST_CASE("nearly parallel edges touch in the middle of their overlap", "[unit]"
   CHECK(ends.slot[3] == 0);
 }
 
+TEST_CASE("the share of an overlap is that of the shorter edge, whichever way it points", "[unit]") {
+  const auto share = [](float begin, float end) {
+    return overlap_share({4, 0, 0}, {end - begin, 0, 0}, {begin, 0, 1}, {end, 0, 1});
+  };
+  CHECK(share(3, 5) == 0.5F);
+  CHECK(share(5, 3) == 0.5F);
+  CHECK(share(1, 2) == 1);
+  CHECK(share(-2, 6) == 1);
+  CHECK(share(-2, 3) == 0.75F);
+}
+
 TEST_CASE("the mollifier is 0 for parallel edges, 1 from its limit on, and C1 there", "[unit]") {
   CHECK(mollifier({1, 0, 0}, {2, 0, 0}, 1, 4) == 0);
   CHECK(mollifier({1, 0, 0}, {0, 2, 0}, 1, 4) == 1);

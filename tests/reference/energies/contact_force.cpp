@@ -144,6 +144,7 @@ TEST_CASE("the mollifier is that of the last detection, for two edges of meshes 
     c.detected = {{{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {static_cast<float>(2 * std::sqrt(1 - sine * sine)), static_cast<float>(2 * sine), 0}}};
     return exact(c).force.z;
   };
+  c.rest_squared = {4, 0};
   REQUIRE(at(0) == Approx(1));  // λ/2 at one end of four
   c.rest_squared = {4, 4};
   REQUIRE(at(0) == 0);
@@ -151,11 +152,35 @@ TEST_CASE("the mollifier is that of the last detection, for two edges of meshes 
   REQUIRE(at(std::sqrt(1.001e-3)) == Approx(1));
 }
 
+TEST_CASE("two edges without triangles share the energy by their overlap where they were nearly parallel", "[unit]") {
+  ContactForceCase c;
+  c.sides = ContactSides::edge_edge;
+  c.vertex = {{{-1, 0, 0.25f}, {1, 0, 0.25f}, {0, -1, 0}, {0, 1, 0}}};
+  c.contact_radius = 1;
+  c.stiffness = 2;
+  const auto at = [&](float begin, float end, float slope) {
+    c.detected = {{{0, 0, 0}, {4, 0, 0}, {begin, 0, 1}, {end, slope * (end - begin), 1}}};
+    return exact(c).force.z;
+  };
+  for (const float slope : {0.0f, 1e-12f, 5e-4f}) {
+    REQUIRE(at(3, 5, slope) == Approx(0.5));   // half of the shorter second one
+    REQUIRE(at(5, 3, slope) == Approx(0.5));
+    REQUIRE(at(1, 2, slope) == Approx(1));     // all of it
+    REQUIRE(at(-2, 6, slope) == Approx(1));    // all of the first
+    REQUIRE(at(-2, 3, slope) == Approx(0.75)); // three quarters of the first
+  }
+  REQUIRE(at(4, 6, 0) == Approx(1));     // no more than a point: by another rule
+  REQUIRE(at(3, 5, 0.01f) == Approx(1)); // no longer nearly parallel
+  c.rest_squared = {4, 0};
+  REQUIRE(at(3, 5, 0) == Approx(1));
+}
+
 TEST_CASE("nearly parallel edges meet in the middle of their overlap", "[unit]") {
   ContactForceCase c;
   c.sides = ContactSides::edge_edge;
   c.vertex = {{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0.25f}, {2.5f, 0, 0.25f}}};
   c.detected = c.vertex;
+  c.rest_squared = {1, 0};
   c.contact_radius = 1;
   c.stiffness = 2;
   constexpr std::array<double, 4> shares{-0.25, -0.75, 0.875, 0.125};

@@ -1,0 +1,25 @@
+// e_k of nearly parallel edges without triangles (compare/stages/contact_force.hpp), over any number type.
+#pragma once
+
+#include "reference/energies/derivative.hpp"
+
+namespace ogc::reference {
+
+/// x within [0, 1]; keeps its derivatives, which hold on one side of the corner at least.
+template <class T>
+T within_unit(const T& x) {
+  const double value = plain(x);
+  return value < 0 ? x - T(value) : value > 1 ? (x - T(value)) + T(1.0) : x;
+}
+
+/// The overlap of edges e and f, seen along e, over the shorter one's length. `between`: from e's start to f's.
+template <class T>
+T overlap_share(const Triple<T>& e, const Triple<T>& f, const Triple<T>& between) {
+  using std::sqrt;
+  const T ee = dot(e, e), ff = dot(f, f);
+  const T start = within_unit(T(dot(between, e) / ee)), end = within_unit(T(dot(between + f, e) / ee));
+  const T part = plain(start) < plain(end) ? end - start : start - end;
+  return plain(ff) < plain(ee) ? T(part * sqrt(ee / ff)) : part;
+}
+
+}  // namespace ogc::reference
