@@ -3,7 +3,9 @@
 
 Every comparison, sum, product, sign, index, coordinate, number and condition of the given files is rewritten to one
 that can be switched (tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same
-cases, whose exact answers are found once; what the judge lets through meets the unit tests of these files.
+cases, whose exact answers are found once; what the judge lets through meets the unit tests of these files. Each stage
+and each test may take ten times what it takes without a mutant; one on which something takes longer, while all else is
+right, counts as ten times slower.
 
     tests/mutants.py BUILD [--of kernels|stages] [--files a,b,…] [--stages a,b,…] [--cases N] [--limit N]
                      [--minutes M] [--jobs J] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
@@ -11,12 +13,15 @@ cases, whose exact answers are found once; what the judge lets through meets the
 
 BUILD is a folder in which `ogc` was built by ninja. `--of kernels` are fast/kernels, `--of stages` fast/stages and
 fast/cpu. With --keep the program is left in DIR, with a command for a machine with more cores, whose output --answers
-takes. Not a part of tests/run: it takes minutes. FILE gets one line a mutant; the survivors go to standard output.
+takes. Not a part of tests/run: it takes minutes. FILE gets one line a mutant; to standard output go those that survive,
+are slow or not decided.
 """
 
 import argparse
 import collections
 import concurrent.futures
+import contextlib
+import io
 import os
 import random
 import re
@@ -25,7 +30,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -268,7 +272,7 @@ def lines_since(commit, names):
 
 def arguments(options, corpus):
     """What the judge of the mutants is told."""
-    numbers = (options.cases, options.seed, options.seconds, corpus, options.jobs)
+    numbers = (options.cases, options.seed, 60 * options.minutes, corpus, options.jobs)
     return [*map(str, numbers), *options.stages.split(",")]
 
 
@@ -279,23 +283,37 @@ def drawn(mutants, options):
     return order
 
 
+def category(found):
+    """Of what the program says of a mutant: by whom it is found, or why not."""
+    for beginning, name in (("not reached", "not reached"), ("not decided", "not decided"),
+                            ("ten times slower", "slow"), ("test ", "test")):
+        if found.startswith(beginning):
+            return name
+    return "judge" if found else "survives"
+
+
 def answers_of(lines, mutants, options, log):
-    """What was found of each mutant, in the order in which they were drawn, as far as the judge came."""
+    """What was found of each mutant, in the order in which they were drawn, as far as the judge came. What was begun
+    and has no answer, as the program was stopped, is not decided."""
     said = iter(lines)
     first = next(said, "").strip()
     if first != "right":
         sys.exit("the files as they are do not pass: " + first[:400])
-    found, start, counts = {}, time.monotonic(), collections.Counter()
+    found, counts = {}, collections.Counter()
     for line in said:
-        id, _, what = line.rstrip("\n").partition("\t")
+        id, tab, what = line.rstrip("\n").partition("\t")
+        if not tab or not line.endswith("\n"):
+            break  # cut off
         found[int(id)] = what
-        counts[what if what in ("", "test", "not reached") else "judge"] += 1
+        counts[category(what)] += 1
         reached = len(found) - counts["not reached"]
         if reached and reached % 50 == 0:
-            log(f"{reached} judged: {counts['judge']} found by the judge, {counts['test']} by tests, {counts['']} survive")
-        if time.monotonic() - start > 60 * options.minutes or reached >= options.limit:
+            log(f"{reached} judged: " + ", ".join(f"{name} {count}" for name, count in sorted(counts.items())))
+        if reached >= options.limit:
             break
-    return [(m, found[m.id]) for m in drawn(mutants, options) if m.id in found]
+    order = drawn(mutants, options)
+    last = max((i for i, m in enumerate(order) if m.id in found), default=-1)
+    return [(m, found.get(m.id, "not decided: stopped")) for m in order[:last + 1]]
 
 
 def judge(program, mutants, options, log):
@@ -330,20 +348,24 @@ def kept(options):
 
 
 def report(mutants, results, options):
-    reached = [(m, found) for m, found in results if found != "not reached"]
-    unreached = [m for m, found in results if found == "not reached"]
-    judged = sum(found not in ("", "test") for _, found in reached)
-    tested = sum(found == "test" for _, found in reached)
+    by = collections.defaultdict(list)
+    for mutant, found in results:
+        by[category(found)].append((mutant, found))
     if options.out:
         rows = [f"{m.id}\t{m.file}:{m.line}\t{m.kind}\t{m.text}\t{found or 'SURVIVES'}" for m, found in sorted(results)]
         options.out.write_text("\n".join(rows) + "\n", encoding="utf-8")
-    share = 100 / max(1, len(reached))
-    print(f"{len(mutants)} mutants, drawn with seed {options.seed}: {len(unreached)} of the first {len(results)} are "
-          f"reached by neither a case nor a test; of the other {len(reached)} the judge finds {judged} "
-          f"({share * judged:.1f} %), tests {tested} more (together {share * (judged + tested):.1f} %)")
-    for mutant, found in sorted(reached):
-        if not found:
-            print(f"{mutant.id}\t{mutant.file}:{mutant.line}\t{mutant.kind}\t{mutant.text}")
+    crash = sum("crashes: " in found for _, found in by["judge"])
+    wrong, slow = len(by["judge"]) + len(by["test"]), len(by["slow"])
+    decided = wrong + slow + len(by["survives"])
+    share = 100 / max(1, decided)
+    print(f"{len(mutants)} mutants, of which the first {len(results)} of a draw with seed {options.seed}: "
+          f"{len(by['not reached'])} are reached by neither a case nor a test, {len(by['not decided'])} not decided.")
+    print(f"Of the {decided} decided the judge finds {len(by['judge'])} ({crash} of them crash), tests {len(by['test'])} "
+          f"more, together {wrong} ({share * wrong:.1f} %); {slow} are right as far as they come and ten times slower "
+          f"(with them {share * (wrong + slow):.1f} %); {len(by['survives'])} survive.")
+    for name in ("survives", "slow", "not decided"):
+        for mutant, found in sorted(by[name]):
+            print(f"{found or name}\t{mutant.id}\t{mutant.file}:{mutant.line}\t{mutant.kind}\t{mutant.text}")
 
 
 SELF_TEST = [  # a line, and what becomes of it (with M for ::ogc_mutant); numbers count from 1
@@ -358,8 +380,51 @@ SELF_TEST = [  # a line, and what becomes of it (with M for ::ogc_mutant); numbe
 ]
 
 
+# What a program that was stopped says of mutants 1 … 8 (the last line is cut off), and what is reported: drawn with
+# seed 1 they come in the order 4 7 2 6 8 1 5 3.
+ANSWERS = """right
+7\tstep: wrong answers
+6\t
+2\ttest NAME: fails
+4\tten times slower: sweep
+5\tsweep: crashes: signal 11
+8\tnot reached
+3\tstep: wr"""
+REPORT = """8 mutants, of which the first 7 of a draw with seed 1: 1 are reached by neither a case nor a test, 1 not \
+decided.
+Of the 5 decided the judge finds 2 (1 of them crash), tests 1 more, together 3 (60.0 %); 1 are right as far as they \
+come and ten times slower (with them 80.0 %); 1 survive.
+survives\t6\tx.hpp:6\tsign\tf
+ten times slower: sweep\t4\tx.hpp:4\tsign\td
+not decided: stopped\t1\tx.hpp:1\tsign\ta
+"""
+
+
+def reported(text, limit):
+    """What is reported of these answers."""
+    mutants = [Mutant(i, "x.hpp", i, "sign", "abcdefgh"[i - 1]) for i in range(1, 9)]
+    options = argparse.Namespace(seed=1, limit=limit, out=None)
+    with contextlib.redirect_stdout(io.StringIO()) as said:
+        report(mutants, answers_of(text.splitlines(keepends=True), mutants, options, print), options)
+    return said.getvalue()
+
+
+def work_apart():
+    """What is wrong with the processes of their own in which mutants are judged."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "self_test"
+        command = ["g++", "-std=c++20", f"-I{ROOT}", str(ROOT / "tests/mutants/self_test.cpp"), "-o", str(program)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode == 0:
+            done = subprocess.run([program], capture_output=True, text=True)
+        return "" if done.returncode == 0 else f"{done.stdout}{done.stderr}work apart: exit status {done.returncode}"
+
+
 def self_test():
-    wrong = []
+    wrong = [text for text in (work_apart(),) if text]
+    for limit, expected in ((100, REPORT), (1, "8 mutants, of which the first 2 of a draw")):
+        if not reported(ANSWERS, limit).startswith(expected):
+            wrong.append(f"with --limit {limit} these answers are reported as\n{reported(ANSWERS, limit)}")
     for line, expected in SELF_TEST:
         got = Rewriter(set()).line("x.hpp", 1, line).replace("::ogc_mutant", "M")
         if got != expected:
@@ -372,7 +437,7 @@ def self_test():
                 wrong.append(f"{name}: lines are lost or added, or the switch is not included")
         if len(rewriter.mutants) < 1000:
             wrong.append(f"{of}: {len(rewriter.mutants)} mutants only")
-    print("\n".join(wrong) or "mutants are rewritten as they are to be")
+    print("\n".join(wrong) or "mutants are rewritten, judged apart and reported as they are to be")
     return 1 if wrong else 0
 
 
@@ -392,16 +457,15 @@ def build_judge(names, scratch, options, log):
 def parsed():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=Path, nargs="?")
-    parser.add_argument("--self-test", action="store_true", help="only see whether lines are rewritten as they are to be")
+    parser.add_argument("--self-test", action="store_true", help="only see whether all this works")
     parser.add_argument("--of", choices=sorted(SETS), default="kernels", help="fast/kernels, or fast/stages and fast/cpu")
     parser.add_argument("--files", help="only these, such as fast/cpu/pack.hpp, separated by commas")
     parser.add_argument("--stages", default=",".join(STAGES))
     parser.add_argument("--cases", type=int, default=2000, help="of a stage; of a mesh stage a quarter")
     parser.add_argument("--seed", type=int, default=1, help="of the cases and of the draw; CI's cases have 5")
-    parser.add_argument("--seconds", type=int, default=60, help="time limit of one mutant")
     parser.add_argument("--jobs", type=int, default=1, help="compilations, then mutants, at a time")
     parser.add_argument("--limit", type=int, default=1 << 30, help="only so many that are reached, drawn at random")
-    parser.add_argument("--minutes", type=float, default=25)
+    parser.add_argument("--minutes", type=float, default=25, help="after which no further mutant is begun")
     parser.add_argument("--only", default="", help="only these ids, separated by commas: to see whether more cases find them")
     parser.add_argument("--since", metavar="COMMIT", help="only in lines that this commit did not have")
     parser.add_argument("--flags", default="", help="for the compiler, such as -fsanitize=address,undefined")

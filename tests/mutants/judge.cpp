@@ -1,248 +1,310 @@
 // Judges mutants (tests/mutants.py). The truth about every case is found once, without any of them, and kept;
-// each mutant whose number comes in on standard input is then switched on and judged on the same cases in a process of
-// its own, which it may crash or hang, in those parts (the corpus, a stage) that reach it: it changes nothing in the
-// others. What the judge lets through, or is not through with in time, meets the unit tests.
+// each mutant whose number comes in on standard input is then switched on and judged on the same cases, a part (the
+// corpus' cases of a stage, a stage's generated ones) in a process of its own, which it may crash or hang, in those
+// parts that reach it: it changes nothing in the others. What the judge lets through meets the unit tests that reach
+// it, one by one likewise. Parts and tests come in the order of the time that they take without a mutant, and may take
+// ten times that.
 //
 // Usage: mutant_judge CASES SEED SECONDS CORPUS JOBS STAGE …
+// SECONDS: by the clock, after which no further mutant is begun. Times go to standard error.
 // First line out: "right", or what is wrong without any mutant. Then a line for each mutant, as they are judged, JOBS
-// at a time: its number, a tab, and nothing where it survives, "test" where only a test finds it, "not reached" where
-// nothing looks at it, otherwise what the judge said.
-#include <signal.h>
-#include <sys/wait.h>
+// at a time: its number, a tab, and
+//   nothing                          where it survives,
+//   "test NAME" …                    where only a test finds it,
+//   "ten times slower: …"            where all that comes to an end is right, and what is named does not in ten times
+//                                    the time that it takes without a mutant,
+//   "not decided: …"                 where what is named neither came to an end nor took the processor's time,
+//   "not reached"                    where nothing looks at it,
+// otherwise what the judge said.
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <iostream>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "compare/judge/corpus.hpp"
 #include "compare/judge/judge.hpp"
 #include "reference/contestant.hpp"
+#include "tests/mutants/apart.hpp"
 #include "tests/mutants/contestant.hpp"
-#include "tests/mutants/unit_tests.hpp"
 #include "tests/mutants/switch.hpp"
+#include "tests/mutants/unit_tests.hpp"
 
 namespace {
 
 using namespace ogc::compare;
+using namespace ogc::tests;
 
-/// The corpus (0), and from 1 on the stages of the plan.
-using Part = std::size_t;
+constexpr double slow_factor = 10;
+constexpr double least_time = 0.1;        ///< taken for the time of what takes less [s of the processor]
+constexpr double longest = 300;           ///< of a part or a test without any mutant [s of the processor]
+constexpr int most_slow = 3;              ///< parts and tests that are waited for before a mutant counts as slow
 
-/// What is judged just now.
+/// What is judged on a thread just now. `round`: 0 while truth is found.
 struct Moment {
-  std::size_t round = 0;  ///< 0: without any mutant
-  Part part = 0;
-  friend bool operator==(const Moment&, const Moment&) = default;
+  std::size_t round = 0, part = 0;
 };
+thread_local Moment now;
 
-/// Answers from memory, in the order in which the part's questions came first: the judge on one thread asks the same ones again.
+/// Answers from memory, in the order in which the part's questions came first: the judge on one thread asks the same
+/// ones again.
 template <class Truth, class In>
-std::function<Truth(const In&)> remembered(std::function<Truth(const In&)> authority, const Moment& now) {
+std::function<Truth(const In&)> remembered(std::function<Truth(const In&)> authority, std::size_t parts) {
   if (!authority) return authority;
   struct Memory {
-    std::map<Part, std::vector<Truth>> truths;
-    std::size_t next = 0;
-    Moment moment;
+    std::vector<Truth> truths;
+    std::size_t next = 0, round = 0;
   };
-  auto memory = std::make_shared<Memory>();
-  return [authority, memory, &now](const In& in) {
-    if (memory->moment != now) {
-      memory->moment = now;
-      memory->next = 0;
-    }
-    auto& truths = memory->truths[now.part];
-    if (memory->next == truths.size()) truths.push_back(authority(in));
-    return truths[memory->next++];
+  auto memories = std::make_shared<std::vector<Memory>>(parts);
+  return [authority, memories](const In& in) {
+    Memory& memory = (*memories)[now.part];
+    if (memory.round != now.round) memory.next = 0;
+    memory.round = now.round;
+    if (memory.next == memory.truths.size()) memory.truths.push_back(authority(in));
+    return memory.truths[memory.next++];
   };
 }
 
-Authority remembering(const Authority& a, const Moment& now) {
+Authority remembering(const Authority& a, std::size_t parts) {
   Authority r;
-  r.closest_face = remembered(a.closest_face, now);
-  r.closest_points = remembered(a.closest_points, now);
-  r.detect_vertex_facet = remembered(a.detect_vertex_facet, now);
-  r.detect_edge_edge = remembered(a.detect_edge_edge, now);
-  r.bound = remembered(a.bound, now);
-  r.activation = remembered(a.activation, now);
-  r.truncate = remembered(a.truncate, now);
-  r.membrane = remembered(a.membrane, now);
-  r.bending = remembered(a.bending, now);
-  r.spring = remembered(a.spring, now);
-  r.contact_force = remembered(a.contact_force, now);
-  r.friction_force = remembered(a.friction_force, now);
-  r.block = remembered(a.block, now);
-  r.initial_guess = remembered(a.initial_guess, now);
-  r.rest_state = remembered(a.rest_state, now);
+  r.closest_face = remembered(a.closest_face, parts);
+  r.closest_points = remembered(a.closest_points, parts);
+  r.detect_vertex_facet = remembered(a.detect_vertex_facet, parts);
+  r.detect_edge_edge = remembered(a.detect_edge_edge, parts);
+  r.bound = remembered(a.bound, parts);
+  r.activation = remembered(a.activation, parts);
+  r.truncate = remembered(a.truncate, parts);
+  r.membrane = remembered(a.membrane, parts);
+  r.bending = remembered(a.bending, parts);
+  r.spring = remembered(a.spring, parts);
+  r.contact_force = remembered(a.contact_force, parts);
+  r.friction_force = remembered(a.friction_force, parts);
+  r.block = remembered(a.block, parts);
+  r.initial_guess = remembered(a.initial_guess, parts);
+  r.rest_state = remembered(a.rest_state, parts);
   r.sweep = a.sweep;  // their truth follows the answer
   r.step = a.step;
   return r;
 }
 
-struct Plan {
-  JudgeOptions options;
-  std::vector<Stage> stages;
+/// Cases of one stage: those of the corpus, or, where there is none, generated ones.
+struct Part {
+  Stage stage{};
   std::vector<TestCase> corpus;
 };
 
-/// "" where nothing is wrong in the part, else the first stage and message.
-std::string verdict(Part part, const Contestant& contestant, const Authority& authority, const Plan& plan) {
-  const auto first = [](const StageReport& report) {
+struct WrongAnswer {};
+
+/// "" where nothing is wrong in the part, else the stage and what.
+std::string verdict(const Part& part, const Contestant& contestant, const Authority& authority, JudgeOptions options) {
+  const auto first = [&](const StageReport& report) {
     const auto& listed = report.tally.mismatches;
-    if (report.skipped) return std::string(stage_name(report.tally.stage)) + " is not judged";
+    if (report.skipped) return std::string("is not judged");
     return listed.empty() ? std::string() : print_problem(listed[0].name) + ": " + listed[0].message;
   };
-  if (part > 0) {
-    const Stage stage = plan.stages[part - 1];
-    JudgeOptions options = plan.options;
-    if (is_mesh_stage(stage)) options.cases /= 4;
-    return first(judge_stage(stage, contestant, authority, options));
+  if (!part.corpus.empty()) return first(judge_cases(part.corpus, contestant, authority).at(0));
+  if (is_mesh_stage(part.stage)) options.cases /= 4;
+  options.progress = [](std::uint64_t, std::uint64_t mismatches) {
+    if (mismatches > 0) throw WrongAnswer();
+  };
+  try {
+    return first(judge_stage(part.stage, contestant, authority, options));
+  } catch (const WrongAnswer&) {
+    return "wrong answers";
   }
-  for (const StageReport& report : judge_cases(plan.corpus, contestant, authority))
-    if (const std::string found = first(report); !found.empty()) return found;
-  return {};
 }
 
-const std::string hangs = "hangs";
-
-/// What `work` says, in a process of its own, or how that ended.
+/// The numbers of the mutants that `work` reaches, as text.
 template <class Work>
-std::string apart(unsigned seconds, Work work) {
-  int ends[2];
-  if (pipe(ends) != 0) return "no pipe";
-  const pid_t child = fork();
-  if (child == 0) {
-    alarm(seconds);
-    const std::string found = work();
-    if (write(ends[1], found.data(), found.size()) < 0) _exit(4);
-    _exit(0);
-  }
-  close(ends[1]);
-  std::string found;
-  char buffer[4096];
-  for (ssize_t got = 0; (got = read(ends[0], buffer, sizeof buffer)) > 0;) found.append(buffer, static_cast<std::size_t>(got));
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? hangs : "crashes: signal " + std::to_string(WTERMSIG(status));
-  if (WEXITSTATUS(status) != 0) return "could not be judged: exit status " + std::to_string(WEXITSTATUS(status));
-  return found;
-}
-
-/// The mutants that `work` reaches.
-template <class Work>
-std::set<int> reached_by(Work work) {
-  std::fill(std::begin(ogc_mutant::reached), std::end(ogc_mutant::reached), false);
+std::string reached_by(Work work) {
   ogc_mutant::recording = true;
   work();
   ogc_mutant::recording = false;
-  std::set<int> numbers;
+  std::string numbers;
   for (std::size_t id = 0; id < std::size(ogc_mutant::reached); ++id)
-    if (ogc_mutant::reached[id]) numbers.insert(static_cast<int>(id));
+    if (ogc_mutant::reached[id]) numbers += std::to_string(id) + ' ';
   return numbers;
 }
 
-/// The mutants that the tests reach, as text; the tests pass, or it says that they do not.
-std::string reached_by_tests() {
-  int failing = 0;
-  std::string text;
-  for (const int number : reached_by([&] { failing = ogc::tests::failing_unit_tests(); }))
-    text += std::to_string(number) + ' ';
-  return failing == 0 ? text : "the tests fail";
-}
+/// What a mutant meets: a part of the judge's plan, or from their number on a test; what it costs and which mutants it
+/// reaches.
+struct Hurdle {
+  std::size_t number = 0;
+  double seconds = 0;
+  std::set<int> reached{};
+};
 
-/// The judge with its memory, and which parts reach which mutant.
+/// The judge with its memory, the tests, and which of them reach which mutant.
 class MutantJudge {
  public:
-  explicit MutantJudge(Plan plan)
-      : plan_(std::move(plan)), authority_(remembering(ogc::reference::authority(), now_)), contestant_(ogc::tests::mutant_contestant()) {}
+  MutantJudge(std::vector<Part> parts, const JudgeOptions& options, std::size_t jobs)
+      : parts_(std::move(parts)),
+        options_(options),
+        jobs_(jobs),
+        authority_(remembering(ogc::reference::authority(), parts_.size())),
+        tests_(unit_test_names()) {}
 
   /// Judges what no mutant has changed: "right" or what is wrong.
-  std::string judge_original(unsigned seconds) {
-    std::string wrong;
-    for (now_.part = 0; now_.part <= plan_.stages.size(); ++now_.part)
-      reached_.push_back(reached_by([&] { wrong += verdict(now_.part, contestant_, authority_, plan_); }));
-    const std::string tested = apart(20 * seconds, reached_by_tests);
-    std::istringstream numbers(tested);
-    for (int id = 0; numbers >> id;) tested_.insert(id);
-    if (tested_.empty()) wrong += tested;
+  std::string judge_original() {
+    const auto start = std::chrono::steady_clock::now();
+    if (const std::string wrong = find_truth(); !wrong.empty()) return wrong;
+    std::cerr << "the truth: " << seconds_since(start) << " s by the clock" << std::endl;
+    const std::string wrong = measure();
     return wrong.empty() ? "right" : wrong;
   }
 
   /// What is found of one mutant, in one line.
-  std::string judge_mutant(int id, unsigned seconds) {
-    const bool judged =
-        std::any_of(reached_.begin(), reached_.end(), [&](const auto& part) { return part.contains(id); });
-    if (!judged && !tested_.contains(id)) return "not reached";
-    ++now_.round;
-    ogc_mutant::active = id;
-    std::string found = judged ? apart(seconds, [&] { return first_found(id); }) : "";
-    // Slow is not wrong: what takes the judge too long must take the tests too long as well.
-    if (found == hangs) found.clear();
-    if (found.empty() && tested_.contains(id))
-      found = apart(seconds, [] { return std::string(ogc::tests::failing_unit_tests() > 0 ? "test" : ""); });
-    ogc_mutant::active = 0;
-    std::replace(found.begin(), found.end(), '\n', ' ');
-    return found;
+  std::string judge_mutant(int id) const {
+    bool reached = false;
+    int slow = 0;
+    std::string first_slow, not_decided;
+    for (const Hurdle& hurdle : hurdles_) {
+      if (!hurdle.reached.contains(id)) continue;
+      reached = true;
+      const Ended ended = apart(slow_factor * std::max(least_time, hurdle.seconds), [&] {
+        ogc_mutant::active = id;
+        return meet(hurdle.number);
+      });
+      if (ended.ending == Ending::crashes) return found_by(hurdle.number, "crashes: " + ended.said);
+      if (ended.ending == Ending::says && !ended.said.empty()) return found_by(hurdle.number, ended.said);
+      if (ended.ending == Ending::says) continue;
+      std::string& where = ended.ending == Ending::late ? first_slow : not_decided;
+      if (where.empty()) where = name_of(hurdle.number);
+      if (++slow == most_slow) break;
+    }
+    if (!first_slow.empty()) return "ten times slower: " + first_slow;
+    if (!not_decided.empty()) return "not decided: " + not_decided;
+    return reached ? "" : "not reached";
   }
 
  private:
-  std::string first_found(int id) {
-    std::string found;
-    for (now_.part = 0; now_.part < reached_.size() && found.empty(); ++now_.part)
-      if (reached_[now_.part].contains(id)) found = verdict(now_.part, contestant_, authority_, plan_);
-    return found;
+  std::string judged(std::size_t part) const {
+    return verdict(parts_[part], mutant_contestant(), authority_, options_);
   }
 
-  Plan plan_;
-  Moment now_;
+  /// What is found of the mutant that is switched on.
+  std::string meet(std::size_t number) const {
+    if (number >= parts_.size()) return unit_test_fails(tests_[number - parts_.size()]) ? "fails" : "";
+    now = {1, number};
+    return judged(number);
+  }
+
+  std::string name_of(std::size_t number) const {
+    if (number >= parts_.size()) return "test " + tests_[number - parts_.size()];
+    return (parts_[number].corpus.empty() ? "" : "corpus of ") + std::string(stage_name(parts_[number].stage));
+  }
+
+  std::string found_by(std::size_t number, std::string what) const {
+    what.resize(std::min<std::size_t>(what.size(), 300));
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    return name_of(number) + ": " + what;
+  }
+
+  /// Fills the memory, `jobs` parts at a time: threads, which are gone before the first process is forked.
+  std::string find_truth() {
+    std::vector<std::string> wrong(parts_.size());
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+      for (std::size_t part = 0; (part = next++) < parts_.size();) {
+        now = {0, part};
+        wrong[part] = judged(part);
+      }
+    };
+    std::vector<std::thread> threads;
+    for (std::size_t k = 0; k < jobs_; ++k) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    for (const std::string& text : wrong)
+      if (!text.empty()) return text;
+    return "";
+  }
+
+  /// Parts and tests with truth at hand, as many at a time as later with mutants: the time and the mutants of each.
+  std::string measure() {
+    const auto noted = [&](std::size_t number) {
+      const Ended ended = apart(longest, [&] {
+        std::string wrong;
+        const std::string numbers = reached_by([&] { wrong = meet(number); });
+        return wrong.empty() ? numbers : "wrong: " + wrong;
+      });
+      std::string text = ended.ending == Ending::says ? ended.said : "wrong: does not come to an end " + ended.said;
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      return std::to_string(ended.seconds) + ' ' + text;
+    };
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<std::string> said = in_parallel(jobs_, parts_.size() + tests_.size(), noted);
+    double of_parts = 0, of_tests = 0;
+    for (std::size_t number = 0; number < said.size(); ++number) {
+      std::istringstream words(said[number]);
+      Hurdle hurdle{number};
+      if (!(words >> hurdle.seconds) || said[number].find("wrong: ") != std::string::npos)
+        return name_of(number) + ": " + said[number];
+      for (int id = 0; words >> id;) hurdle.reached.insert(id);
+      (number < parts_.size() ? of_parts : of_tests) += hurdle.seconds;
+      std::cerr << name_of(number) << '\t' << hurdle.seconds << " s\t" << hurdle.reached.size() << " mutants\n";
+      hurdles_.push_back(std::move(hurdle));
+    }
+    const auto tests = hurdles_.begin() + static_cast<std::ptrdiff_t>(parts_.size());
+    const auto faster = [](const Hurdle& a, const Hurdle& b) { return a.seconds < b.seconds; };
+    std::stable_sort(hurdles_.begin(), tests, faster);
+    std::stable_sort(tests, hurdles_.end(), faster);
+    std::cerr << "without a mutant: " << parts_.size() << " parts of the judge take " << of_parts << " s, "
+              << tests_.size() << " tests " << of_tests << " s of the processor, together " << seconds_since(start)
+              << " s by the clock" << std::endl;
+    return "";
+  }
+
+  std::vector<Part> parts_;
+  JudgeOptions options_;
+  std::size_t jobs_;
   Authority authority_;
-  Contestant contestant_;
-  std::vector<std::set<int>> reached_;  ///< by part
-  std::set<int> tested_;                ///< reached by tests
+  std::vector<std::string> tests_;
+  std::vector<Hurdle> hurdles_;  ///< parts, then tests, each by time
 };
 
-/// Judges the mutants, `jobs` at a time: each job every jobs-th of them, in a process of its own.
-void judge_all(MutantJudge& judge, const std::vector<int>& ids, unsigned seconds, std::size_t jobs) {
-  std::vector<pid_t> children;
-  for (std::size_t job = 0; job < jobs; ++job) {
-    children.push_back(fork());
-    if (children.back() != 0) continue;
-    for (std::size_t i = job; i < ids.size(); i += jobs) {
-      const std::string line =
-          (std::to_string(ids[i]) + '\t' + judge.judge_mutant(ids[i], seconds)).substr(0, 500) + '\n';
-      if (write(STDOUT_FILENO, line.data(), line.size()) < 0) break;
-    }
-    _exit(0);
+std::vector<Part> parts_of(const std::vector<TestCase>& corpus, const std::vector<Stage>& stages) {
+  std::vector<Part> parts;
+  for (const Stage stage : all_stages) {
+    Part part{stage, {}};
+    const auto mine = [&](const TestCase& test) { return test.name.stage == stage; };
+    std::copy_if(corpus.begin(), corpus.end(), std::back_inserter(part.corpus), mine);
+    if (!part.corpus.empty()) parts.push_back(part);
   }
-  for (const pid_t child : children) waitpid(child, nullptr, 0);
+  for (const Stage stage : stages) parts.push_back({stage, {}});
+  return parts;
 }
 
 }  // namespace
 
 int main(int count, char** words) {
   if (count < 7) return 2;
+  const auto start = std::chrono::steady_clock::now();
   // Children are forked, and a pool of threads would be gone in them.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-  Plan plan;
-  plan.options.cases = std::stoull(words[1]);
-  plan.options.seed = std::stoull(words[2]);
-  plan.options.threads = 1;
-  plan.options.batch = 1000;
-  for (int i = 6; i < count; ++i) plan.stages.push_back(find_stage(words[i]).value());
-  for (const CaseName& name : load_batch(words[4])) plan.corpus.push_back(generate(name));
-  MutantJudge judge(std::move(plan));
-  const auto seconds = static_cast<unsigned>(std::stoul(words[3]));
-  std::cout << judge.judge_original(seconds) << std::endl;
+  JudgeOptions options;
+  options.cases = std::stoull(words[1]);
+  options.seed = std::stoull(words[2]);
+  options.threads = 1;
+  options.batch = 1000;
+  const double seconds = std::stod(words[3]);
+  std::vector<TestCase> corpus;
+  for (const CaseName& name : load_batch(words[4])) corpus.push_back(generate(name));
+  const std::size_t jobs = std::stoul(words[5]);
+  std::vector<Stage> stages;
+  for (int i = 6; i < count; ++i) stages.push_back(find_stage(words[i]).value());
+  MutantJudge judge(parts_of(corpus, stages), options, jobs);
+  std::cout << judge.judge_original() << std::endl;
   std::vector<int> ids;
   for (int id = 0; std::cin >> id;) ids.push_back(id);
-  judge_all(judge, ids, seconds, std::stoul(words[5]));
+  const auto judged = [&](std::size_t i) {
+    write_all(STDOUT_FILENO, std::to_string(ids[i]) + '\t' + judge.judge_mutant(ids[i]) + '\n');
+  };
+  hand_out(jobs, ids.size(), judged, [&] { return seconds_since(start) < seconds; });
   return 0;
 }

@@ -1,9 +1,14 @@
 // The unit tests of what is rewritten (tests/mutants.py says which), compiled over it.
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace ogc::tests {
 
-/// How many assertions fail; stops at the first. Once a process.
-int failing_unit_tests();
+std::vector<std::string> unit_test_names();
+
+/// Whether this one fails; it stops where it does. Once a process.
+bool unit_test_fails(const std::string& name);
 
 }  // namespace ogc::tests
