@@ -360,8 +360,8 @@ def report(mutants, results, options):
     share = 100 / max(1, decided)
     print(f"{len(mutants)} mutants, of which the first {len(results)} of a draw with seed {options.seed}: "
           f"{len(by['not reached'])} are reached by neither a case nor a test, {len(by['not decided'])} not decided.")
-    print(f"Of the {decided} decided the judge finds {len(by['judge'])} ({crash} of them crash), tests {len(by['test'])} "
-          f"more, together {wrong} ({share * wrong:.1f} %); {slow} are right as far as they come and ten times slower "
+    print(f"Of the {decided} decided the judge finds {len(by['judge'])} ({crash} of them crash), tests "
+          f"{len(by['test'])} more, together {wrong} ({share * wrong:.1f} %); {slow} are right as far as they come and ten times slower "
           f"(with them {share * (wrong + slow):.1f} %); {len(by['survives'])} survive.")
     for name in ("survives", "slow", "not decided"):
         for mutant, found in sorted(by[name]):
