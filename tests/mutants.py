@@ -361,8 +361,8 @@ def report(mutants, results, options):
     print(f"{len(mutants)} mutants, of which the first {len(results)} of a draw with seed {options.seed}: "
           f"{len(by['not reached'])} are reached by neither a case nor a test, {len(by['not decided'])} not decided.")
     print(f"Of the {decided} decided the judge finds {len(by['judge'])} ({crash} of them crash), tests "
-          f"{len(by['test'])} more, together {wrong} ({share * wrong:.1f} %); {slow} are right as far as they come and ten times slower "
-          f"(with them {share * (wrong + slow):.1f} %); {len(by['survives'])} survive.")
+          f"{len(by['test'])} more, together {wrong} ({share * wrong:.1f} %); {slow} are right as far as they come and "
+          f"ten times slower (with them {share * (wrong + slow):.1f} %); {len(by['survives'])} survive.")
     for name in ("survives", "slow", "not decided"):
         for mutant, found in sorted(by[name]):
             print(f"{found or name}\t{mutant.id}\t{mutant.file}:{mutant.line}\t{mutant.kind}\t{mutant.text}")
