@@ -188,8 +188,10 @@ class Rewriter:
         return "\n".join(rewritten) + "\n"
 
 
-# flatten: of a function with hundreds of switches it takes the compiler minutes.
-FLAGS = "-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize -Dflatten=used".split()
+# flatten: of a function with hundreds of switches it takes the compiler minutes. An index beyond an array ends the
+# process, as under the `sanitize` preset: whether it shows in an answer is chance.
+FLAGS = ("-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize -Dflatten=used -D_GLIBCXX_ASSERTIONS "
+         "-fsanitize=bounds -fsanitize-undefined-trap-on-error").split()
 KIND_ORDER = ("number", "coordinate", "condition", "choice", "sign", "index", "operator")
 
 

@@ -23,7 +23,7 @@ class Bvh {
     std::iota(order.begin() + facets_at(), order.end(), 0);
     order_.upload(order.data(), total);
     keys_.resize(total);
-    vertex_limit_.resize(std::max<std::size_t>(1, static_cast<std::size_t>(surface.vertex_count)));
+    vertex_limit_.resize(static_cast<std::size_t>(surface.vertex_count));
     no_radius_.resize(1);
     no_radius_.fill_zero();
     edges_ = allocate(surface.edge_count, edge_nodes_, edge_arrivals_, order_.data() + edges_at());

@@ -92,7 +92,7 @@ std::vector<int> saturation_order(const compare::CompressedRows& graph, const st
 
 // The vertices class by class: classes reversed on even passes, smallest first on odd ones. Greedy in such an order never needs a colour more.
 std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vector<int>& colour, int count, int pass) {
-  std::vector<int> size(static_cast<std::size_t>(count), 0), rank(size.size());
+  std::vector<int> size(static_cast<std::size_t>(count)), rank(size.size());
   for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
   std::iota(rank.begin(), rank.end(), 0);
   if (pass % 2 == 0) {
@@ -151,7 +151,7 @@ bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector
 
 // Moves vertices from classes above the mean to the smallest class that no neighbour has, where that is smaller than their own.
 void balance(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
-  std::vector<int> size(static_cast<std::size_t>(count), 0);
+  std::vector<int> size(static_cast<std::size_t>(count));
   for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
   std::vector<int> taken(size.size(), -1);
   for (std::size_t i = 0; i < vertices.size(); ++i) {

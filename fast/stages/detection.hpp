@@ -92,12 +92,12 @@ class Detection {
         bvh_(surface_.view()),
         skin_(surface_.view(), skin),
         lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count) {
-    const auto at_least_one = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
     const SurfaceView surface = surface_.view();
-    for (auto* by_vertex : {&d_min_vertex_, &bound_}) by_vertex->resize(at_least_one(surface.vertex_count)), by_vertex->fill_zero();
-    places_.resize(at_least_one(surface.vertex_count));
-    d_min_edge_.resize(at_least_one(surface.edge_count));
-    d_min_triangle_.resize(at_least_one(surface.triangle_count));
+    const auto vertices = static_cast<std::size_t>(surface.vertex_count);
+    for (auto* by_vertex : {&d_min_vertex_, &bound_}) by_vertex->resize(vertices), by_vertex->fill_zero();
+    places_.resize(vertices);
+    d_min_edge_.resize(static_cast<std::size_t>(surface.edge_count));
+    d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
 
   /// New order of the trees for `positions`: worth its sort every few steps. Enqueued like a detection, and never needed for a right answer.

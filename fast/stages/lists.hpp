@@ -15,6 +15,7 @@ namespace ogc::fast {
 template <class Backend>
 class Lists {
  public:
+  /// `capacity` > 0: contacts at first.
   Lists(const SurfaceView& surface, int capacity) : surface_(surface), buckets_(2 * surface.vertex_count + surface.edge_count) {
     const auto buckets = static_cast<std::size_t>(buckets_), vertices = static_cast<std::size_t>(surface.vertex_count);
     status_.resize(status_count);
@@ -22,7 +23,7 @@ class Lists {
     for (Buffer<int>* counts : {&record_counts_, &record_filled_}) counts->resize(buckets);
     for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(vertices);
     record_offsets_.resize(buckets + 1), incidence_offsets_.resize(vertices + 1);
-    resize(std::max(1, capacity), least_noted + 4 * capacity);
+    resize(capacity, least_noted + 4 * capacity);
   }
 
   ListsView view() {

@@ -67,7 +67,7 @@ compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in
   for (int i = 0; i < n; ++i) {
     const compare::MembraneCase& c = in.cases[static_cast<std::size_t>(i)];
     const auto &b = c.gradient[0], &d = c.gradient[1];
-    rest.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0, {{-b[0] - d[0], -b[1] - d[1]}, {b[0], b[1]}, {d[0], d[1]}}, c.area});
+    rest.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, {{}, {b[0], b[1]}, {d[0], d[1]}}, c.area});  // nobody asks for ∇N₀
     rest.materials.push_back({c.lame_lambda, c.lame_mu, c.damping, 0});
     rest.models.push_back({c.model, compare::BendingModel::none, c.damping_form});
     incidences.push_back(detail::membrane_incidence(rest, i, 0, colours));
@@ -120,7 +120,7 @@ compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) 
   std::vector<int> own;
   for (int i = 0; i < n; ++i) {
     const compare::BendingCase& c = in.cases[static_cast<std::size_t>(i)];
-    rest.hinges.push_back({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, 0, c.rest_angle, c.stiffness});
+    rest.hinges.push_back({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, i, c.rest_angle, c.stiffness});
     rest.materials.push_back({0, 0, 0, c.damping});
     rest.models.push_back({compare::MembraneModel::none, c.model, c.damping_form});
     isometric.push_back(detail::isometric_stencil({{c.weight[0], c.weight[1], c.weight[2]}}, c.own));

@@ -30,16 +30,15 @@ Colouring colouring_of(std::span<const compare::Index> colour);
 template <class Backend>
 class ProbeContacts {
  public:
-  ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count) : backend_(backend), vertex_count_(vertex_count) {
+  ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count) : backend_(backend), count_(records.offsets.back()) {
     const auto facets = static_cast<int>(records.vertex_facet.size()), edges = static_cast<int>(records.edge_edge.size());
-    const std::vector<int> numbers{0, facets, edges};
-    numbers_.upload(numbers.data(), numbers.size());
+    overflow_.resize(1);
+    overflow_.fill_zero();
     vertex_facet_.upload(records.vertex_facet.data(), records.vertex_facet.size());
     edge_edge_.upload(records.edge_edge.data(), records.edge_edge.size());
     offsets_.upload(records.offsets.data(), records.offsets.size());
     filled_.resize(static_cast<std::size_t>(vertex_count));
     filled_.fill_zero();
-    count_ = records.offsets.back();
     loose_.resize(static_cast<std::size_t>(count_)), incidences_.resize(static_cast<std::size_t>(count_));
     fill(facets, edges);
   }
@@ -50,8 +49,6 @@ class ProbeContacts {
     ContactView view;
     view.vertex_facet = vertex_facet_.data();
     view.edge_edge = edge_edge_.data();
-    view.vertex_facet_count = numbers_.data() + 1;
-    view.edge_edge_count = numbers_.data() + 2;
     view.incidence_offsets = offsets_.data();
     view.incidences = incidences_.data();
     return view;
@@ -64,7 +61,7 @@ class ProbeContacts {
   /// Of the lists of a detection, what its last two kernels read.
   void fill(int facets, int edges) {
     ListsView lists;
-    lists.overflow = numbers_.data();
+    lists.overflow = overflow_.data();
     lists.vertex_facet = vertex_facet_.data();
     lists.edge_edge = edge_edge_.data();
     lists.incidence_offsets = offsets_.data();
@@ -76,9 +73,8 @@ class ProbeContacts {
   }
 
   Backend& backend_;
-  int vertex_count_, count_ = 0;
-  Buffer<int> numbers_;  ///< overflow (none), records of both sorts
-  Buffer<int> offsets_, filled_;
+  int count_;
+  Buffer<int> overflow_, offsets_, filled_;  ///< `overflow_`: one flag, not set
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
   Buffer<LooseIncidence> loose_;

@@ -39,7 +39,7 @@ Items<Term, Rest> items(int count, const Term& term, const Rest& rest = {}) {
 }
 template <class Term, class Rest = NoItems>
 Items<Term, Rest> items(const int* counted, const Term& term, const Rest& rest = {}) {
-  return {term, 0, counted, rest};
+  return {term, {}, counted, rest};
 }
 
 /// for_each over chunks: a row of partial sums each, of the chunk's items kind by kind.

@@ -111,7 +111,7 @@ void add_contact_materials(const compare::Scene& scene, RestState& rest) {
   for (const compare::Body& a : scene.bodies) {
     for (const compare::Body& b : scene.bodies) {
       const double ka = a.material.contact_stiffness, kb = b.material.contact_stiffness;
-      const double harmonic = ka + kb > 0 ? 2 * ka * kb / (ka + kb) : 0;
+      const double harmonic = ka > 0 ? 2 * ka * kb / (ka + kb) : 0;
       rest.contact.push_back({static_cast<float>(harmonic), static_cast<float>((a.material.friction + b.material.friction) / 2)});
     }
   }

@@ -216,7 +216,7 @@ class ResidentSimulation : public compare::Simulation {
     using Clock = std::chrono::steady_clock;
     for (int k = 0; k < count; ++k) {
       const Clock::time_point start = Clock::now();
-      step_.enqueue(1);
+      step_.enqueue(group_);
       wall_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
       stage_ms.push_back(clock_.take());
     }

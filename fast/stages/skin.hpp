@@ -17,7 +17,7 @@ class Skin {
  public:
   /// `share`: largest m/r; 0 for none, every detection searches.
   Skin(const SurfaceView& surface, float share) : share_(share) {
-    const auto size = [](int n) { return static_cast<std::size_t>(std::max(1, n)); };
+    const auto size = [](int n) { return static_cast<std::size_t>(n); };
     state_.resize(1);
     forget();
     if (!is_used()) return;

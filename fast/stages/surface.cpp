@@ -16,7 +16,7 @@ class SeedFinder {
     EdgeSeeds seeds{{-1, -1}};
     const auto take = [&](std::span<const compare::Index> candidates) {
       for (const int v : candidates) {
-        if (seeds.vertex[0] >= 0 && seeds.vertex[1] >= 0) return;
+        if (seeds.vertex[1] >= 0) return;
         if (v != seeds.vertex[0] && has_pair(e, v)) seeds.vertex[seeds.vertex[0] < 0 ? 0 : 1] = v;
       }
     };

@@ -294,6 +294,22 @@ TEST_CASE("handles that move faster than bounds allow fall behind, and catch up 
   CHECK(outcome.end.positions[0].x == Approx(-0.05 - 0.16).epsilon(1e-5));
 }
 
+TEST_CASE("the share at the bound is that of the vertices that move", "[unit]") {
+  compare::Scene scene = drop_scene();
+  compare::PrescribedMotion fast;
+  fast.vertices = {0, 1, 2, 3};
+  fast.velocity = {0, 20, 0};
+  scene.motions.push_back(fast);
+  for (const compare::StepMetrics& row : run(scene, 3).rows) {
+    CHECK(row.vertices_at_bound >= 4);
+    CHECK(row.share_at_bound == static_cast<double>(row.vertices_at_bound) / 144);
+  }
+  for (compare::Body& body : scene.bodies) body.fixed = true;
+  scene.motions.clear();
+  scene.velocities.assign(scene.velocities.size(), {});
+  CHECK(run(scene, 1).rows.at(0).share_at_bound == 0);
+}
+
 TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 6, 0.1, 0, false);

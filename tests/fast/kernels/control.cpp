@@ -1,5 +1,4 @@
 #include "fast/kernels/control.hpp"
-#include "fast/stages/step.hpp"
 
 #include <cmath>
 #include <vector>
@@ -88,12 +87,6 @@ TEST_CASE("iterations take turns, none while a detection is due, and after the l
   CHECK(c.iterations == 3);
   CHECK(c.cut_last == 7);
   CHECK(c.detect == 0);
-}
-
-TEST_CASE("iterations are grouped where fewer than one in four asks for a detection", "[unit]") {
-  CHECK(iterations_in_group(0, 1, 10) == 5);
-  CHECK(iterations_in_group(24, 10, 10) == 5);
-  CHECK(iterations_in_group(25, 10, 10) == 1);
 }
 
 TEST_CASE("a list that was too small, a violation or a number that is not finite stops the step and all that follow", "[unit]") {

@@ -92,6 +92,19 @@ TEST_CASE("colours are valid on random non-manifold meshes", "[property]") {
   }
 }
 
+TEST_CASE("colours of random meshes have as many vertices as each other, but for one", "[property]") {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const Colouring colouring = colour_vertices(rest_of(random_mesh(seed)));
+    int least = 300, most = 0;
+    for (std::size_t c = 0; c + 1 < colouring.begin.size(); ++c) {
+      const int size = colouring.begin[c + 1] - colouring.begin[c];
+      least = std::min(least, size), most = std::max(most, size);
+    }
+    INFO("seed " << seed);
+    CHECK(most - least <= 1);
+  }
+}
+
 TEST_CASE("no two free vertices of a spring or a stitch share a colour, its third vertex among them", "[property]") {
   for (unsigned seed = 0; seed < 10; ++seed) {
     std::mt19937 random(seed);

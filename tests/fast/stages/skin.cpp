@@ -164,3 +164,35 @@ TEST_CASE("skin: nothing is kept where vertices moved too far for any margin, an
   CHECK(often.listings >= 4);
   CHECK(often.listings <= 8);  // with waits of 1, 3, 7, 15, 31 and then 63 searches
 }
+
+TEST_CASE("skin: it begins with 128 KiB of pairs, and is given room for half as many again as found none", "[unit]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  const Surface<CpuBackend> surface(topology, {});
+  Skin<CpuBackend> skin(surface.view(), usual_skin);
+  const int first = skin.view(radius).capacity;
+  CHECK(static_cast<std::size_t>(first) * sizeof(NotedPair) == 128 << 10);
+  skin.view(radius).state->count = first;
+  CHECK_FALSE(skin.make_room());
+  for (const int most : {first + 1, 100001}) {
+    SkinState* state = skin.view(radius).state;
+    state->most = most, state->count = most / 2;
+    CHECK(skin.make_room());
+    CHECK(skin.view(radius).capacity == most + most / 2);
+    CHECK(skin.state().most == 0);
+  }
+}
+
+TEST_CASE("skin: a detection that is not asked for one searches each time", "[unit]") {
+  const TestMesh mesh = surfaces();
+  const compare::Topology topology = mesh.topology();
+  CpuBackend backend;
+  Detection<CpuBackend> detection(backend, topology, {});
+  const float r_q = 0.8F;
+  for (int k = 0; k < 5; ++k) {
+    do detection.detect(reinterpret_cast<const Vec*>(mesh.positions.data()), radius, &r_q, 0.45F);
+    while (detection.grow());
+  }
+  CHECK(detection.skin_state().listings == 0);
+  CHECK(detection.skin_state().rechecks == 0);
+}

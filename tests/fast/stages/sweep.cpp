@@ -326,6 +326,23 @@ TEST_CASE("that holds without damping, and where triangles and edges have collap
   CHECK(other_bits(f) == 0);
 }
 
+TEST_CASE("that holds for a contact on either side of the distance below which there is no normal", "[property]") {
+  Fixture f(false, 4);
+  const ContactView view = f.detection->view();
+  const auto alone = [&](int k) { return view.vertex_facet[k].corner[2] >= 0; };
+  int record = 0;
+  while (record < *view.vertex_facet_count && !alone(record)) ++record;
+  REQUIRE(record < *view.vertex_facet_count);
+  const auto at = [&](int v) -> Vec& { return f.x[static_cast<std::size_t>(v)]; };
+  const VertexFacetRecord& contact = view.vertex_facet[record];
+  // Over a quarter of the triangle, where all but the height comes out exactly.
+  at(contact.corner[0]) = {0, 0, 0}, at(contact.corner[1]) = {1, 0, 0}, at(contact.corner[2]) = {0, 0, 1};
+  for (const float squared : {0x1p-124F, 0x1.8p-126F, 0x1.8p-127F, 0x1.8p-128F, 0x1p-140F, 0.0F}) {
+    at(contact.vertex) = {0.25F, std::sqrt(squared), 0.25F};
+    CHECK(other_bits(f) == 0);
+  }
+}
+
 TEST_CASE("that holds for edges on either side of the limit below which two count as parallel", "[property]") {
   int below = 0, above = 0;
   for (const double sine : {0.6e-3, 0.7e-3, 0.8e-3, 0.85e-3, 0.9e-3, 0.95e-3, 1.05e-3, 1.1e-3, 1.2e-3, 1.3e-3}) {
@@ -370,4 +387,41 @@ TEST_CASE("the sum of a vertex with springs and of bodies with any models in pac
     CHECK((other_bits<8, GatherPackedEveryModel, GatherEveryModel>(f, view, *kernels)) == 0);
     CHECK((other_bits<32, GatherPackedEveryModel, GatherEveryModel>(f, view, *kernels)) == 0);
   }
+}
+
+TEST_CASE("sums have as many lanes as a scene asks for, or as its number of vertices asks for, which is a power of two", "[unit]") {
+  CHECK(default_lanes(1) == 16);
+  CHECK(default_lanes(20000) == 16);
+  CHECK(default_lanes(20001) == 8);
+  CHECK(default_lanes(100000) == 8);
+  CHECK(default_lanes(100001) == 4);
+  CHECK(Fixture(false, 0).sweep->lanes() == 16);
+  for (const int lanes : {1, 2, 4, 8, 16, 32}) CHECK(Fixture(false, lanes).sweep->lanes() == lanes);
+}
+
+TEST_CASE("a stencil that only one free vertex has is not forgotten", "[unit]") {
+  compare::Scene scene = empty_scene();
+  compare::Material material;
+  material.bending = compare::BendingModel::isometric_quadratic;
+  add_sheet(scene, 2, 0.1, 0, false, material);
+  compare::PrescribedMotion motion;
+  motion.vertices = {0, 1, 2};
+  scene.motions.push_back(motion);
+  scene.springs = {{3, 0, 1, 0, 0}};
+  const compare::Topology topology = compare::build_topology(scene);
+  const RestState rest = build_rest_state(scene, topology);
+  REQUIRE(rest.hinges.size() == 1);
+  CpuBackend backend;
+  const Sweep<CpuBackend> sweep(backend, rest, colour_vertices(rest), topology, scene);
+  SweepView view;
+  sweep.complete(view);
+  CHECK(view.isometric != nullptr);
+  CHECK(view.spring_rows != nullptr);
+  scene.springs.clear();
+  scene.bodies[0].material.bending = compare::BendingModel::discrete_hinge;
+  const RestState plain = build_rest_state(scene, topology);
+  const Sweep<CpuBackend> other(backend, plain, colour_vertices(plain), topology, scene);
+  other.complete(view);
+  CHECK(view.isometric == nullptr);
+  CHECK(view.spring_rows == nullptr);
 }

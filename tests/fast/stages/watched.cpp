@@ -1,0 +1,217 @@
+// The stages on a backend that watches them: their memory has margins, what is replayed is noted, and positions can be
+// made wrong before a step looks at them.
+#include <cstring>
+#include <functional>
+
+#include "fast/cpu/backend.hpp"
+#include "fast/stages/contact_engine.hpp"
+#include "fast/stages/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/scenes.hpp"
+
+using namespace ogc;
+using namespace ogc::fast;
+using namespace ogc::fast::test;
+
+namespace {
+
+int broken_margins = 0;
+
+/// CpuBuffer with a margin behind its items, in which bits are ones: floats that are not numbers, places below 0.
+template <class T>
+class GuardedBuffer {
+ public:
+  GuardedBuffer() = default;
+  GuardedBuffer(GuardedBuffer&&) noexcept = default;
+  GuardedBuffer& operator=(GuardedBuffer&&) noexcept = default;
+  ~GuardedBuffer() { check(); }
+
+  T* data() { return items_.get(); }
+  const T* data() const { return items_.get(); }
+  std::size_t size() const { return size_; }
+  void resize(std::size_t n) {
+    check();
+    if (n > capacity_) {
+      items_ = std::make_unique<T[]>(n + margin);
+      capacity_ = n;
+      std::memset(static_cast<void*>(items_.get() + n), 0xff, margin * sizeof(T));
+    }
+    size_ = n;
+  }
+  void upload(const T* from, std::size_t n) {
+    resize(n);
+    std::copy(from, from + n, items_.get());
+  }
+  void download(T* to, std::size_t n) const { std::copy(items_.get(), items_.get() + n, to); }
+  void fill_zero() {
+    if (size_ > 0) std::memset(static_cast<void*>(items_.get()), 0, size_ * sizeof(T));
+  }
+
+ private:
+  static constexpr std::size_t margin = 256;
+
+  void check() const {
+    if (!items_) return;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(items_.get() + capacity_);
+    if (std::any_of(bytes, bytes + margin * sizeof(T), [](unsigned char b) { return b != 0xff; })) ++broken_margins;
+  }
+
+  std::unique_ptr<T[]> items_;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+class WatchedBackend : public CpuBackend {
+ public:
+  template <class T>
+  using Buffer = GuardedBuffer<T>;
+  struct Recording {
+    char own_address = 0;
+    void clear() {}
+  };
+  using Replayed = std::vector<const Recording*>;
+
+  /// `before_check`: called before a step looks at its positions.
+  explicit WatchedBackend(Replayed* replayed = nullptr, std::function<void(Vec*)> before_check = nullptr)
+      : replayed_(replayed), before_check_(std::move(before_check)) {}
+
+  template <class F>
+  void for_each(int n, F f) {
+    if constexpr (std::is_same_v<F, CheckVertex>) {
+      if (before_check_) before_check_(const_cast<Vec*>(f.position));
+    }
+    CpuBackend::for_each(n, f);
+  }
+  template <class Body>
+  void replay(Recording& recording, int times, Body body) {
+    if (replayed_ != nullptr) replayed_->push_back(&recording);
+    CpuBackend::Recording nothing;
+    CpuBackend::replay(nothing, times, body);
+  }
+
+ private:
+  Replayed* replayed_;
+  std::function<void(Vec*)> before_check_;
+};
+
+using Watched = ResidentSimulation<WatchedBackend>;
+
+/// A sheet thrown at a fixed one.
+compare::Scene thrown_sheet() {
+  compare::Scene scene = empty_scene();
+  compare::Material material;
+  material.bending_damping = material.membrane_damping = 2e-6;
+  add_sheet(scene, 7, 0.06, 0.006, false, material);
+  add_sheet(scene, 6, 0.08, 0, true, material);
+  for (std::size_t v = 0; v < 49; ++v) {
+    scene.mesh.positions[v].y += 0.05 * scene.mesh.positions[v].x;
+    scene.velocities[v] = {0.2, -0.5, 0.1};
+  }
+  scene.settings.iterations = 4;
+  return scene;
+}
+
+/// A sheet that nothing moves.
+compare::Scene still_sheet() {
+  compare::Scene scene = empty_scene();
+  scene.gravity = {};
+  scene.settings.iterations = 4;
+  add_sheet(scene, 5, 0.06, 0, false);
+  return scene;
+}
+
+/// What is replayed frame by frame.
+WatchedBackend::Replayed replayed(const compare::Scene& scene, int frames, int capacity = 0) {
+  WatchedBackend::Replayed noted;
+  Watched simulation(WatchedBackend(&noted), scene, {}, "watched", capacity);
+  for (int k = 0; k < frames; ++k) simulation.advance(1);
+  return noted;
+}
+
+bool all_same(const WatchedBackend::Replayed& noted) {
+  return std::all_of(noted.begin(), noted.end(), [&](const auto* each) { return each == noted[0]; });
+}
+
+}  // namespace
+
+TEST_CASE("nothing is written behind an array, and nothing that is read there matters", "[property]") {
+  broken_margins = 0;
+  compare::Scene scene = thrown_sheet();
+  scene.springs = {{3, 40, 0.5, 0, 1e-3}};
+  compare::PrescribedMotion motion;
+  motion.vertices = {0, 1, 2};
+  motion.velocity = {0.1, 0, 0};
+  scene.motions.push_back(motion);
+  for (const bool profile : {false, true}) {
+    compare::SimulationOptions options;
+    options.profile = profile;
+    ResidentSimulation<CpuBackend> expected(CpuBackend{}, scene, options, "");
+    const std::vector<compare::StepMetrics> rows = expected.advance(6);
+    for (const int capacity : {0, 1}) {
+      Watched simulation(WatchedBackend{}, scene, options, "", capacity);
+      const std::vector<compare::StepMetrics> watched = simulation.advance(6);
+      REQUIRE(watched.size() == rows.size());
+      CHECK(watched.back().status % compare::step_list_grew == compare::step_clean);
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        CHECK(watched[k].kinetic_energy == rows[k].kinetic_energy);
+        CHECK(watched[k].elastic_energy == rows[k].elastic_energy);
+        CHECK(watched[k].contact_energy == rows[k].contact_energy);
+        CHECK(watched[k].momentum_lost_end == rows[k].momentum_lost_end);
+      }
+      CHECK(simulation.snapshot().positions == expected.snapshot().positions);
+    }
+  }
+  {
+    const compare::Topology topology = compare::build_topology(scene);
+    WatchedBackend backend;
+    BackendContactEngine<WatchedBackend> engine(backend, topology, {}, 1);
+    CpuBackend own;
+    BackendContactEngine<CpuBackend> expected(own, topology, {});
+    const std::vector<compare::Vec3f> x = compare::to_single(scene.mesh.positions);
+    const ContactQuery query{.contact_radius = 0.005F, .query_radius = 0.02F};
+    for (int k = 0; k < 5; ++k) CHECK(engine.find(x, query) == expected.find(x, query));
+  }
+  CHECK(broken_margins == 0);
+  {
+    GuardedBuffer<double> buffer;
+    buffer.resize(3);
+    buffer.data()[3] = 0;
+  }
+  CHECK(broken_margins == 1);
+}
+
+TEST_CASE("a position beyond its bound, or none at all, at the end of a step stops the run with the last good state", "[unit]") {
+  const compare::Scene scene = thrown_sheet();
+  for (const bool finite : {true, false}) {
+    int checks = 0;
+    const auto spoil = [&](Vec* position) {
+      if (++checks == 3) position[7].y = finite ? position[7].y + 1 : NAN;
+    };
+    Watched simulation(WatchedBackend(nullptr, spoil), scene, {}, "");
+    const std::vector<compare::StepMetrics> rows = simulation.advance(5);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[1].status == compare::step_clean);
+    CHECK((rows[2].status & (finite ? compare::step_bound_violated : compare::step_not_finite)) != 0);
+    Watched good(WatchedBackend{}, scene, {}, "");
+    good.advance(2);
+    CHECK(simulation.snapshot().step == 2);
+    CHECK(simulation.snapshot().positions == good.snapshot().positions);
+    CHECK(simulation.snapshot().velocities == good.snapshot().velocities);
+  }
+}
+
+TEST_CASE("iterations are asked in groups whether a detection is due until a frame has one in four of them", "[unit]") {
+  // Without any detection but that of the guess loop, which says nothing about iterations; also where a frame had no
+  // step, as lists grew.
+  CHECK(all_same(replayed(still_sheet(), 4)));
+  compare::Scene few = thrown_sheet();
+  few.settings.redetect_fraction = 1;
+  const WatchedBackend::Replayed grown = replayed(few, 1, 1);
+  REQUIRE(grown.size() > 1);
+  CHECK(all_same(grown));
+  compare::Scene many = thrown_sheet();
+  many.settings.redetect_every = 1;
+  const WatchedBackend::Replayed changed = replayed(many, 4);
+  REQUIRE(changed.size() == 4);
+  CHECK(changed[1] != changed[0]);
+  CHECK(all_same({changed.begin() + 1, changed.end()}));
+}
