@@ -67,7 +67,9 @@ compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in
   for (int i = 0; i < n; ++i) {
     const compare::MembraneCase& c = in.cases[static_cast<std::size_t>(i)];
     const auto &b = c.gradient[0], &d = c.gradient[1];
-    rest.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, {{}, {b[0], b[1]}, {d[0], d[1]}}, c.area});  // nobody asks for ∇N₀
+    const int at = 3 * i;
+    // Nobody asks for ∇N₀.
+    rest.triangles.push_back({{at, at + 1, at + 2}, i, {{}, {b[0], b[1]}, {d[0], d[1]}}, c.area});
     rest.materials.push_back({c.lame_lambda, c.lame_mu, c.damping, 0});
     rest.models.push_back({c.model, compare::BendingModel::none, c.damping_form});
     incidences.push_back(detail::membrane_incidence(rest, i, 0, colours));

@@ -55,7 +55,8 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   control.upload(controls.data(), n);
   Vec *target = memory.template out<Vec>(out.target, n), *position = memory.template out<Vec>(out.position, n);
   const BeginVertex begin{memory.template in<Vec>(column(in, &Case::start)), memory.template in<Vec>(column(in, &Case::velocity)),
-                          memory.template in<int>(std::vector<int>(n, -1)), nullptr, {}, {}, {}, position, target, nullptr};
+                          memory.template in<int>(std::vector<int>(n, -1)), nullptr, {}, {}, {}, position, target,
+                          nullptr};
   const GuessVertex guess{target, memory.template in<Vec>(column(in, &Case::previous)), memory.template in<float>(column(in, &Case::bound)),
                           memory.template in<int>(offsets), position, nullptr};
   backend.for_each(static_cast<int>(n), ProbeGuess{begin, guess, memory.template in<Vec>(column(in, &Case::acceleration)),

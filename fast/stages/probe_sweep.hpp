@@ -30,7 +30,8 @@ Colouring colouring_of(std::span<const compare::Index> colour);
 template <class Backend>
 class ProbeContacts {
  public:
-  ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count) : backend_(backend), count_(records.offsets.back()) {
+  ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count)
+      : backend_(backend), count_(records.offsets.back()) {
     const auto facets = static_cast<int>(records.vertex_facet.size()), edges = static_cast<int>(records.edge_edge.size());
     overflow_.resize(1);
     overflow_.fill_zero();

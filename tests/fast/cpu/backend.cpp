@@ -39,7 +39,8 @@ TEST_CASE("pairs are sorted by their keys, and keep their order where keys are e
     std::vector<int> values(keys.size()), expected(keys.size());
     std::iota(values.begin(), values.end(), 0);
     std::iota(expected.begin(), expected.end(), 0);
-    const auto by_key = [&](int a, int b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; };
+    const auto key = [&](int i) { return keys[static_cast<std::size_t>(i)]; };
+    const auto by_key = [&](int a, int b) { return key(a) < key(b); };
     std::stable_sort(expected.begin(), expected.end(), by_key);
     std::vector<std::uint64_t> sorted = keys;
     std::sort(sorted.begin(), sorted.end());

@@ -389,7 +389,7 @@ TEST_CASE("the sum of a vertex with springs and of bodies with any models in pac
   }
 }
 
-TEST_CASE("sums have as many lanes as a scene asks for, or as its number of vertices asks for, which is a power of two", "[unit]") {
+TEST_CASE("sums have as many lanes as a scene asks for, or else as its size does, a power of two", "[unit]") {
   CHECK(default_lanes(1) == 16);
   CHECK(default_lanes(20000) == 16);
   CHECK(default_lanes(20001) == 8);

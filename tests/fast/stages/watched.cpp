@@ -179,7 +179,7 @@ TEST_CASE("nothing is written behind an array, and nothing that is read there ma
   CHECK(broken_margins == 1);
 }
 
-TEST_CASE("a position beyond its bound, or none at all, at the end of a step stops the run with the last good state", "[unit]") {
+TEST_CASE("a position beyond its bound, or none, at a step's end stops the run at the last good state", "[unit]") {
   const compare::Scene scene = thrown_sheet();
   for (const bool finite : {true, false}) {
     int checks = 0;
