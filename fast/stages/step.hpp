@@ -27,12 +27,12 @@
 
 namespace ogc::fast {
 
-/// Numbers of a scene that a step needs, in single precision.
+/// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
 struct StepSettings {
-  float step = 0, contact_radius = 0, friction_limit = 0, bound_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
-  Vec acceleration;                                        ///< [m/s²]
-  int iterations = 0;
-  bool energies = true;
+  float step, contact_radius, friction_limit, bound_relaxation;  ///< h [s], r [m], ε_v h [m], γ_p
+  Vec acceleration;                                              ///< [m/s²]
+  int iterations;
+  bool energies;
   ControlSettings control;
 };
 
@@ -46,7 +46,7 @@ inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, in
 /// `moving`: K, the number of free and prescribed vertices.
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
-  StepSettings to;
+  StepSettings to{};
   to.step = static_cast<float>(from.time_step);
   to.contact_radius = static_cast<float>(from.contact_radius);
   to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
@@ -209,7 +209,6 @@ class Step {
       backend_.for_each(1, EndIteration{control(), settings_.control});
     });
     observe(compare::StepEventKind::sweep);
-    if (i + 1 == settings_.iterations) return;
     clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, flag(&StepControl::detect), [&] { detect(); }); });
     observe(compare::StepEventKind::detection);
   }
