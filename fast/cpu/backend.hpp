@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -47,10 +48,10 @@ class CpuBuffer {
   /// Resizes to n and copies.
   void upload(const T* from, std::size_t n) {
     resize(n);
-    if (n > 0) std::memcpy(static_cast<void*>(items_.get()), from, n * sizeof(T));
+    std::copy_n(from, n, items_.get());
   }
   void download(T* to, std::size_t n) const {
-    if (n > 0) std::memcpy(static_cast<void*>(to), items_.get(), n * sizeof(T));
+    std::copy_n(items_.get(), n, to);
   }
   void fill_zero() {
     if (size_ > 0) std::memset(static_cast<void*>(items_.get()), 0, size_ * sizeof(T));
@@ -131,7 +132,7 @@ class CpuBackend {
   void sort_pairs(std::uint64_t* keys, int* values, int n) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
-    tbb::parallel_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.place < b.place; });
+    tbb::parallel_sort(items.begin(), items.end());
     for_each(n, [&](int i) {
       keys[i] = items[static_cast<std::size_t>(i)].key;
       values[i] = items[static_cast<std::size_t>(i)].value;
@@ -171,6 +172,8 @@ class CpuBackend {
   struct Item {
     std::uint64_t key;
     int place, value;
+
+    friend auto operator<=>(const Item&, const Item&) = default;
   };
 
   static void exclusive_scan(const Scan& scan) {

@@ -136,10 +136,11 @@ bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v
   return true;
 }
 
-// Empties the last class into the others where a move of direct neighbours makes room; true where nothing of it is left.
+// Empties the last class into the others where a move of direct neighbours makes room; true where nothing of it is
+// left, which an only class never is.
 bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
   const int last = count - 1;
-  bool empty = true;
+  bool empty = !vertices.empty();
   for (const int v : vertices) {
     int& own = colour[static_cast<std::size_t>(v)];
     if (own != last) continue;
@@ -174,7 +175,7 @@ int improve(const compare::CompressedRows& graph, std::vector<int> order, int pa
   for (int pass = 0; pass < passes; ++pass) {
     order = order_by_class(order, colour, count, pass);
     count = colour_in_order(graph, order, colour);
-    while (count > 1 && dissolve_last_class(graph, order, count, colour)) --count;
+    while (dissolve_last_class(graph, order, count, colour)) --count;
   }
   return count;
 }

@@ -17,7 +17,6 @@ namespace ogc::fast {
 template <class Case, std::size_t count>
 std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array<compare::Vec3f, count> Case::*points) {
   std::vector<compare::Vec3f> all;
-  all.reserve(count * cases.size());
   for (const Case& c : cases) all.insert(all.end(), (c.*points).begin(), (c.*points).end());
   return all;
 }

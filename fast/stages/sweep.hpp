@@ -143,7 +143,13 @@ class Sweep {
   using Buffer = typename Backend::template Buffer<T>;
 
   Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology, const compare::Scene& scene)
-      : backend_(backend), colour_begin_(colouring.begin), colours_(colouring.count), every_model_(needs_every_model(rest)), activation_(rest.activation) {
+      : backend_(backend),
+        colour_begin_(colouring.begin),
+        colours_(colouring.count),
+        vertex_count_(static_cast<int>(rest.mass.size())),
+        lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes) : default_lanes(rest.mass.size())),
+        every_model_(needs_every_model(rest)),
+        activation_(rest.activation) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
     upload(vertices_, streams.vertices);
     upload(membrane_, streams.membrane);
@@ -161,8 +167,6 @@ class Sweep {
     contact_rows_.fill_zero();
     const int bodies = static_cast<int>(rest.materials.size());
     tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
-    vertex_count_ = static_cast<int>(rest.mass.size());
-    lanes_ = static_cast<int>(scene.settings.lanes > 0 ? scene.settings.lanes : static_cast<std::int64_t>(default_lanes(rest.mass.size())));
     for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
       if (rest.mobility[v] == Mobility::prescribed) prescribed_host_.push_back(static_cast<int>(v));
     }
@@ -250,7 +254,7 @@ class Sweep {
 
   Backend& backend_;
   std::vector<int> colour_begin_, prescribed_host_;
-  int colours_ = 0, vertex_count_ = 0, lanes_ = 1;
+  int colours_, vertex_count_, lanes_;
   bool every_model_;
   ContactActivation activation_;
   Buffer<SweepVertex> vertices_;

@@ -351,6 +351,17 @@ TEST_CASE("a simulation that is replaced by a new one after each step comes to t
   CHECK(compare::step_lines(rows, 0) == compare::step_lines(whole.rows, 0));
 }
 
+TEST_CASE("before the first step a simulation is at the start of its scene, and nothing was detected", "[unit]") {
+  const compare::Scene scene = drop_scene();
+  const compare::Snapshot state = start_cpu(scene, {})->snapshot();
+  CHECK(state.step == 0);
+  CHECK(state.query_radius == 0);
+  CHECK(state.bounds == std::vector<float>(state.positions.size(), 0.0F));
+  CHECK(same_bits(state.positions, compare::to_single(scene.mesh.positions)));
+  CHECK(same_bits(state.velocities, compare::to_single(scene.velocities)));
+  CHECK(same_bits(state.previous, state.positions));
+}
+
 TEST_CASE("capacities of other lists are refused", "[unit]") {
   compare::Snapshot state = start_cpu(drop_scene(), {})->snapshot();
   for (const std::vector<std::int64_t>& wrong : {std::vector<std::int64_t>{1}, {1, 0}, {1, std::int64_t{1} << 40}, {1, 1, 1}}) {

@@ -48,7 +48,7 @@ class GuardedBuffer {
   }
 
  private:
-  static constexpr std::size_t margin = 256;
+  static constexpr std::size_t margin = 4096;
 
   void check() const {
     if (!items_) return;
