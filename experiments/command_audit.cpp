@@ -1,9 +1,12 @@
 // `ogc audit`: does anything intersect? Exactly, for a mesh of any origin, or for each frame of a run of any program.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include <nlohmann/json.hpp>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
 #include "experiments/audits/audit_source.hpp"
@@ -96,27 +99,67 @@ struct Audits {
   std::string stopped;  ///< why the rest can't be read; empty where it could
 };
 
+/// A state on its way from the file to the report, or why it can't be read.
+struct Item {
+  std::optional<AuditedState> state;
+  std::string problem;
+};
+using Handle = std::shared_ptr<Item>;
+
+/// One after the other, until the end, an interruption, or a state that can't be read.
+class Reading {
+ public:
+  explicit Reading(AuditSource& source) : source_(source) {}
+  Handle operator()(tbb::flow_control& control) {
+    if (next_ == source_.size() || failed_ || interrupted()) {
+      control.stop();
+      return nullptr;
+    }
+    auto item = std::make_shared<Item>();
+    try {
+      item->state = source_.next();
+    } catch (const compare::InputError& error) {
+      if (next_ == 0) throw;
+      failed_ = true;
+      item->problem = error.what();
+    }
+    ++next_;
+    return item;
+  }
+
+ private:
+  AuditSource& source_;
+  std::size_t next_ = 0;
+  bool failed_ = false;
+};
+
+/// States side by side, as many as there are threads: what one state takes is for the most part one thread's work.
 Audits audit_all(AuditSource& source, const std::string& show) {
   Audits audits;
   audits.planned = source.size();
   catch_interrupts();
   Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
-  for (std::size_t i = 0; i < source.size() && !interrupted(); ++i) {
-    std::optional<AuditedState> audited;
-    try {
-      audited = source.next();
-    } catch (const compare::InputError& error) {
-      if (i == 0) throw;
-      audits.stopped = error.what();
-      return audits;
+  Reading reading(source);
+  const auto judge = [&](const Handle& item) {
+    if (item->state) source.judge(*item->state);
+    return item;
+  };
+  const auto keep = [&](const Handle& item) {
+    if (!item->state) {
+      audits.stopped = item->problem;
+      return;
     }
-    audits.states.push_back(state_of(*audited));
-    if (!show.empty() && audited->result.count > 0 && audits.shown.size() < most_shown)
-      audits.shown.push_back(
-          show_offenders(show, audited->name, audited->result, *audited->topology, audited->positions));
+    const AuditedState& audited = *item->state;
+    audits.states.push_back(state_of(audited));
+    if (!show.empty() && audited.result.count > 0 && audits.shown.size() < most_shown)
+      audits.shown.push_back(show_offenders(show, audited.name, audited.result, *audited.topology, audited.positions));
     if (source.size() > 1)
-      progress.show(static_cast<std::int64_t>(i) + 1, counted(audited->result.count, "intersection"));
-  }
+      progress.show(static_cast<std::int64_t>(audits.states.size()), counted(audited.result.count, "intersection"));
+  };
+  const auto together = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  tbb::parallel_pipeline(together, tbb::make_filter<void, Handle>(tbb::filter_mode::serial_in_order, std::ref(reading)) &
+                                       tbb::make_filter<Handle, Handle>(tbb::filter_mode::parallel, judge) &
+                                       tbb::make_filter<Handle, void>(tbb::filter_mode::serial_in_order, keep));
   return audits;
 }
 

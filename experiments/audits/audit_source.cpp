@@ -38,11 +38,13 @@ class RunSource : public AuditSource {
   std::string name(std::size_t i) const override { return "step " + std::to_string(reader_.frame_step(i)); }
   AuditedState next() override {
     const compare::Frame frame = reader_.frame(next_);
-    AuditedState state{name(next_++), topology_, compare::to_double(frame.positions), {}, {}, judge_.names(), ""};
-    state.result = judge_.audit(frame.positions, limit_);
-    state.distances = judge_.smallest_distances(frame.positions);
+    return {name(next_++), topology_, compare::to_double(frame.positions), {}, {}, judge_.names(), ""};
+  }
+  void judge(AuditedState& state) const override {
+    const std::vector<compare::Vec3f> stored = compare::to_single(state.positions);  // as they came
+    state.result = judge_.audit(stored, limit_);
+    state.distances = judge_.smallest_distances(stored);
     state.text = judge_.describe(state.result);
-    return state;
   }
   std::string left_out() const override { return left_out_of_audits(reader_.scene()); }
 
@@ -82,10 +84,12 @@ class SequenceSource : public AuditSource {
     take_topology(mesh, its_name);
     AuditedState state{its_name, topology_, std::move(mesh.positions), {}, {}, {}, ""};
     if (!loaded.source.file.empty()) state.names = compare::ElementNames(std::move(loaded.source));
-    state.result = compare::audit(*topology_, state.positions, {}, {.limit = limit_});
-    state.distances = compare::smallest_distances(*topology_, state.positions);
-    state.text = compare::describe(state.result, *topology_, state.names);
     return state;
+  }
+  void judge(AuditedState& state) const override {
+    state.result = compare::audit(*state.topology, state.positions, {}, {.limit = limit_});
+    state.distances = compare::smallest_distances(*state.topology, state.positions);
+    state.text = compare::describe(state.result, *state.topology, state.names);
   }
 
  private:

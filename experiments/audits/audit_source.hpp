@@ -1,4 +1,4 @@
-// What `ogc audit` looks at, one state after the other, whoever computed it.
+// What `ogc audit` looks at, whoever computed it: states are read one after the other, and judged side by side.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace ogc::experiments {
 
-/// One state, judged exactly.
+/// One state, and what was found of it once it is judged.
 struct AuditedState {
   std::string name;  ///< "step 12", a file, or "frame 3"
   std::shared_ptr<const compare::Topology> topology;
@@ -30,8 +30,10 @@ class AuditSource {
   virtual ~AuditSource() = default;
   virtual std::size_t size() const = 0;
   virtual std::string name(std::size_t i) const = 0;
-  /// Judges the next state. Throws compare::InputError where it can't be read; no further state can be asked for then.
+  /// Reads the next state. Throws compare::InputError where it can't be read; no further state can be asked for then.
   virtual AuditedState next() = 0;
+  /// Judges a state exactly. Several threads may do so, with different states, while another one reads.
+  virtual void judge(AuditedState& state) const = 0;
   /// What is left out besides what touches by its topology, in words; empty where nothing.
   virtual std::string left_out() const { return ""; }
 };
