@@ -191,7 +191,7 @@ class Rewriter:
 # flatten: of a function with hundreds of switches it takes the compiler minutes. An index beyond an array ends the
 # process, as under the `sanitize` preset: whether it shows in an answer is chance.
 FLAGS = ("-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize -Dflatten=used -D_GLIBCXX_ASSERTIONS "
-         "-fsanitize=bounds -fsanitize-undefined-trap-on-error").split()
+         "-fsanitize=bounds-strict -fsanitize-undefined-trap-on-error").split()
 KIND_ORDER = ("number", "coordinate", "condition", "choice", "sign", "index", "operator")
 
 

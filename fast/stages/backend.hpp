@@ -2,7 +2,7 @@
 // the mathematics, a functor over plain pointers. A backend brings memory, loops and a few collectives, and nothing else:
 //
 //   template <class T> using Buffer;     // T trivially copyable; resident array; movable
-//     Buffer(); T* data(); const T* data() const; std::size_t size() const;
+//     Buffer(); T* data(); const T* data() const; std::size_t size() const;   // data() is null until there was an item
 //     void resize(std::size_t n);        // host only, outside a step; keeps no content; never shrinks the allocation
 //     void upload(const T*, std::size_t n); void download(T*, std::size_t n) const; void fill_zero();   // host only, outside a step
 //

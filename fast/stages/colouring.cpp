@@ -216,14 +216,18 @@ void balance_and_turn(const compare::CompressedRows& graph, const std::vector<in
 
 }  // namespace
 
+int colouring_passes(std::size_t neighbours) {
+  constexpr double visits = 2e7;
+  return static_cast<int>(std::clamp(visits / (1.0 + static_cast<double>(neighbours)), 4.0, 100.0));
+}
+
 Colouring colour_vertices(const RestState& rest) {
-  constexpr double visits = 2e7;  // of neighbours: about a second of start time at most
   const compare::CompressedRows graph = conflict_graph(rest);
   std::vector<int> vertices;
   for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
     if (rest.mobility[v] == Mobility::free) vertices.push_back(static_cast<int>(v));
   }
-  const int passes = static_cast<int>(std::clamp(visits / (1.0 + static_cast<double>(graph.items.size())), 4.0, 100.0));
+  const int passes = colouring_passes(graph.items.size());
   Colouring result;
   std::vector<int> colour(rest.mobility.size(), uncoloured);
   for (const std::vector<int>& order : {vertices, saturation_order(graph, vertices, colour)}) {

@@ -20,6 +20,10 @@ struct Colouring {
 /// Free vertices that share a membrane or bending stencil or a spring with v, ascending; rows of other vertices are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
+/// Passes in which the number of colours is brought down, where vertices have so many neighbours in all: as many as
+/// visit 2·10⁷ of them, which is about a second, but 4 at least and 100 at most.
+int colouring_passes(std::size_t neighbours);
+
 /// Colours the vertices with Mobility::free.
 Colouring colour_vertices(const RestState& rest);
 

@@ -96,7 +96,7 @@ class Lists {
   }
 
   SurfaceView surface_;
-  int buckets_, capacity_ = 0, noted_capacity_ = 0;
+  int buckets_, capacity_, noted_capacity_;
   Buffer<int> status_;  ///< contacts entered, overflow, edge–edge records, noted pairs, contacts without a slot
   Buffer<NotedPair> noted_;
   Buffer<ContactSlot> table_;

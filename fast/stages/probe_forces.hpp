@@ -122,7 +122,7 @@ compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) 
   for (int i = 0; i < n; ++i) {
     const compare::BendingCase& c = in.cases[static_cast<std::size_t>(i)];
     rest.hinges.push_back({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, i, c.rest_angle, c.stiffness});
-    rest.materials.push_back({0, 0, 0, c.damping});
+    rest.materials.push_back({{}, {}, {}, c.damping});
     rest.models.push_back({compare::MembraneModel::none, c.model, c.damping_form});
     isometric.push_back(detail::isometric_stencil({{c.weight[0], c.weight[1], c.weight[2]}}, c.own));
     incidences.push_back(detail::hinge_incidence(rest, i, c.own, colours));

@@ -18,7 +18,6 @@ class Skin {
   /// `share`: largest m/r; 0 for none, every detection searches.
   Skin(const SurfaceView& surface, float share) : share_(share) {
     const auto size = [](int n) { return static_cast<std::size_t>(n); };
-    state_.resize(1);
     forget();
     if (!is_used()) return;
     anchor_.resize(size(surface.vertex_count));

@@ -213,9 +213,9 @@ class Sweep {
     view.contacts = contacts_.data();
     view.materials = materials_.data();
     view.models = models_.data();
-    view.isometric = isometric_.size() > 0 ? isometric_.data() : nullptr;
+    view.isometric = isometric_.data();
     view.springs = springs_.data();
-    view.spring_rows = spring_rows_.size() > 0 ? spring_rows_.data() : nullptr;
+    view.spring_rows = spring_rows_.data();
     view.activation = activation_;
   }
 

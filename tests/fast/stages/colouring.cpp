@@ -92,6 +92,16 @@ TEST_CASE("colours are valid on random non-manifold meshes", "[property]") {
   }
 }
 
+TEST_CASE("passes visit 20 million neighbours at most, where four passes do not visit more", "[unit]") {
+  CHECK(colouring_passes(0) == 100);
+  CHECK(colouring_passes(100000000) == 4);
+  for (const std::size_t neighbours : {1000, 199999, 200001, 1000000, 3000000, 4999999, 5000001}) {
+    const auto passes = static_cast<std::size_t>(colouring_passes(neighbours));
+    CHECK((passes == 4 || passes * neighbours <= 20000000));
+    CHECK((passes == 100 || (passes + 1) * (neighbours + 1) > 20000000));
+  }
+}
+
 TEST_CASE("colours of random meshes have as many vertices as each other, but for one", "[property]") {
   for (unsigned seed = 0; seed < 10; ++seed) {
     const Colouring colouring = colour_vertices(rest_of(random_mesh(seed)));

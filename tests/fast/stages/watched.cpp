@@ -16,6 +16,7 @@ using namespace ogc::fast::test;
 namespace {
 
 int broken_margins = 0;
+int strains_begun = 0;  // loops that ask for strains at the start of a step
 
 /// CpuBuffer with a margin behind its items, in which bits are ones: floats that are not numbers, places below 0.
 template <class T>
@@ -76,6 +77,7 @@ class WatchedBackend : public CpuBackend {
 
   template <class F>
   void for_each(int n, F f) {
+    if constexpr (std::is_same_v<F, BeginTriangle>) ++strains_begun;
     if constexpr (std::is_same_v<F, CheckVertex>) {
       if (before_check_) before_check_(const_cast<Vec*>(f.position));
     }
@@ -214,4 +216,16 @@ TEST_CASE("iterations are asked in groups whether a detection is due until a fra
   REQUIRE(changed.size() == 4);
   CHECK(changed[1] != changed[0]);
   CHECK(all_same({changed.begin() + 1, changed.end()}));
+}
+
+TEST_CASE("strains at the start of a step are asked for where something damps, and nowhere else", "[unit]") {
+  compare::Scene scene = thrown_sheet();
+  for (const auto& [membrane, bending] : {std::pair(0.0, 0.0), std::pair(1e-6, 0.0), std::pair(0.0, 1e-6)}) {
+    for (compare::Body& body : scene.bodies) {
+      body.material.membrane_damping = membrane, body.material.bending_damping = bending;
+    }
+    strains_begun = 0;
+    Watched(WatchedBackend{}, scene, {}, "").advance(3);
+    CHECK(strains_begun == (membrane + bending > 0 ? 3 : 0));
+  }
 }
