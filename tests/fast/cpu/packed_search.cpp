@@ -1,5 +1,5 @@
-// A search of one thread with candidates that wait for each other: what it looks for grows narrower as in one that waits
-// for none.
+// A search of one thread with candidates that wait for each other: what it looks for grows narrower as in one that
+// waits for none.
 #include "fast/cpu/packed_search.hpp"
 
 #include <vector>
