@@ -32,7 +32,7 @@ struct Question {
   // Whether p lies on the side of the edge on which the vertex o lies.
   bool is_beside(Vec p, int edge, int o) const {
     const Vec a = at(mesh.edges[edge][0]), e = at(mesh.edges[edge][1]) - a, to = at(o) - a;
-    return dot(e, e) * dot(p - a, to) > dot(e, to) * dot(p - a, e);
+    return dot(cross(to, e), cross(p - a, e)) > 0;  // what lies along the edge cancels before it is multiplied
   }
   static bool has(const ogc_rows& rows, int row, int item) {
     return std::find(rows.items + rows.offsets[row], rows.items + rows.offsets[row + 1], item) !=
