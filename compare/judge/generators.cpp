@@ -11,9 +11,9 @@ namespace ogc::compare {
 
 namespace {
 
-// Detection decides within r alone. The pair stages and block decide wherever they are asked, and in a regular sheet every vertex lies on the planes of
-// its neighbours: there grey decisions say nothing of the kernel or of the state.
-constexpr Generator real_states{"states", 50, true, nullptr}, pairs_of_real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
+// In a regular sheet every vertex lies on the planes of its neighbours, and parallel edges meet on the borders of blocks:
+// grey decisions about frames say nothing of the kernel, so that no limit holds for them.
+constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::span<const Generator> generators(Stage stage) {
 }
 
 const Generator& find_generator(Stage stage, std::string_view name) {
-  if (name == real_states.name) return is_mesh_stage(stage) && stage != Stage::block ? real_states : pairs_of_real_states;
+  if (name == real_states.name) return real_states;
   if (name == mutated_states.name) return mutated_states;
   std::string known;
   for (const Generator& generator : generators(stage)) {

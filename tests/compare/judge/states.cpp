@@ -159,6 +159,11 @@ TEST_CASE("a stage of which a run has nothing says why, in the report and to who
   REQUIRE_THAT(report_table(reports), ContainsSubstring("no states of " + states.folder() + ": its scene has no spring"));
 }
 
+TEST_CASE("frames of a run, which flat sheets fill with ties, are held to no share of grey decisions", "[unit]") {
+  for (const Stage stage : all_stages)
+    for (const char* name : {"states", "mutated"}) CHECK_FALSE(find_generator(stage, name).generic);
+}
+
 TEST_CASE("a folder that is no run is refused", "[unit]") {
   const Scratch scratch;
   REQUIRE_THROWS_AS(States(scratch / "nothing", ogc::reference::authority()), InputError);
