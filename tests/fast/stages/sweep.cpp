@@ -345,8 +345,8 @@ TEST_CASE("that holds for a contact on either side of the distance below which t
 
 TEST_CASE("that holds for edges on either side of the limit below which two count as parallel", "[property]") {
   int below = 0, above = 0;
-  for (const double sine : {0.6e-3, 0.7e-3, 0.8e-3, 0.85e-3, 0.9e-3, 0.95e-3, 1.05e-3, 1.1e-3, 1.2e-3, 1.3e-3}) {
-    Fixture f(false, 4, 0.3, 2e-6, sine);
+  for (int k = 0; k < 60; ++k) {  // few nearly parallel pairs pass the block test
+    Fixture f(false, 4, 0.3, 2e-6, 0.72e-3 + k * 0.01e-3);
     const ContactView view = f.detection->view();
     for (int i = 0; i < *view.edge_edge_count; ++i) {
       const auto direction = [&](int edge) {
@@ -361,7 +361,7 @@ TEST_CASE("that holds for edges on either side of the limit below which two coun
     }
     CHECK(other_bits(f) == 0);
   }
-  CHECK(below > 3);
+  CHECK(below > 20);
   CHECK(above > 3);
 }
 
