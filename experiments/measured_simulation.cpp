@@ -59,10 +59,26 @@ class MeasuredSimulation : public compare::Simulation {
   std::string device() const override { return inner_->device(); }
 
  private:
-  void add_iterations(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
+  /// The scene whose first step is the one after `before`: a trace knows no other, so that each motion becomes
+  /// two keyframes, its targets at the step's begin and end.
+  compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;
+    const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;
+    const double end = static_cast<double>(before.step + 1) * h;
+    for (std::size_t i = 0; i < scene.motions.size(); ++i) {
+      const compare::PrescribedMotion& motion = scene_.motions[i];
+      compare::Keyframes keyframes{.times = {0, h}, .positions = prescribed_targets(scene_, motion, now)};
+      const std::vector<compare::Vec3f> targets = prescribed_targets(scene_, motion, end);
+      keyframes.positions.insert(keyframes.positions.end(), targets.begin(), targets.end());
+      scene.motions[i] = {.name = motion.name, .vertices = motion.vertices, .keyframes = std::move(keyframes)};
+    }
     scene.mesh.positions = compare::to_double(before.positions);
     scene.velocities = compare::to_double(before.velocities);
+    return scene;
+  }
+
+  void add_iterations(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
+    const compare::Scene scene = scene_at(before);
     const compare::StepOut trace = trace_({&scene, &topology_});
     if (trace.position != after.positions) throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
     const EventTimes times = event_times(step, inner_->stage_names());

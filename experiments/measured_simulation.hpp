@@ -5,11 +5,12 @@
 
 namespace ogc::experiments {
 
-/// The contestant, with StepMetrics::residual filled: forces in double, contacts detected at the end of the step (method.md §6). `iterations`: also a row an
-/// iteration, from the trace of its own step (Contestant::step), which its simulation takes to the same bits; a row's residual has the contacts of the
-/// contestant's last detection. Times of rows: the step's time but its detections and iterations, then each of these with an equal share of what all of them took; without
-/// SimulationOptions::profile iterations share the whole. Rows are for scenes without prescribed motions, of which a trace knows the first step alone; a trace
-/// that ends in another state than the step throws std::logic_error.
+/// The contestant, with StepMetrics::residual filled: forces in double, contacts detected at the end of the step
+/// (method.md §6). `iterations`: also a row an iteration, from the trace of its own step (Contestant::step), which its
+/// simulation takes to the same bits; a row's residual has the contacts of the contestant's last detection. Times of
+/// rows: the step's time but its detections and iterations, then each of these with an equal share of what all of them
+/// took; without SimulationOptions::profile iterations share the whole. A trace that ends in another state than the
+/// step throws std::logic_error.
 compare::Contestant measured(compare::Contestant contestant, bool iterations);
 
 }  // namespace ogc::experiments

@@ -220,8 +220,6 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.scene = std::move(file.scene);
   request.sources = std::move(file.sources);
   apply_settings(request.scene, options);
-  if (options.solver == "vbd" && options.iterations && !request.scene.motions.empty())
-    throw compare::InputError("--iterations with --solver vbd needs a scene without prescribed motions; take --residual, or --solver reference_vbd");
   request.solver = options.solver;
   request.backend = options.backend;
   request.iterations = options.iterations || options.condition;

@@ -71,7 +71,7 @@ def parts(scale, backend):
     on_device = tuple(job for job in single if "cpu" not in job.name or backend == "cpu")
     wanted = {"twist": row("twist", frames=40), "fig02": Part(figure("fig02"), ((half_turn,),), frames=13), "fig20": Part(figure("fig20"), ((drop,),), frames=25),
               "fig17": Part(figure("fig17"), (on_device,), frames=0, last=1), "fifty_layers_1m": row("fifty_layers_1m", frames=0),
-              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers"), "knot": row("knot", frames=17),
+              "cloth_on_sphere": row("cloth_on_sphere", frames=21), "fifty_layers": row("fifty_layers", frames=3), "knot": row("knot", frames=17),
               "dress": row("dress", frames=20), "robot_shirt": row("robot_shirt", frames=20)}
     solvers = ("ipc", "newton", "vbd", *(["vbd_cuda"] if backend == "cuda" else []))
     on_cores = {"fig17_cpu": Part(figure("fig17"), (tuple(job for job in single if "cpu" in job.name),), frames=0, last=1, gpu=False),
@@ -187,7 +187,8 @@ def run_folders(out, part):
         solvers = [out / part.folder / name for name in part.solvers]
         return [made for solver in solvers if in_time.ended(solver) for made in in_time.parts(solver)]
     if part.row:
-        found = sorted((out / part.folder / part.row).glob("cpu_*" if part.windows else "whole*"))
+        row = out / part.folder / part.row
+        found = sorted(row.glob("cpu_*")) if part.windows else sorted(row.glob("whole*")) + sorted(row.glob("residual_*"))
     else:
         found = [out / part.folder / job.name for jobs in part.chains for job in jobs]
     return [folder for folder in found if manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton"))]
@@ -203,7 +204,7 @@ def chosen_frames(folder, part):
 def files_of(out, part):
     """What is packed of a part."""
     for folder in run_folders(out, part):
-        frames = chosen_frames(folder, part)
+        frames = [] if folder.name.startswith("residual_") else chosen_frames(folder, part)
         names = ("run.json", "steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT)
         yield from (folder / name for name in names if (folder / name).is_file())
         yield from frames

@@ -13,10 +13,11 @@ import sys
 from pathlib import Path
 
 from paper_figures.device_memory import taken
-from paper_figures.evidence import NOT_RUN, EvidenceError, run_at
+from paper_figures.evidence import NOT_RUN, EvidenceError, columns_of, run_at
 
 ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m", "dress", "robot_shirt")
 WINDOWS = 5  # on the CPU, of each row
+STALE, FRESH = "residual, last detection's contacts [1]", "residual, contacts of the end [1]"
 CLAIMS = Path(__file__).parent / "claims"
 
 
@@ -36,6 +37,19 @@ def times(run):
 def contacts(run):
     """Vertex-facet and edge-edge contacts of each step."""
     return [a + b for a, b in zip(run.column("vertex_facet_contacts"), run.column("edge_edge_contacts"))]
+
+
+def residuals(folder):
+    """What a step leaves at each state that one was measured from: `first state: residual`, by column."""
+    runs = sorted(runs_below(folder, "residual_*"), key=lambda run: run.column("step")[0])
+    found = {STALE: [], FRESH: []}
+    for run in runs:
+        first = int(run.column("step")[0]) - 1
+        rows = run.rows.with_name(run.rows.name.replace("steps", "iterations"))
+        if rows.is_file():
+            found[STALE].append((first, columns_of(rows, rows.stat().st_mtime_ns)["residual"][-1]))
+        found[FRESH].append((first, run.column("residual")[-1]))
+    return {name: "; ".join(f"{first}: {value:.3g}" for first, value in values) for name, values in found.items()}
 
 
 def paper(scene, backend, quantity):
@@ -67,8 +81,8 @@ def sizes(run):
     return {"vertices": scene["vertices"], "triangles": scene["triangles"], "iterations": run.manifest["settings"]["iterations"]["value"]}
 
 
-def device_row(scene, runs, memory=""):
-    """Of the whole runs on the device, which must be as long as each other."""
+def device_row(scene, runs, memory="", left=None):
+    """Of the whole runs on the device, which must be as long as each other; `left`: what `residuals` found."""
     if len({len(run.column("step")) for run in runs}) > 1:
         raise EvidenceError(f"{scene}: whole runs of different lengths ({', '.join(run.source for run in runs)}): finish them, or remove the shorter ones")
     averages, maxima, repeats = zip(*(times(run) for run in runs))
@@ -79,7 +93,7 @@ def device_row(scene, runs, memory=""):
             **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted, "runs": len(runs), "windows [ms]": "",
             "repeated steps": max(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
             "audited states": f"{run.audited_states}, {audit}", "audit [s]": run.afterwards.get("seconds", ""),
-            "device memory [MiB]": memory}
+            **(left or {STALE: "", FRESH: ""}), "device memory [MiB]": memory}
 
 
 def cpu_row(scene, windows, wanted):
@@ -94,7 +108,7 @@ def cpu_row(scene, windows, wanted):
     return {"scene": scene, "backend": "cpu", **origin(windows[-1]), **sizes(windows[-1]), **beside(windows[-1], statistics.fmean(averages), max(maxima)),
             "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows), "windows [ms]": each,
             "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
-            "audited states": "windows: not audited", "audit [s]": "",
+            "audited states": "windows: not audited", "audit [s]": "", STALE: "", FRESH: "",
             "device memory [MiB]": ""}
 
 
@@ -103,7 +117,8 @@ def rows_of(folder):
     for scene in ROWS:
         whole, windows = runs_below(Path(folder) / scene, "whole*"), runs_below(Path(folder) / scene, "cpu_*")
         if whole:
-            rows.append(device_row(scene, whole, taken(Path(folder) / f"{scene}_device_memory.json")))
+            memory = taken(Path(folder) / f"{scene}_device_memory.json")
+            rows.append(device_row(scene, whole, memory, residuals(Path(folder) / scene)))
         if windows:
             rows.append(cpu_row(scene, windows, whole[-1].manifest["settings"]["steps"]["value"] if whole else ""))
         if windows and not whole:
@@ -121,11 +136,12 @@ def text(value):
 
 SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
          "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states",
-         "audit [s]", "device memory [MiB]", "device",
+         "audit [s]", STALE, FRESH, "device memory [MiB]", "device",
          "paper's machine", "status", "commit")
 
 NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in the average, not in the maximum. "
-        "audit [s]: after the run, which it is no part of. "
+        "audit [s]: after the run, which it is no part of. Residuals (Eq. 29, by the reference in double): what one step "
+        "leaves of the force after its initial guess, from the run's states (first state: residual). "
         "CPU: windows of steps from states of the device's run, average of the windows (first state: average [ms]), maximum over all. fifty_layers and "
         "fifty_layers_1m stand beside the same printed times, as Table 1 and Fig. 10 print one pair for two resolutions.")
 

@@ -51,6 +51,16 @@ class Known(unittest.TestCase):
         self.assertEqual((cpu["average [ms]"], cpu["maximum [ms]"], cpu["windows [ms]"]), (27.5, 40, "0: 15; 9600: 40; 3 of 5 not run"))
         self.assertEqual((cpu["paper average [ms]"], cpu["paper maximum [ms]"]), (21, 30))
 
+    def test_residuals_stand_by_the_state_that_the_step_began_in(self):
+        make_run(self.folder / "twist/whole", "cuda", [(1, 10, 0)])
+        for share, first, fresh in ((100, 9601, 0.5), (25, 2401, 0.25)):
+            run = self.folder / f"twist/residual_{share}"
+            make_run(run, "cuda", [], first=first)
+            (run / "steps.csv").write_text(f"step [1],residual [1]\n{first},{fresh}\n")
+        (run / "iterations.csv").write_text("iteration [1],residual [1]\n0,1\n1,0.125\n")
+        row, = table1.rows_of(self.folder)
+        self.assertEqual((row[table1.STALE], row[table1.FRESH]), ("2400: 0.125", "2400: 0.25; 9600: 0.5"))
+
     def test_of_several_whole_runs_the_median_counts(self):
         for name, ms in (("whole", 3), ("whole_2", 1), ("whole_3", 2)):
             make_run(self.folder / "twist" / name, "cuda", [(ms, 0, 0)])
@@ -209,6 +219,9 @@ class Real(unittest.TestCase):
                 frames, found = len(list((run / "frames").iterdir())), json.loads((run / "audit.json").read_text())
                 self.assertEqual((found["states"], found["clean"], found["complete"]), (frames, True, True), name)
             sphere = rows[2]
+            for column in (table1.STALE, table1.FRESH):
+                found = [float(text.split(": ")[1]) for text in sphere[column].split("; ")]
+                self.assertEqual((len(found), min(found) > 0), (5, True), column)
             self.assertEqual(sphere["audited states"], f"{frames}, no intersection")
             self.assertGreater(float(sphere["audit [s]"]), 0)
             self.assertEqual(json.loads((run / "run.json").read_text())["audit"], "off", "its time is the steps' alone")
