@@ -181,7 +181,7 @@ std::string describe_distances(const std::vector<State>& states) {
          describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
 
-/// Two states say nothing about curves (method.md §5), which pass through each other between them.
+/// Two states say nothing about curves (method.md §5.5), which pass through each other between them.
 std::string unseen(const std::vector<State>& states) {
   const auto has = std::ranges::find_if(states, [](const State& state) { return state.loose_edges > 0; });
   if (has == states.end()) return "";

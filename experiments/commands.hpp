@@ -5,7 +5,7 @@
 
 namespace ogc::experiments {
 
-/// Exit statuses of `ogc` (design.md §4).
+/// Exit statuses of `ogc`.
 enum ExitStatus : int { exit_success = 0, exit_check_failed = 1, exit_bad_input = 2, exit_out_of_resource = 3 };
 
 /// What all subcommands share.

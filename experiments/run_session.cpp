@@ -40,7 +40,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Frames 60 times a second of the scene's time, unless the scene says otherwise (scenes.md).
+/// Frames 60 times a second of the scene's time, unless the scene says otherwise.
 std::int64_t frame_steps(const compare::Settings& settings) {
   if (settings.frame_steps > 0) return settings.frame_steps;
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));

@@ -18,7 +18,7 @@ namespace ogc::reference {
 /// Every stage that the reference has.
 compare::Authority authority();
 
-/// Newton-OGC: no stages, but a simulation to `start` (method.md §7).
+/// Newton-OGC: no stages, but a simulation to `start` (method.md §7.6).
 compare::Contestant newton();
 
 /// The IPC baseline: likewise.

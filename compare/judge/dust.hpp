@@ -1,4 +1,4 @@
-// Small coordinates: what rotations leave of a zero, and runs of a vertex near a plane of symmetry (method.md §2: legal
+// Small coordinates: what rotations leave of a zero, and runs of a vertex near a plane of symmetry (method.md §2.4: legal
 // everywhere).
 #pragma once
 

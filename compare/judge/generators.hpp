@@ -32,7 +32,7 @@ TestCase generate(const CaseName& name, const States* states = nullptr);
 /// The same where the row of `name.generator` is at hand.
 TestCase generate(const Generator& generator, CaseName name, const States* states = nullptr);
 
-/// Largest share of grey decisions in the generic generators (design.md §2).
+/// Largest share of grey decisions in the generic generators (compare/README.md, "The verdict").
 inline constexpr double grey_share_limit = 1e-5;
 
 /// Tables by stage, one source file each.

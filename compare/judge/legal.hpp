@@ -8,7 +8,7 @@
 namespace ogc::compare {
 
 /// Of coordinates [m], velocities [m/s] and accelerations [m/s²]: the largest modulus. Scenes end at 2²⁰; generators go
-/// beyond, so that no stage relies on it. There is no smallest one (method.md §2).
+/// beyond, so that no stage relies on it. There is no smallest one (method.md §2.4).
 inline constexpr float most_coordinate = 0x1p30f;
 
 /// What makes the question illegal, with the number at fault; empty where nothing does.

@@ -1,4 +1,4 @@
-// Verdicts of closest_face and closest_points. The scale Σ|δ| is that of design.md §2: the moduli of all coordinates relative to the case's first vertex.
+// Verdicts of closest_face and closest_points. The scale Σ|δ| is that of method.md §2.5: the moduli of all coordinates relative to the case's first vertex.
 #include <algorithm>
 #include <cmath>
 

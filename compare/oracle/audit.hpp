@@ -1,4 +1,4 @@
-// The oracle: exact intersection audit of a state, by CGAL, of any contestant or of none (method.md §5, "State audit").
+// The oracle: exact intersection audit of a state, by CGAL, of any contestant or of none (method.md §5.5).
 #pragma once
 
 #include <cstddef>

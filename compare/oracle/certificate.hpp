@@ -1,4 +1,4 @@
-// The motion certificate (method.md §5): two states without intersections say nothing about the way between them; bounds that are kept do.
+// The motion certificate (method.md §5.5): two states without intersections say nothing about the way between them; bounds that are kept do.
 #pragma once
 
 #include <cstddef>

@@ -64,7 +64,7 @@ struct StepMetrics {
   std::int64_t guess_rounds = 0, iterations = 0;
   std::int64_t vertices_at_bound = 0;         ///< cut in the last iteration
   double share_at_bound = 0;                  ///< vertices_at_bound / K
-  double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5)
+  double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5.3)
   double largest_lag = 0;                     ///< of prescribed vertices behind their targets [m]
   double query_radius = 0;                    ///< r_q of the step [m]
   double residual = 0;                        ///< Eq. 29

@@ -1,6 +1,6 @@
 // Dust: what is left of a sine that should be 0, like 6e-17. It stands in nearly every mesh that a program made, means
 // nothing, and makes the numbers of exact arithmetic as long as their exponents are apart; so it becomes 0 when a
-// scene's meshes are read (method.md §2), and never later.
+// scene's meshes are read (method.md §2.4), and never later.
 #pragma once
 
 #include <string>

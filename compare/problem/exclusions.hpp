@@ -1,4 +1,4 @@
-// Which pairs of faces are no pairs (method.md §2): neither contacts, nor part of d_min, nor of an audit. Who asks, decides; here are the facts.
+// Which pairs of faces are no pairs (method.md §2.3): neither contacts, nor part of d_min, nor of an audit. Who asks, decides; here are the facts.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // A scene: everything that a contestant needs to know. Plain data in double; `round_to_single` makes each number one that single
-// precision holds exactly, so that a contestant in single and one in double are asked the same question (method.md §2).
+// precision holds exactly, so that a contestant in single and one in double are asked the same question (method.md §2.5).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace ogc::compare {
 enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };
 enum class BendingModel { none, discrete_hinge, isometric_quadratic };
 
-/// Constants of one body's surface (scenes.md, "Materials of the cloth scenes").
+/// Constants of one body's surface (method.md §4.5 to §4.10).
 struct Material {
   double density = 0.2;                 ///< mass per rest area [kg/m²]
   MembraneModel membrane = MembraneModel::st_venant_kirchhoff;

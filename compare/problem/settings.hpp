@@ -13,7 +13,7 @@ namespace ogc::compare {
 
 /// How Newton's method makes a stencil's Hessian positive semidefinite: not at all, negative eigenvalues to 0, or to their absolute values.
 enum class HessianProjection : std::int64_t { none, clamp, absolute };
-/// Contact energy over distance (method.md §4): Eq. 18 with Eq. 19 corrected, or one of the variants of the ablation.
+/// Contact energy over distance (method.md §4.2): Eq. 18 with Eq. 19 corrected, or one of the variants of the ablation.
 enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ipc_log, cubic };
 /// How IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by gaps, which a thickness leaves of them (Li et al. 2021).
 enum class IpcAdaptation : std::int64_t { distance, gap };
@@ -21,7 +21,7 @@ enum class IpcAdaptation : std::int64_t { distance, gap };
 enum class IpcStopping : std::int64_t { displacement, velocity };
 /// Which pairs bound an IPC step: the active ones and d̂/2 of motion for the others while that takes at most half of it (Li et al. 2020), or all (2021).
 enum class IpcCcd : std::int64_t { partial, full };
-/// What stiffness-proportional damping acts on (method.md §4): the change of a stencil's strain, or each vertex's own motion through its own block.
+/// What stiffness-proportional damping acts on (method.md §4.9): the change of a stencil's strain, or each vertex's own motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
 
 /// Names of the activations and damping forms, in the order of the enumerations.
@@ -33,11 +33,11 @@ struct Settings {
   std::int64_t steps = 100;                   ///< steps of the run
   std::int64_t iterations = 40;               ///< sweeps a step
   double contact_radius = 0.005;              ///< r [m]
-  double query_radius_cap = 4;                ///< cap of r_q, in units of r (method.md §5)
+  double query_radius_cap = 4;                ///< cap of r_q, in units of r (method.md §5.3)
   double bound_relaxation = 0.45;             ///< γ_p, Eq. 21
   double redetect_fraction = 0.01;            ///< γ_e, Alg. 3 line 29
   std::int64_t redetect_every = 0;            ///< re-detect at the latest after so many iterations; 0: never by count
-  std::int64_t guess_rounds = 16;             ///< rounds of the guess loop (method.md §5); 1: as printed in Eq. 28
+  std::int64_t guess_rounds = 16;             ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
   double friction_velocity = 0.01;            ///< ε_v [m/s]
   std::int64_t frame_steps = 0;               ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   std::int64_t lanes = 0;                     ///< W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size

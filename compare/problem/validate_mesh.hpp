@@ -8,7 +8,7 @@
 
 namespace ogc::compare {
 
-inline constexpr double least_length = 0x1p-20;  ///< [m] of an edge (method.md §2)
+inline constexpr double least_length = 0x1p-20;  ///< [m] of an edge (method.md §2.4)
 inline constexpr double most_length = 0x1p20;    ///< [m] of an edge, and of a coordinate
 
 /// What is checked, what its elements are called, and where problems go: at most `limit` of each sort, then a count.

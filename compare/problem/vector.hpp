@@ -25,7 +25,7 @@ using Edge = std::array<Index, 2>;
 /// Vertex indices of a triangle, in the order of the mesh file.
 using Triangle = std::array<Index, 3>;
 
-/// A face of the complex (method.md §2): a vertex, the interior of an edge, or the interior of a triangle.
+/// A face of the complex (method.md §2.1): a vertex, the interior of an edge, or the interior of a triangle.
 enum class FaceKind : std::uint8_t { vertex = 0, edge = 1, triangle = 2 };
 
 /// Names one face: kind and number within its kind. Ordered by kind, then number.

@@ -1,4 +1,4 @@
-// Run folders (design.md §5): run.json, steps.csv, frames/, trajectory.vtkhdf.
+// Run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
 //   run.json            written last when a run begins, again when it ends: "status" says which
 //   scene/NAME.json     the scene, meshes beside it (compare/files/scene_files.hpp)

@@ -1,5 +1,5 @@
-// Stage activation: contact energy over distance, slope and curvature (Eq. 18–20; Eq. 19 corrected, method.md §1), and the variants of the ablation
-// (method.md §4).
+// Stage activation: contact energy over distance, slope and curvature (Eq. 18–20; Eq. 19 corrected, method.md §1.1), and the variants of the ablation
+// (method.md §4.2).
 #pragma once
 
 #include <vector>
@@ -30,8 +30,7 @@ struct ActivationTruth {
   std::vector<double> energy_scale, slope_scale, curvature_scale;
 };
 
-/// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ (1), k'_c (2), log (library: 2 ulp,
-/// design.md allows 1 between backends), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3). IPC's: the depth, twice (2), ln(r/d) from the
+/// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ (1), k'_c (2), log (library: 2 ulp), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3). IPC's: the depth, twice (2), ln(r/d) from the
 /// depth (three roundings of a quotient, two of a polynomial), its products (4), or with g'' instead of a second depth the sum with (d − r)/d (2 + 2) and its
 /// square (1).
 inline constexpr double activation_tolerance = 12;

@@ -1,4 +1,4 @@
-// Stage bending: force and block of one vertex of one hinge, damping included (method.md §4, scenes.md). Two models: the discrete hinge, and the isometric
+// Stage bending: force and block of one vertex of one hinge, damping included (method.md §4.7, §4.9). Two models: the discrete hinge, and the isometric
 // quadratic form (Bergou et al. 2006) of a flat rest shape, k_b/2 · 3/(A₀ + A₁) ‖Σ K_i x_i‖² with K the sums of cotangents.
 #pragma once
 

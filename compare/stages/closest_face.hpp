@@ -1,4 +1,4 @@
-// Stage closest_face: the face of a closed triangle whose interior holds the point closest to a given point (Alg. 1 lines 4 and 8; method.md §2).
+// Stage closest_face: the face of a closed triangle whose interior holds the point closest to a given point (Alg. 1 lines 4 and 8; method.md §2.2).
 #pragma once
 
 #include <cstdint>

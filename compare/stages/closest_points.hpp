@@ -1,5 +1,5 @@
 // Stage closest_points: the closest points of two closed edges, the faces whose interiors hold them, and the rule for nearly parallel edges
-// (Alg. 2 lines 6, 9, 10; method.md §1, row "Eq. 17, Alg. 2").
+// (Alg. 2 lines 6, 9, 10; method.md §1.2 to §1.4).
 #pragma once
 
 #include <cstdint>

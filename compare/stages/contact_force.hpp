@@ -1,4 +1,4 @@
-// Stage contact_force: normal force and block of one vertex of one contact (Eq. 1, 16, 18 with Eq. 19 corrected; method.md §3, §4).
+// Stage contact_force: normal force and block of one vertex of one contact (Eq. 1, 16, 18 with Eq. 19 corrected; method.md §3.5, §4.2).
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -21,7 +21,7 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 
 /// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the closest points of the closed faces, for nearly parallel edges those of closest_points. Force
 /// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are
-/// updated together, itself included: w² mostly (method.md §4, §7). A contact acts while 0 < d < r. Below 2⁻²³ r slope
+/// updated together, itself included: w² mostly (method.md §4.2, §7.4). A contact acts while 0 < d < r. Below 2⁻²³ r slope
 /// and curvature are those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and both are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for

@@ -1,4 +1,4 @@
-// Stage friction_force: lagged friction of one contact on one of its vertices, in the stabilised form of Vertex Block Descent (method.md §4).
+// Stage friction_force: lagged friction of one contact on one of its vertices, in the stabilised form of Vertex Block Descent (method.md §4.4).
 #pragma once
 
 #include "compare/stages/contact_force.hpp"

@@ -1,4 +1,4 @@
-// Stage initial_guess: y of one vertex, and x ← y truncated about X_prev: one round of the guess loop (Eq. 27, 28; method.md §5).
+// Stage initial_guess: y of one vertex, and x ← y truncated about X_prev: one round of the guess loop (Eq. 27, 28; method.md §5.2).
 #pragma once
 
 #include <cstdint>

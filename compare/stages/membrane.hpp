@@ -1,4 +1,4 @@
-// Stage membrane: force and block of one corner of one triangle, damping included (method.md §4, scenes.md). Two models: St. Venant–Kirchhoff, and stable
+// Stage membrane: force and block of one corner of one triangle, damping included (method.md §4.6, §4.9). Two models: St. Venant–Kirchhoff, and stable
 // Neo-Hookean (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C − d) − μ (J − 1) + λ'/2 (J − 1)²) on a membrane's F, which is 3×2: d = 2, J is the ratio of areas,
 // and λ' = λ + μ makes its stiffness at rest that of St. Venant–Kirchhoff with the same λ, μ.
 #pragma once

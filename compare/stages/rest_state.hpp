@@ -1,5 +1,5 @@
-// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths, materials of bodies that meet (scenes.md,
-// method.md §2, §4). Its Out is part of sweep's In: both sides then sweep with the very same single-precision numbers.
+// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths, materials of bodies that meet (method.md
+// §4.5 to §4.10). Its Out is part of sweep's In: both sides then sweep with the very same single-precision numbers.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Stage spring: force and block of one end of one spring, damping included (method.md §4).
+// Stage spring: force and block of one end of one spring, damping included (method.md §4.8, §4.9).
 #pragma once
 
 #include "compare/problem/settings.hpp"

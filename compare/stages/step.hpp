@@ -1,4 +1,4 @@
-// Stage step: Algorithm 3 with the guess loop of method.md §5. Every part of a step is a stage with a contract of its own; what is left is the order in which
+// Stage step: Algorithm 3 with the guess loop of method.md §5.2. Every part of a step is a stage with a contract of its own; what is left is the order in which
 // they follow one another, so the answer is a trace, and the judge asks about each event what its stage asks.
 #pragma once
 

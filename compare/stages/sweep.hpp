@@ -1,4 +1,4 @@
-// Stage sweep: one iteration of Algorithm 4, all energies inside, colour by colour, each new position truncated before it is written (method.md §5, §7).
+// Stage sweep: one iteration of Algorithm 4, all energies inside, colour by colour, each new position truncated before it is written (method.md §5.2, §7).
 //
 // Answers are judged vertex by vertex: the truth about a vertex is the update from what the answer itself holds at vertices of lower colour and from the
 // old positions elsewhere. Whoever gets each update right so gets the sweep right, by induction over the colours, and no error is carried on and hidden

@@ -180,7 +180,7 @@ void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   }
 }
 
-/// Lengths below 2⁻²⁰ m, which no scene may have (method.md §2), are 0; all others stay as published, so that places that differ go on to.
+/// Lengths below 2⁻²⁰ m, which no scene may have (method.md §2.4), are 0; all others stay as published, so that places that differ go on to.
 Vec3 without_dust(const Vec3& v) {
   const auto swept = [](double x) { return std::abs(x) < 0x1p-20 ? 0 : x; };
   return {swept(v.x), swept(v.y), swept(v.z)};

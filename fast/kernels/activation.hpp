@@ -1,4 +1,4 @@
-// The activations (method.md §4): two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c (r − τ), method.md §1, with τ = r/2: k'_c = k_c r²/4) and the
+// The activations (method.md §4.2): two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c (r − τ), method.md §1.1, with τ = r/2: k'_c = k_c r²/4) and the
 // variants of the ablation. The kind is a constant wherever the default is swept, so that the switch costs it nothing.
 #pragma once
 

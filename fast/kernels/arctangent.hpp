@@ -1,4 +1,4 @@
-// atan2 of our own, because library versions differ between host and device and an angle feeds positions (design.md §3).
+// atan2 of our own, because library versions differ between host and device and an angle feeds positions (method.md §7.5).
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"

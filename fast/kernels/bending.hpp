@@ -1,4 +1,4 @@
-// Discrete hinge: c/2 (θ − θ₀)², c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (scenes.md), damping c k_d/(2h) (θ − θᵗ)², seen from one vertex. The block is Gauss–Newton's.
+// Discrete hinge: c/2 (θ − θ₀)², c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7), damping c k_d/(2h) (θ − θᵗ)², seen from one vertex. The block is Gauss–Newton's.
 // With e = x1 − x0, a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
 //
 //          o0             θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b): the sine as a volume, because the cross product of two nearly equal normals cancels, and of

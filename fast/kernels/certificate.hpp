@@ -1,4 +1,4 @@
-// The motion certificate (method.md §5): on stored positions, in double.
+// The motion certificate (method.md §5.5): on stored positions, in double.
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"

@@ -1,5 +1,5 @@
 // Two edges: distance (in rounded double, with a derived slack), and the faces that hold the closest points (by exact signs), with the rule of method.md
-// §1 for nearly parallel edges. The least squares problem is convex, so a face pair is right iff its own first-order conditions hold: no solve decides.
+// §1.4 for nearly parallel edges. The least squares problem is convex, so a face pair is right iff its own first-order conditions hold: no solve decides.
 #pragma once
 
 #include "compare/stages/closest_points.hpp"

@@ -1,5 +1,5 @@
 // A contact between two sides, each the closed face of a record (fast/contact_view.hpp), at the positions that a vertex update reads: closest points
-// in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4, and §7 for w²).
+// in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4.2, and §7.4 for w²).
 //
 //   kind              slots       Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals
 //   point_point       0 | 2       reaction whatever the weights. Slots that a kind lacks repeat slot 0: their weight is 0 and they cost no branch.
@@ -84,7 +84,7 @@ struct SegmentParameters {
 OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
 
 /// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap of more than a point: the middle of the
-/// overlap on the first, its projection on the second (method.md §1), which needs the first to be the lower-numbered edge. Lengths of zero are legal.
+/// overlap on the first, its projection on the second (method.md §1.4), which needs the first to be the lower-numbered edge. Lengths of zero are legal.
 OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec& second, const Vec& between) {
   const float aa = dot(first, first), bb = dot(second, second), ab = dot(first, second);
   const Vec normal = cross(first, second);
@@ -180,7 +180,7 @@ OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, con
   return -activation.slope;
 }
 
-/// e_k of two edges with rest lengths ē, ē' (method.md §4): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³ ‖ē‖²‖ē'‖², else 1.
+/// e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³ ‖ē‖²‖ē'‖², else 1.
 OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first, float rest_squared_second) {
   const Vec normal = cross(first, second);
   const float sine = dot(normal, normal), limit = 1e-3f * rest_squared_first * rest_squared_second;

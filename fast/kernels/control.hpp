@@ -89,7 +89,7 @@ struct BeginStep {
   }
 };
 
-/// r_q = min(r + largest move, cap) (method.md §5).
+/// r_q = min(r + largest move, cap) (method.md §5.3).
 struct ChooseQueryRadius {
   StepControl* control;
   ControlSettings settings;

@@ -1,4 +1,4 @@
-// Friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex Block Descent (method.md §4). λ, n and the
+// Friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex Block Descent (method.md §4.4). λ, n and the
 // weights are those of the positions that the update reads and constant in the derivatives.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The start of a step and the rounds of the guess loop (Eq. 28; method.md §5).
+// The start of a step and the rounds of the guess loop (Eq. 28; method.md §5.2).
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// ln of a ratio of our own, because library versions differ between host and device and a slope feeds positions (design.md §3).
+// ln of a ratio of our own, because library versions differ between host and device and a slope feeds positions (method.md §7.5).
 #pragma once
 
 #include <cstdint>

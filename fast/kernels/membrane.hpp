@@ -1,4 +1,4 @@
-// St. Venant–Kirchhoff membrane, plane stress: ψ = A (λ/2 tr(G)² + μ ‖G‖²), G = (FᵀF − I)/2 (scenes.md), damping ψ_d = (k_d/h) ψ(G − Gᵗ) (method.md §4),
+// St. Venant–Kirchhoff membrane, plane stress: ψ = A (λ/2 tr(G)² + μ ‖G‖²), G = (FᵀF − I)/2, damping ψ_d = (k_d/h) ψ(G − Gᵗ) (method.md §4.6, §4.9),
 // seen from one corner. F = Σ x_k ∇N_kᵀ is 3×2; everything is written in differences to that corner, so that only relative coordinates are rounded.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one polynomial, used for classification and for
-// membership alike, so that no point falls between two faces (method.md §3). Degrees stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
+// membership alike, so that no point falls between two faces (method.md §3.1). Degrees stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
 #pragma once
 
 #include "fast/kernels/exact_sign.hpp"
@@ -48,7 +48,7 @@ struct Receding {
   }
 };
 
-/// Positive where ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1): nearly parallel. Never for an edge of zero length.
+/// Positive where ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4): nearly parallel. Never for an edge of zero length.
 struct NearlyParallel {
   static constexpr int degree = 4;
   Vec a, b, c, d;

@@ -1,7 +1,7 @@
 // One vertex update of Algorithm 4: all energies of a vertex gathered from streams that hold, incidence by incidence, everything but positions, then a
 // 3×3 solve, then truncation, then the write, and one reduction for all stencils.
 //
-// Two position buffers an iteration (method.md §7): a neighbour of lower colour is read from the fresh buffer, any other from the old one. Which of the
+// Two position buffers an iteration (method.md §7.2): a neighbour of lower colour is read from the fresh buffer, any other from the old one. Which of the
 // two is known when the streams are made, so it stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as
 // colour -1. Both buffers are halves of one array, so that the choice is arithmetic and no read of a pointer.
 #pragma once

@@ -200,7 +200,7 @@ std::vector<std::vector<int>> components(const compare::CompressedRows& graph, c
 
 // Balances each component by itself, so that equal ones keep equal colours, and turns the colours of the k-th by k:
 // vertices of identical cloths that face each other would otherwise be moved at once, each by the whole overlap of their
-// contact (method.md §7).
+// contact (method.md §7.3).
 void balance_and_turn(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                       std::vector<int>& colour) {
   int turn = 0;

@@ -1,5 +1,5 @@
 // Colours of the free vertices: no two vertices of one membrane or bending stencil, or of a spring, share one, so that within a colour only contacts are Jacobi
-// (method.md §7). Computed once on the host, deterministic. A colour costs a launch and a dependency chain whatever its size, so the number of
+// (method.md §7.3). Computed once on the host, deterministic. A colour costs a launch and a dependency chain whatever its size, so the number of
 // colours counts first: DSATUR-like greedy, then greedy again class by class (which never adds a colour and often removes some), then balance.
 #pragma once
 

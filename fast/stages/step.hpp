@@ -1,4 +1,4 @@
-// The step of Algorithm 3 with the guess loop of method.md §5, as one sequence of calls that is the same for every step: what happens is decided by flags on
+// The step of Algorithm 3 with the guess loop of method.md §5.2, as one sequence of calls that is the same for every step: what happens is decided by flags on
 // the device, so the sequence can be recorded once and nothing in it waits for the host.
 //
 //   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q

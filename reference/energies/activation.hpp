@@ -1,4 +1,4 @@
-// Stage activation: Eq. 18–20 with Eq. 19 corrected (method.md §1), and the variants of the ablation (method.md §4), from contact_activation.hpp.
+// Stage activation: Eq. 18–20 with Eq. 19 corrected (method.md §1.1), and the variants of the ablation (method.md §4.2), from contact_activation.hpp.
 #pragma once
 
 #include "compare/stages/activation.hpp"

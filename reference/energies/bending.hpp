@@ -1,4 +1,4 @@
-// Stage bending: the energy of one hinge (scenes.md; method.md §4).
+// Stage bending: the energy of one hinge (method.md §4.7, §4.9).
 #pragma once
 
 #include "compare/stages/bending.hpp"

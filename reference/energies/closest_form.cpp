@@ -53,7 +53,7 @@ ClosestForm negated(ClosestForm form) {
 
 double clamped(double s) { return std::clamp(s, 0.0, 1.0); }
 
-/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² with projections that overlap: the middle of the overlap on the first edge and its projection on the second (method.md §1).
+/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² with projections that overlap: the middle of the overlap on the first edge and its projection on the second (method.md §1.4).
 bool parallel_rule(const Corners& x, ClosestForm& form) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v);

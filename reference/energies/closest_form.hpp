@@ -16,7 +16,7 @@ enum class FormKind : std::uint8_t {
   point_line,    ///< 0; 1 2
   point_plane,   ///< 0; 1 2 3
   lines,         ///< 0 1; 2 3
-  fixed_weights  ///< nearly parallel edges: the points of method.md §1, which do not move with the vertices
+  fixed_weights  ///< nearly parallel edges: the points of method.md §1.4, which do not move with the vertices
 };
 
 /// The contact points: x_first = Σ of the positive weights, x_second = −Σ of the negative ones.

@@ -1,4 +1,4 @@
-// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation (method.md §4). Radius and stiffness are
+// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation (method.md §4.2). Radius and stiffness are
 // plain numbers where only the distance is differentiated, and of the distance's type where the condition of the answer is asked for, too.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Stage contact_force: the energy of one contact, by its closest points (Eq. 1, 16, 18–20; method.md §3, §4).
+// Stage contact_force: the energy of one contact, by its closest points (Eq. 1, 16, 18–20; method.md §3.5, §4.2).
 #pragma once
 
 #include "compare/stages/contact_force.hpp"

@@ -1,4 +1,4 @@
-// f₀ is the integral of f₁ (method.md §4), so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given with it, and finite where the
+// f₀ is the integral of f₁ (method.md §4.4), so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given with it, and finite where the
 // slip vanishes.
 #include "reference/energies/friction_force.hpp"
 

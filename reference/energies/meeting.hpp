@@ -1,7 +1,7 @@
 // How the two sides of a contact meet, as numbers that know their inputs: what contact_force and friction_force share. Which features hold the closest
 // points is decided exactly; where they lie on these features is a formula, so that the condition of an answer holds the sensitivity of the weights.
 //
-// Weights are constants of the outer differentiation (method.md §4): the distance is stationary in them where they are those of the closest points, so
+// Weights are constants of the outer differentiation (method.md §4.2): the distance is stationary in them where they are those of the closest points, so
 // that the force is the same.
 #pragma once
 

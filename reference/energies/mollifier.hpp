@@ -1,4 +1,4 @@
-// IPC's mollifier of nearly parallel edges (method.md §4), over any number type.
+// IPC's mollifier of nearly parallel edges (method.md §4.3), over any number type.
 #pragma once
 
 #include "reference/energies/derivative.hpp"

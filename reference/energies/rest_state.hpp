@@ -1,4 +1,4 @@
-// Stage rest_state: what is computed once of the rest shape (scenes.md; method.md §2, §4).
+// Stage rest_state: what is computed once of the rest shape (method.md §4.5 to §4.10).
 #pragma once
 
 #include "compare/stages/rest_state.hpp"

@@ -1,4 +1,4 @@
-// Stage spring: the energy of one spring (method.md §4).
+// Stage spring: the energy of one spring (method.md §4.8, §4.9).
 #pragma once
 
 #include "compare/stages/spring.hpp"

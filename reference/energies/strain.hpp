@@ -1,4 +1,4 @@
-// The energies of a triangle over any number type (scenes.md; compare/stages/membrane.hpp).
+// The energies of a triangle over any number type (method.md §4.6, §4.9).
 #pragma once
 
 #include "reference/energies/derivative.hpp"

@@ -1,4 +1,4 @@
-// Stage closest_face: the Voronoi regions of a closed triangle (Alg. 1 lines 4 and 8; method.md §2).
+// Stage closest_face: the Voronoi regions of a closed triangle (Alg. 1 lines 4 and 8; method.md §2.2).
 #pragma once
 
 #include <array>

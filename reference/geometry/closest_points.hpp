@@ -1,4 +1,4 @@
-// Stage closest_points: the optimality conditions of the closest points of two closed edges (Alg. 2; method.md §1, row "Eq. 17, Alg. 2").
+// Stage closest_points: the optimality conditions of the closest points of two closed edges (Alg. 2; method.md §1.2 to §1.4).
 #pragma once
 
 #include <array>

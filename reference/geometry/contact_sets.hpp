@@ -20,7 +20,7 @@ std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compa
 /// F_OGC by Algorithm 1 with its sphere query (line 3) of CGAL's tree, line by line, threaded.
 std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
 
-/// E_OGC by Eq. 17 (corrected: method.md §1): exact closest points as quotients, by comparing the distances of all pairs of features, then DefinedBlocks.
+/// E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the distances of all pairs of features, then DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
 /// E_OGC by Algorithm 2 (corrected likewise) over all pairs, with the constructive equations.

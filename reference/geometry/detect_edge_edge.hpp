@@ -1,4 +1,4 @@
-// Stage detect_edge_edge: Algorithm 2, Eq. 17, 24, as method.md §1 corrects them.
+// Stage detect_edge_edge: Algorithm 2, Eq. 17, 24, as method.md §1.2 to §1.5 correct them.
 #pragma once
 
 #include "compare/stages/detect_edge_edge.hpp"

@@ -141,7 +141,7 @@ std::vector<Closest> closest_of(const Segment& e, const Segment& f) {
   return best;
 }
 
-/// method.md §1: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖², projections that overlap in more than a point.
+/// method.md §1.4: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖², projections that overlap in more than a point.
 bool by_rule_parallel(const Segment& e, const Segment& f) {
   const ExactVector n = cross(e.d, f.d);
   const Exact ee = dot(e.d, e.d);

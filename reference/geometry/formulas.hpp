@@ -48,7 +48,7 @@ T turn(const Point<T>& p, const Point<T>& x, const Point<T>& q0, const Point<T>&
   return dot(cross(q0 - p, v), cross(x - p, v));
 }
 
-/// 10⁶ ‖e×e'‖² − ‖e‖² ‖e'‖²: < 0 where the edges are nearly parallel (method.md §1).
+/// 10⁶ ‖e×e'‖² − ‖e‖² ‖e'‖²: < 0 where the edges are nearly parallel (method.md §1.4).
 template <class T>
 T parallel(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> u = p1 - p0, v = q1 - q0;

@@ -60,7 +60,7 @@ int sign(const Margin& margin);
 /// Σ|∂m/∂δᵢ||δᵢ|, δᵢ the coordinates relative to the first point; the radius carries no derivative.
 double sensitivity(const Margin& margin);
 
-/// 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (design.md §2); the radius is given and carries no derivative. Where the sum is 0 no relative change of the δᵢ moves
+/// 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius is given and carries no derivative. Where the sum is 0 no relative change of the δᵢ moves
 /// the margin off its sign, so there is no other side: a vertex straight above a vertex of an axis-parallel grid is not grey.
 bool grey(const Margin& margin);
 

@@ -31,7 +31,7 @@ std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   return parent;
 }
 
-/// (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a colour (method.md §7).
+/// (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a colour (method.md §7.3).
 void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   const Index count = 1 + *std::ranges::max_element(colour);
   std::map<Index, Index> number;

@@ -1,4 +1,4 @@
-// What the reference's solvers share of a step (Algorithm 3, method.md §5): targets, detections with their balls, the guess loop, prescribed vertices, the row
+// What the reference's solvers share of a step (Algorithm 3, method.md §5.2): targets, detections with their balls, the guess loop, prescribed vertices, the row
 // at the end. How a solver moves the free vertices between two detections is its own.
 //
 //   begin ── guess: detect, x ← y inside the balls, again while many are cut ── the solver's iterations, with detect_here where detect_next_ says so ── finish
@@ -28,7 +28,7 @@ class StepSolver {
 
 /// What ends the guess loop, besides few cut vertices and `guess_rounds`.
 enum class GuessEnd {
-  rounds,  ///< nothing else: vertices in contact stay where they are, the others go on (method.md §5)
+  rounds,  ///< nothing else: vertices in contact stay where they are, the others go on (method.md §5.2)
   contact  ///< the first contact, if it is at xᵗ before the first round: none is passed by in part, so that nothing is distorted
 };
 

@@ -1,4 +1,4 @@
-// Stage initial_guess: the inertia's target (Eq. 28; method.md §4, §5).
+// Stage initial_guess: the inertia's target (Eq. 28; method.md §4.1, §5.2).
 #pragma once
 
 #include "compare/stages/initial_guess.hpp"

@@ -45,7 +45,7 @@ class Potential {
   void begin_step(const State& start, const State& target);
   /// Contacts found at `detected`, where e_k is evaluated. Those without a free vertex act on nothing and are left out.
   void set_contacts(const ContactSets& sets, const State& detected);
-  /// λ, n and w of the present contacts that act at x (method.md §4), until the next call.
+  /// λ, n and w of the present contacts that act at x (method.md §4.4), until the next call.
   void lag_friction(const State& x);
 
   PotentialTerms terms(const State& x) const;

@@ -15,7 +15,7 @@
 // would keep the residual up for good. Without a tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where
 // bounds keep one from its target it lags, as in the fast path.
 //
-// Backtracking goes along δ' (method.md §7). Where balls cut δ it goes along δ scaled to fit all of them, too, and that is taken where it lowers the energy ten
+// Backtracking goes along δ' (method.md §7.6). Where balls cut δ it goes along δ scaled to fit all of them, too, and that is taken where it lowers the energy ten
 // times as much: in a crumpled cloth δ' bends whatever stands between a vertex that was cut and one that was not, and a share of 2⁻⁸ that lowers the energy in
 // its seventh digit would pass for progress. Step 35 of activation_drop at the paper's size takes 104 iterations so,
 // 202 where scaled steps wait until δ' has none to offer, 76 where whichever lowers the energy more is taken; but that makes 50 iterations of Fig. 17 end at a
@@ -86,7 +86,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   bool factorized_definite();
   bool factorized();
   Direction direction_of();
-  /// The direction with Levenberg's damping of the vertices that balls cut (method.md §7); nothing where the damped matrix can't be factorised.
+  /// The direction with Levenberg's damping of the vertices that balls cut (method.md §7.6); nothing where the damped matrix can't be factorised.
   std::optional<Direction> damped(const Direction& undamped);
   /// The share of the best direction that was taken, or 0.
   double accepted_share(const Direction& direction);

@@ -1,4 +1,4 @@
-// Stage step: Algorithm 3 (method.md §5): what follows from an answer's own positions and counts, and a step of the reference's own.
+// Stage step: Algorithm 3 (method.md §5.2): what follows from an answer's own positions and counts, and a step of the reference's own.
 #pragma once
 
 #include "compare/stages/step.hpp"

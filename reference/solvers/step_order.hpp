@@ -1,4 +1,4 @@
-// The order of Algorithm 3 with the guess loop of method.md §5, apart from what its events do.
+// The order of Algorithm 3 with the guess loop of method.md §5.2, apart from what its events do.
 #pragma once
 
 #include <algorithm>

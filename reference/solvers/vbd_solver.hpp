@@ -1,5 +1,5 @@
 // The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other, vertices of a colour in parallel, read
-// as method.md §7 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's.
+// as method.md §7.2 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's.
 //
 // Residuals are measurements beside the run, and their time no part of the step's: those of the rows with the contacts of the last detection, that of the step
 // with contacts detected at its end.

@@ -143,7 +143,7 @@ void add_spring(const SpringTerm& term, std::size_t place, const std::array<Trip
 using Updated = std::array<bool, 4>;
 
 /// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so that they majorise what all of them do
-/// (method.md §7). Any number where the own one's weight is 0.
+/// (method.md §7.4). Any number where the own one's weight is 0.
 double majorant(const ClosestForm& form, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(form.weight[k]) : 0;

@@ -18,7 +18,7 @@ struct VertexSystem {
   std::array<double, 6> block{};  ///< [N/m]
 };
 
-/// Where vertices are read (method.md §7): those of lower colour than the one being solved at their new position, others at the old one. Colours are from 0 on;
+/// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position, others at the old one. Colours are from 0 on;
 /// −1: prescribed and fixed vertices, which move first.
 struct SweepView {
   const State& old;

@@ -35,7 +35,7 @@ struct SweepStencils {
   explicit SweepStencils(const compare::SweepIn& in);
 };
 
-/// Where each vertex is read while one of them is solved (method.md §7).
+/// Where each vertex is read while one of them is solved (method.md §7.2).
 class SweepPositions {
  public:
   SweepPositions(const compare::SweepIn& in, const compare::SweepOut& answer, compare::Index own) : in_(in), answer_(answer), own_(own) {}

@@ -1,4 +1,4 @@
-// detect_edge_edge: contacts by hand, Algorithm 2 against the definition of method.md §1, smallest distances, invariances, grey decisions.
+// detect_edge_edge: contacts by hand, Algorithm 2 against the definition of method.md §1.2 to §1.4, smallest distances, invariances, grey decisions.
 #include "reference/geometry/detect_edge_edge.hpp"
 
 #include <algorithm>

@@ -153,7 +153,7 @@ TEST_CASE("the colouring is the same each time", "[property]") {
 }
 
 TEST_CASE("facing vertices of identical cloths share no colour, and no more colours are needed than for one", "[property]") {
-  // Contacts are Jacobi inside a colour: partners that share one both remove the whole of their overlap (method.md §7).
+  // Contacts are Jacobi inside a colour: partners that share one both remove the whole of their overlap (method.md §7.3).
   compare::Scene one = test::empty_scene();
   test::add_sheet(one, 12, 1, 0, false);
   const int alone = colour_vertices(rest_of(one)).count;

@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+"""Every document that the repository cites is in it, with the section that is cited.
+
+    tests/citations.py SOURCE_DIR     one line for each citation that leads nowhere; exit status 1 where there is any
+    tests/citations.py --self-test    only whether planted citations are found
+
+Looked at are all text files that git tracks. A citation is a name that ends in .md, in the text of a document, in a
+comment or in a string, and what follows it: "X.md §4.2", "X.md §1, §3", "X.md, 5b." or 'X.md, "Title"'. A link of a
+Markdown file, [text](file#title), names any file, relative to the document. A name is looked for beside the file that
+cites it, then from the root, then, if one document alone has it, anywhere.
+
+A section is the number of a heading ("## 4. Energies", "### 4.2 Contact"), or of a row of a table that begins with it
+("| §5.1.3 | ..."), as the rows of deviations.md do. A title is a heading, or words in bold at the start of a paragraph;
+its beginning is enough.
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HISTORY = {"CHANGELOG.md"}  # says what was
+# Documents that programs write, by those who say so. An entry that nothing cites is a finding itself.
+WRITTEN = {"counts.md": "experiments/judge_counts", "table1_paper.md": "python3 -m paper_figures.table1"}
+SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply", ".pdf", ".npz"}
+
+COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may go on in the next line
+NAME = r"(?<![\w/.$-])((?:\.{1,2}/)*(?:[\w-]+/)*[\w-]+\.md)\b(?!\.)"
+NUMBER = r"\d+[a-z]?(?:\.\d+)*"
+SECTIONS = rf"(?:,? ?§ ?{NUMBER})(?:(?:,| and| to| or) §{NUMBER})*|, {NUMBER}\.(?= |$)"
+CITATION = re.compile(rf"{NAME}[`)]?((?:{SECTIONS})|,? \"[^\"]+\"|)")
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+HEADING = re.compile(rf"^#+ +(?:§?({NUMBER})\.? )?(.*)$", re.M)
+ROW = re.compile(rf"^\| *[^|\n]*?§({NUMBER})[^|\n]*\|", re.M)
+BOLD = re.compile(r"^(?:[-*] )?\*\*(.+?)\*\*", re.M | re.S)
+
+
+def plain(title):
+    """A title as it is compared: without markup and without what ends it."""
+    return re.sub(r"\s+", " ", re.sub(r"[`*]", "", title)).strip(" .:").lower()
+
+
+def anchor(title):
+    """The anchor that a title has where Markdown is shown."""
+    return re.sub(r" ", "-", re.sub(r"[^\w\- ]", "", title.strip().lower()))
+
+
+class House:
+    """The files of a repository, and the citations in them that lead nowhere."""
+
+    def __init__(self, files):
+        self.files = files
+        self.documents = {name for name in files if name.endswith(".md")}
+        self.used = set()
+        self.findings = [finding for name in sorted(files) if name not in HISTORY for finding in self.of_file(name)]
+
+    def of_file(self, name):
+        text = self.files[name]
+        found = []
+        if name.endswith(".md"):
+            found += self.of_links(name, text)
+            text = LINK.sub(lambda link: self.as_citation(name, link[1]), text)
+        flat, starts = self.flattened(text)
+        for match in CITATION.finditer(flat):
+            fault = self.fault(name, match[1], match[2])
+            if fault:
+                found.append(f"{name}:{self.line(starts, match.start())}: {fault}")
+        return found
+
+    def as_citation(self, name, target):
+        """A link to a document as its path, so that what follows it is read; nothing of other links."""
+        here = name.rpartition("/")[0]
+        path = normal(f"{here}/{target}" if here else target)
+        return path if path in self.documents else ""
+
+    @staticmethod
+    def flattened(text):
+        """The text in one line, and where in it each line begins."""
+        starts, flat, last = [0], [], 0
+        length = 0
+        for match in COMMENT.finditer(text):
+            part = text[last:match.start()] + " "
+            flat.append(part)
+            length += len(part)
+            starts += [length] * match[0].count("\n")
+            last = match.end()
+        return "".join(flat) + text[last:], starts
+
+    @staticmethod
+    def line(starts, place):
+        return sum(start <= place for start in starts)
+
+    def resolved(self, name, cited):
+        """The document that is meant, or nothing."""
+        here = name.rpartition("/")[0]
+        for base in (here, ""):
+            path = normal(f"{base}/{cited}" if base else cited)
+            if path in self.documents:
+                return path
+        same = [document for document in self.documents if document.endswith("/" + cited)]
+        return same[0] if len(same) == 1 else None
+
+    def fault(self, name, cited, where):
+        made = cited.rpartition("/")[2]
+        if made in WRITTEN:
+            self.used.add(made)
+            return ""
+        document = self.resolved(name, cited)
+        if document is None:
+            return f"there is no document {cited}"
+        title = re.search(r'"([^"]+)"', where)
+        if title:
+            known = any(known.startswith(plain(title[1])) for known in self.titles(document))
+            return "" if known else f'{document} has no section "{title[1]}"'
+        missing = [number for number in re.findall(NUMBER, where) if number not in self.numbers(document)]
+        return f"{document} has no section {', '.join(missing)}" if missing else ""
+
+    def of_links(self, name, text):
+        here = name.rpartition("/")[0]
+        found = []
+        for match in LINK.finditer(text):
+            target, _, part = match[1].partition("#")
+            if re.match(r"[a-z]+:", match[1]):
+                continue
+            path = normal(f"{here}/{target}" if here else target) if target else name
+            line = text.count("\n", 0, match.start()) + 1
+            if not any(file == path or file.startswith(path + "/") for file in self.files):
+                found.append(f"{name}:{line}: there is no file {match[1]}")
+            elif part and part not in {anchor(title) for title in self.headings(path)}:
+                found.append(f"{name}:{line}: {path} has no section #{part}")
+        return found
+
+    def headings(self, document):
+        return [match[0].lstrip("#").strip() for match in HEADING.finditer(self.files[document])]
+
+    def numbers(self, document):
+        text = self.files[document]
+        return {match[1] for match in HEADING.finditer(text) if match[1]} | {match[1] for match in ROW.finditer(text)}
+
+    def titles(self, document):
+        text = self.files[document]
+        titles = {plain(match[2]) for match in HEADING.finditer(text)} | {plain(t) for t in self.headings(document)}
+        bold = {plain(match[1]) for match in BOLD.finditer(text)}
+        return titles | bold
+
+
+def normal(path):
+    parts = []
+    for part in path.split("/"):
+        if part == ".." and parts:
+            parts.pop()
+        elif part not in ("", "."):
+            parts.append(part)
+    return "/".join(parts)
+
+
+def tracked(source):
+    """Texts of all files that git tracks; of others their names."""
+    names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
+    files = {}
+    for name in filter(None, names):
+        path = Path(source) / name
+        if not path.is_file():
+            continue
+        try:
+            files[name] = "" if path.suffix in SKIPPED else path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            files[name] = ""
+    own = "tests/" + Path(__file__).name
+    if own in files:
+        files[own] = ""  # what it plants
+    return files
+
+
+SOUND = {
+    "README.md": "See [the method](compare/method.md), [its energies](compare/method.md#4-energies), `method.md` §4.\n",
+    "compare/method.md": "# Method\n\n## 4. Energies\n\n### 4.2 Contact\n\n## 5b. Planes\n\n**In bold.** Words.\n",
+    "compare/deviations.md": "| where | why |\n|---|---|\n| §5.1.3 | the body |\n",
+    "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; compare/deviations.md, §5.1.3.\n",
+    "fast/a.py": '# method.md, 4. And method.md, "Contact": README.md is the start.\n',
+    "reference/README.md": "In `compare/method.md`, \"In bold\", and [a](../compare/method.md).\n",
+    "experiments/judge_counts": 'writes counts.md and "table1_paper.md"\n',
+}
+# File that changes, its text, where the finding is and what it says.
+PLANTED = (
+    ("fast/kernels/a.hpp", "// Of a contact\n// (method.md §9).\n", 2, "compare/method.md has no section 9"),
+    ("fast/kernels/a.hpp", "// The rule of method.md\n// §4.3.\n", 1, "compare/method.md has no section 4.3"),
+    ("fast/kernels/a.hpp", "// (method.md §4, §6)\n", 1, "compare/method.md has no section 6"),
+    ("fast/a.py", "# method.md, 7. And so on.\n", 1, "compare/method.md has no section 7"),
+    ("fast/a.py", '# method.md, "Forces".\n', 1, 'compare/method.md has no section "Forces"'),
+    ("fast/a.py", "x = 'see nothing.md'\n", 1, "there is no document nothing.md"),
+    ("fast/a.py", "# compare/deviations.md, §5.1.4\n", 1, "compare/deviations.md has no section 5.1.4"),
+    ("README.md", "a\n[b](compare/nothing.hpp)\n", 2, "there is no file compare/nothing.hpp"),
+    ("README.md", "[b](compare/method.md#5-energies)\n", 1, "compare/method.md has no section #5-energies"),
+    ("reference/README.md", "a\n\n`design.md` §2\n", 3, "there is no document design.md"),
+    ("reference/README.md", "[the method](../compare/method.md) §8\n", 1, "compare/method.md has no section 8"),
+)
+
+
+def self_test():
+    """Messages about planted citations that were not found, or found beside others."""
+    failures = [f"self-test: a sound tree is refused: {finding}" for finding in House(SOUND).findings]
+    for name, text, line, message in PLANTED:
+        found = House({**SOUND, name: text}).findings
+        if found != [f"{name}:{line}: {message}"]:
+            failures.append(f"self-test: expected {name}:{line}: {message}; got {found}")
+    with tempfile.TemporaryDirectory() as folder:
+        for command in (["init", "-q"], ["add", "."]):
+            (Path(folder) / "README.md").write_text("nothing" + ".md\n")
+            subprocess.run(["git", "-C", folder, *command], check=True, capture_output=True)
+        found = House(tracked(folder)).findings
+        if found != ["README.md:1: there is no document nothing" + ".md"]:
+            failures.append(f"self-test: in a repository: {found}")
+    return failures
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        print(__doc__, file=sys.stderr)
+        return 2
+    findings = self_test()
+    if arguments[0] != "--self-test":
+        files = tracked(arguments[0])
+        house = House(files)
+        findings += house.findings
+        if not house.documents:
+            findings.append(f"{arguments[0]}: no documents there")
+        findings += [f"tests/citations.py: nothing cites {name}: remove it" for name in sorted(set(WRITTEN) - house.used)]
+    for finding in findings:
+        print(finding)
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
