@@ -248,7 +248,7 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
                     "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of threads? The digests of two machines or builds "
                     "may be compared");
   auto* list = command->add_flag("--list", options->list, "Print all stages with what they are asked, their generators and parameters");
-  command->add_flag("--markdown", options->markdown, "With --list: as the table of README.md")->needs(list);
+  command->add_flag("--markdown", options->markdown, "With --list: as the table of compare/README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
       "Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of "

@@ -65,9 +65,9 @@ std::string stage_list_markdown() {
     const std::string name(stage_name(info.stage));
     // Both backends instantiate one list of probes (fast/stages/probes.hpp), so what the CPU has CUDA has.
     const bool is_there = compare::can_judge(info.stage, fast, authority);
-    text += "| " + link(name, "compare/stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " + std::string(info.unit) + " | " +
-            link("exact", std::string(info.reference)) + (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(info.stage) + " | " +
-            link("CPU", "tests/experiments/compare.cpp") + ", " + link("CUDA", "tests/fast/cuda/agreement.cu") + " | " +
+    text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " + std::string(info.unit) + " | " +
+            link("exact", "../" + std::string(info.reference)) + (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(info.stage) + " | " +
+            link("CPU", "../tests/experiments/compare.cpp") + ", " + link("CUDA", "../tests/fast/cuda/agreement.cu") + " | " +
             std::string(determinism_name(info.determinism)) + " |\n";
   }
   return text;

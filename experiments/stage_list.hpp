@@ -10,7 +10,7 @@
 
 namespace ogc::experiments {
 
-/// The table of README.md: a row for each stage with its contract, its question, who answers it, its generators, agreement tests and determinism.
+/// The table of compare/README.md: a row for each stage with its contract, its question, who answers it, its generators, agreement tests and determinism.
 std::string stage_list_markdown();
 
 /// The same for a terminal, with each stage's generators and parameters by name.

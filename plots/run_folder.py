@@ -1,4 +1,4 @@
-"""Reads run folders (design of the data: README.md, "Read a run"). Says in words what is missing, instead of drawing nonsense."""
+"""Reads run folders (design of the data: experiments/README.md, "Read a run"). Says in words what is missing, instead of drawing nonsense."""
 
 import csv
 import json

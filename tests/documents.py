@@ -24,7 +24,7 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 del sys.argv[1:3]
 try:
-    import h5py  # noqa: F401  (README's lines of Python want it)
+    import h5py  # noqa: F401  (lines of Python in documents want it)
     import matplotlib  # noqa: F401
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
@@ -262,7 +262,7 @@ class AsPrinted(Scratch):
 
     def test_commands_of_shell_blocks_and_lines_of_python(self):
         texts = documents()
-        self.assertIn("`ogc scenes cloth_on_sphere --write my_scene`", texts["README.md"])
+        self.assertIn("`ogc scenes cloth_on_sphere --write my_scene`", texts["experiments/README.md"])
         for words in (["run", "cloth_on_sphere", "--scale", "smoke", "--out", "runs/my_run"],
                       ["scenes", "cloth_on_sphere", "--write", "my_scene"],
                       ["export", "runs/my_run", "--format", "ply", "--out", "their_run"]):

@@ -1,4 +1,4 @@
-// The registry of stages: what each is asked, what a case of it is, where its answers come from and how repeatable they are. The table in README.md is printed
+// The registry of stages: what each is asked, what a case of it is, where its answers come from and how repeatable they are. The table in compare/README.md is printed
 // from it (`ogc compare --list --markdown`), and a test fails where a stage lacks its contract, reference, CPU, CUDA or agreement test.
 #pragma once
 

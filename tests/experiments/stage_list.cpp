@@ -1,4 +1,4 @@
-// The registry of stages against the tree and README.md, and the determinism that it states.
+// The registry of stages against the tree and compare/README.md, and the determinism that it states.
 #include "experiments/stage_list.hpp"
 
 #include <filesystem>
@@ -56,8 +56,8 @@ TEST_CASE("agreement tests of CPU and CUDA go over all stages", "[unit]") {
   }
 }
 
-TEST_CASE("the table of stages in README.md is the one that ogc compare --list --markdown prints", "[unit]") {
-  const std::string readme = read("README.md"), begin = "<!-- ogc compare --list --markdown -->\n", end = "<!-- end of the list -->";
+TEST_CASE("the table of stages in compare/README.md is the one that ogc compare --list --markdown prints", "[unit]") {
+  const std::string readme = read("compare/README.md"), begin = "<!-- ogc compare --list --markdown -->\n", end = "<!-- end of the list -->";
   const auto from = readme.find(begin);
   REQUIRE(from != std::string::npos);
   const std::string table = readme.substr(from + begin.size(), readme.find(end) - from - begin.size());
