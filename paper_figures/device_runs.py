@@ -229,7 +229,7 @@ def pack(out, book, folder, before=None):
     out.mkdir(parents=True, exist_ok=True)
     whole = out / f"packed_{os.getpid()}.tar.gz"
     with tarfile.open(whole, "w:gz", compresslevel=6) as archive:
-        found = [(name, list(files_of(out, part))) for name, part in book.items()]
+        found, inside = [(name, list(files_of(out, part))) for name, part in book.items()], set()
         sizes = {name: sum(path.lstat().st_size for path in files) for name, files in found}
         for name, files in sorted(found, key=lambda item: sizes[item[0]]):  # a piece that is lost on its way takes few runs along
             runs = [path.parent.as_posix() for path in files if path.name == "run.json"]
@@ -240,7 +240,10 @@ def pack(out, book, folder, before=None):
                 lines.append(f"{name}: {size / 2**20:.1f} MiB {LEFT_OUT}; take these pieces away, then --pack another folder")
                 continue
             for path in dict.fromkeys(files):
-                archive.add(path, path.relative_to(out).as_posix())
+                name_inside = path.relative_to(out).as_posix()
+                if name_inside not in inside:  # the device's memory lies beside all rows of a table
+                    archive.add(path, name_inside)
+                    inside.add(name_inside)
             packed[name] = runs
             lines.append(f"{name}: {len(runs)} runs, {size / 2**20:.1f} MiB")
     data = whole.read_bytes()
