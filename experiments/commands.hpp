@@ -22,6 +22,7 @@ void add_contacts_command(CLI::App& app, CommandContext& context);
 void add_suggest_command(CLI::App& app, CommandContext& context);
 void add_audit_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
+void add_minimise_command(CLI::App& app, CommandContext& context);
 void add_bench_command(CLI::App& app, CommandContext& context);
 void add_export_command(CLI::App& app, CommandContext& context);
 void add_illustrate_command(CLI::App& app, CommandContext& context);

@@ -43,19 +43,25 @@ double largest_eigenvalue(Eigen::Index size, Apply apply) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// An operation on rows as one on Eigen's vectors.
+template <class Operation>
+auto through(Operation operation) {
+  return [operation](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    const std::vector<double> y = operation(std::vector<double>(x.data(), x.data() + x.size()));
+    return Eigen::Map<const Eigen::VectorXd>(y.data(), x.size());
+  };
+}
+
 }  // namespace
 
+double smallest_eigenvalue(const BlockMatrix& matrix, Factor& factor) {
+  const auto solve = through([&](const std::vector<double>& x) { return factor.solve(x); });
+  return 1 / largest_eigenvalue(static_cast<Eigen::Index>(matrix.rows()), solve);
+}
+
 double condition_number(const BlockMatrix& matrix, Factor& factor) {
-  const auto size = static_cast<Eigen::Index>(matrix.rows());
-  const auto through = [](auto operation) {
-    return [operation](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-      const std::vector<double> y = operation(std::vector<double>(x.data(), x.data() + x.size()));
-      return Eigen::Map<const Eigen::VectorXd>(y.data(), x.size());
-    };
-  };
-  const double largest = largest_eigenvalue(size, through([&](const std::vector<double>& x) { return matrix.times(x); }));
-  const double smallest = 1 / largest_eigenvalue(size, through([&](const std::vector<double>& x) { return factor.solve(x); }));
-  return largest / smallest;
+  const auto multiply = through([&](const std::vector<double>& x) { return matrix.times(x); });
+  return largest_eigenvalue(static_cast<Eigen::Index>(matrix.rows()), multiply) / smallest_eigenvalue(matrix, factor);
 }
 
 }  // namespace ogc::reference

@@ -13,7 +13,6 @@ namespace {
 using compare::HessianProjection;
 using compare::Vec3f;
 
-constexpr int most_halvings = 20;
 /// So many times as much a scaled step must lower the energy to be preferred: see the head of newton_solver.hpp.
 constexpr double far_more = 10;
 /// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
@@ -24,20 +23,6 @@ constexpr double most_damping = 1e6;
 constexpr double least_share = 1e-3;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
-State moved(const State& x, double share, const State& delta) {
-  State to = x;
-  for (std::size_t v = 0; v < x.size(); ++v) to[v] = x[v] + share * delta[v];
-  return to;
-}
-
-/// Rounding of the terms' own values.
-double value_noise(const PotentialTerms& terms) {
-  double sum = 0;
-  for (const double e : terms.stencil) sum += std::abs(e);
-  for (const double e : terms.inertia) sum += e;
-  return 0x1p-52 * sum;
-}
 
 }  // namespace
 
@@ -199,7 +184,7 @@ double NewtonSolver::accepted_share(const Direction& direction) {
   Accepted best = timed(line_search, [&] { return searched(direction, before, noise); });
   if (direction.cut > 0 && direction.cut < matrix_.free_vertices().size() && !best.scaled) {
     if (const auto other = damped(direction)) {
-      Accepted held = timed(line_search, [&] { return backtracked(other->truncated, 1, before, noise); });
+      Accepted held = timed(line_search, [&] { return backtracked(potential_, x_, other->truncated, 1, before, noise); });
       if (held.share > 0 && (best.share == 0 || held.change < best.change)) best = std::move(held);
     }
   }
@@ -210,26 +195,15 @@ double NewtonSolver::accepted_share(const Direction& direction) {
 }
 
 /// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter.
-NewtonSolver::Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
-  Accepted best = backtracked(direction.truncated, 1, before, noise);
+Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
+  Accepted best = backtracked(potential_, x_, direction.truncated, 1, before, noise);
   if (direction.cut > 0) {
     double room = 1;
     for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
-    Accepted scaled = backtracked(direction.delta, room, before, noise);
+    Accepted scaled = backtracked(potential_, x_, direction.delta, room, before, noise);
     if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled), best.scaled = true;
   }
   return best;
-}
-
-/// A full step may also change the energy by less than its rounding: close to the minimum no decrease can be seen any more.
-NewtonSolver::Accepted NewtonSolver::backtracked(const State& delta, double share, const PotentialTerms& before, double noise) const {
-  const double full = share;
-  for (int halving = 0; halving <= most_halvings && share > 0; ++halving, share *= 0.5) {
-    State trial = moved(x_, share, delta);
-    const double change = Potential::change(before, potential_.terms(trial));
-    if (change < 0 || (share == full && change <= noise)) return {std::move(trial), share, change};
-  }
-  return {};
 }
 
 }  // namespace ogc::reference

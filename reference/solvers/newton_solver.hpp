@@ -41,6 +41,7 @@
 
 #include "reference/solvers/contact_step.hpp"
 #include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton_line_search.hpp"
 
 namespace ogc::reference {
 
@@ -65,14 +66,6 @@ class NewtonSolver : public StepSolver, private ContactStep {
     std::size_t cut = 0;
   };
 
-  /// What a line search found; nothing where `share` is 0.
-  struct Accepted {
-    State x;
-    double share = 0;
-    double change = 0;         ///< of the energy [J]
-    bool scaled = false;       ///< along δ scaled to fit all balls
-  };
-
   static std::uint32_t status_of(Outcome outcome);
   Outcome solve();
   Outcome solve_once();
@@ -91,7 +84,6 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// The share of the best direction that was taken, or 0.
   double accepted_share(const Direction& direction);
   Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
-  Accepted backtracked(const State& delta, double share, const PotentialTerms& before, double noise) const;
 
   BlockMatrix matrix_;
   Factor factor_;
