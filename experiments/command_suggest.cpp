@@ -93,13 +93,11 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
       ->check(real_number(compare::least_length, compare::most_length, "m"));
   command->add_flag("--json", context.json, "Print settings, reasons and the command as JSON on standard output");
   command->footer(
-      "The contact radius follows from edges and gaps (nothing is in contact at the start where that can be), the "
-      "stiffness\n"
-      "from the weight of ten layers and from the fall, the query radius and the step from how far a vertex may move "
-      "between\n"
-      "two detections, the iterations from how far a stretch wave comes in a step. The mesh is taken as cloth of 0.2 "
-      "kg/m²;\n"
-      "what is printed last runs it so. Lengths are in metres.\n\n"
+      "The contact radius follows from edges and gaps (nothing is in contact at the start where that can be), the\n"
+      "stiffness from the weight of ten layers, or of as many as there are, and from the fall, the query radius and the\n"
+      "step from how far a vertex may move between two detections, the iterations from how far a stretch wave comes in a\n"
+      "step and from how many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m²; what is printed last\n"
+      "runs it so. Lengths are in metres.\n\n"
       "Examples:\n"
       "  ogc suggest shirt.obj\n"
       "  ogc suggest shirt.obj --fall 0.5 --json");

@@ -26,6 +26,12 @@ constexpr double weights_held =
 constexpr double detections_a_step = 4;     ///< that a step at the speed of the fall may take
 constexpr double longest_step = 1.0 / 100;  ///< [s] of the paper's scenes
 constexpr double fewest_iterations = 10, most_iterations = 100;
+/// Sweeps that a step of a stack at rest takes for each of its layers and each r that they fall in the step, g h²: a
+/// step begins with all of them fallen, and sweeps carry the ground's support up layer by layer. Stacks of 10 to 50
+/// aligned sheets keep their gaps with 16 where g h² is from r/64 to r/4, and are squeezed until they tremble with 12.
+/// Where a layer falls by r and more contacts hold it back at the step's start, and 8 a layer are enough
+/// (tests/experiments/stacks.cpp).
+constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
 struct Measures {
   double edge = 0;  ///< length that stands for all edges [m]
@@ -33,6 +39,7 @@ struct Measures {
   double gap = 0;    ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
   double mass = 0;   ///< mean of a vertex [kg]
   double speed = 0;  ///< at the end of the fall [m/s]
+  double layers = 1;  ///< that lie on one another, on average over what is below them
 };
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -40,6 +47,25 @@ double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y
 double area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
   return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
+}
+
+/// Seen from above: the area of all triangles by that of the rectangle around them; at least 1.
+double layers_of(const compare::Mesh& mesh) {
+  const auto flat = [&](compare::Index v) {
+    const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
+    return Vec3{p.x, 0, p.z};
+  };
+  Vec3 low = flat(0), high = low;
+  double seen = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    seen += area(flat(a), flat(b), flat(c));
+    for (const compare::Index v : {a, b, c}) {
+      low = {std::min(low.x, flat(v).x), 0, std::min(low.z, flat(v).z)};
+      high = {std::max(high.x, flat(v).x), 0, std::max(high.z, flat(v).z)};
+    }
+  }
+  const double around = (high.x - low.x) * (high.z - low.z);
+  return seen > around && around > 0 ? seen / around : 1;
 }
 
 Measures measure(const compare::Mesh& mesh, const compare::Material& material, double fall) {
@@ -58,7 +84,8 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
           middle <= shortest ? "the median edge" : "twice what a tenth of the edges is below",
           std::min(gaps.vertex_triangle, gaps.edge_edge),
           material.density * whole / static_cast<double>(mesh.positions.size()),
-          std::sqrt(2 * gravity * std::max(0.0, fall))};
+          std::sqrt(2 * gravity * std::max(0.0, fall)),
+          layers_of(mesh)};
 }
 
 /// `value` with two digits, not above it.
@@ -115,17 +142,30 @@ SuggestedNumber query_radius_of(const Measures& mesh, double radius) {
 }
 
 SuggestedNumber stiffness_of(const Measures& mesh, double radius) {
-  const double held = weights_held * mesh.mass * gravity / (radius / 2);
+  const double weights = std::max(weights_held, std::ceil(mesh.layers));
+  const double held = weights * mesh.mass * gravity / (radius / 2);
   const double stopped = mesh.mass * mesh.speed * mesh.speed / (radius * radius / 4);
   const std::string vertex = "a vertex of " + number(mesh.mass) + " kg ";
   if (held >= stopped)
-    return {round_number_above(held), vertex + "with ten others on it is held at half of r: k_c r/2 ≥ 10 m g"};
+    return {round_number_above(held), vertex + "with " + number(weights) +
+                                          " others on it is held at half of r: k_c r/2 ≥ " + number(weights) + " m g"};
   return {round_number_above(stopped), vertex + "at " + number(mesh.speed) +
                                            " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
 }
 
-SuggestedNumber time_step_of(const Measures& mesh, double query_radius) {
+/// Sweeps that the layers ask for.
+double layer_sweeps(const Measures& mesh, double radius, double step) {
+  const double fallen = gravity * step * step / radius;
+  return mesh.layers * std::min(sweeps_a_layer_and_radius * fallen, most_sweeps_a_layer);
+}
+
+SuggestedNumber time_step_of(const Measures& mesh, double radius, double query_radius) {
   const double way = detections_a_step * compare::Settings{}.bound_relaxation * query_radius;
+  const double settled = std::sqrt(most_iterations * radius / (sweeps_a_layer_and_radius * gravity * mesh.layers));
+  if (layer_sweeps(mesh, radius, longest_step) > most_iterations && mesh.speed * settled <= way)
+    return {1 / round_number_above(1 / settled),
+            number(mesh.layers) + " layers lie on one another: sweeps carry the ground's support up layer by layer, " +
+                "and " + number(most_iterations) + " must do for what all of them fall in a step, g h²"};
   if (mesh.speed * longest_step <= way)
     return {longest_step, "the paper's; at " + number(mesh.speed) + " m/s a step is shorter than 4 γ_p r_q"};
   return {1 / round_number_above(mesh.speed / way),
@@ -133,16 +173,21 @@ SuggestedNumber time_step_of(const Measures& mesh, double query_radius) {
               " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
 }
 
-SuggestedNumber iterations_of(const Measures& mesh, const compare::Material& material, double stiffness, double step) {
+SuggestedNumber iterations_of(const Measures& mesh, const compare::Material& material, const Suggestion& found) {
+  const double stiffness = found.contact_stiffness.value, step = found.time_step.value;
   const double rings = step * std::sqrt((2 * material.lame_mu + material.lame_lambda) / material.density) / mesh.edge;
   const double contacts = step * std::sqrt(stiffness / mesh.mass);
-  const double wanted = 10 * std::ceil(2 * std::max(rings, contacts) / 10);
+  const double layers = layer_sweeps(mesh, found.contact_radius.value, step);
+  const double wanted = 10 * std::ceil(std::max({2 * rings, 2 * contacts, layers}) / 10);
   const std::string why = contacts > rings
                               ? "h √(k_c/m) = " + number(contacts) + ": a contact is so much stiffer than inertia"
                               : number(rings) + " rings of triangles, the way of a stretch wave in a step";
   const char* limits = wanted < fewest_iterations ? "; at least 10"
                        : wanted > most_iterations ? "; at most 100, as a shorter step helps more"
                                                   : "";
+  if (layers > 2 * std::max(rings, contacts) && layers > fewest_iterations)
+    return {std::min(wanted, most_iterations),
+            number(mesh.layers) + " layers lie on one another, and sweeps carry the ground's support up one by one"};
   return {std::clamp(wanted, fewest_iterations, most_iterations),
           "twice " + why + ", and a sweep carries a change by a ring or more" + limits};
 }
@@ -158,8 +203,9 @@ Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material,
   result.contact_radius = within_setting("contact_radius", radius_of(measures));
   result.query_radius = query_radius_of(measures, result.contact_radius.value);
   result.contact_stiffness = within_stiffnesses(stiffness_of(measures, result.contact_radius.value));
-  result.time_step = within_setting("time_step", time_step_of(measures, result.query_radius.value));
-  result.iterations = iterations_of(measures, material, result.contact_stiffness.value, result.time_step.value);
+  const double radius = result.contact_radius.value;
+  result.time_step = within_setting("time_step", time_step_of(measures, radius, result.query_radius.value));
+  result.iterations = iterations_of(measures, material, result);
   return result;
 }
 

@@ -58,7 +58,7 @@ def draw(rows, scale, out):
     names = [f"{row['scene']}\nstep {row['step [1]']}, {row['free_vertices [1]']} free vertices" for row in rows]
     axes.set(yscale="log", xlim=(-0.5, len(rows) - 0.5), xticks=places, xticklabels=names, ylabel="distance [m]")
     axes.tick_params(axis="x", labelsize=7)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
     commits = ", ".join(sorted({row["commit"] for row in rows}))
     figure.suptitle(f"VBD in single precision ({rows[0]['backend']}, {rows[0]['device']}) at its floor against Newton's "
                     f"minimiser\n{scale}, commit {commits}", fontsize=8)
