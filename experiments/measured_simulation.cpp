@@ -113,6 +113,7 @@ class MeasuredSimulation : public compare::Simulation {
     row.residual = measured.share;
     row.energy = measured.energy;
     row.largest_change = row.condition_number = not_asked;
+    row.condition_without_friction = row.condition_without_contact = not_asked;
     row.share = 1;
     step.iteration_rows.push_back(row);
   }

@@ -154,7 +154,7 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
   command.add_flag("--residual", options->residual, "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
   command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration, measured beside the run");
-  command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix (slow)");
+  command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix, also without friction and without contact (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
   command.add_option("--show", options->show, "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
   command.add_option("--checkpoint", options->checkpoint_seconds, "Seconds between two checkpoints, at least; 0: at each state that is judged")

@@ -50,6 +50,9 @@ struct IterationMetrics {
   std::int64_t vertices_at_bound = 0;         ///< cut in this iteration
   std::int64_t detected = 0;                  ///< 1 where contacts were detected anew for this state
   double condition_number = 0;                ///< of the matrix; not-a-number where it was not asked for
+  /// Of the matrix without friction, and without contact and friction: with stencils projected where the rest is not
+  /// positive definite.
+  double condition_without_friction = 0, condition_without_contact = 0;
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;  ///< of this iteration, counted as in StepMetrics
 };
 

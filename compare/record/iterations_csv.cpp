@@ -14,7 +14,7 @@ struct IterationColumn {
   std::variant<double IterationMetrics::*, std::int64_t IterationMetrics::*> field;
 };
 
-constexpr std::array<IterationColumn, 13> columns{{
+constexpr std::array<IterationColumn, 15> columns{{
     {"step [1]", &IterationMetrics::step},
     {"iteration [1]", &IterationMetrics::iteration},
     {"wall [ms]", &IterationMetrics::wall_ms},
@@ -28,6 +28,8 @@ constexpr std::array<IterationColumn, 13> columns{{
     {"continuous_detections [1]", &IterationMetrics::continuous_detections},
     {"detected [1]", &IterationMetrics::detected},
     {"condition_number [1]", &IterationMetrics::condition_number},
+    {"condition_without_friction [1]", &IterationMetrics::condition_without_friction},
+    {"condition_without_contact [1]", &IterationMetrics::condition_without_contact},
 }};
 
 std::string text_of(double value) { return value != value ? "nan" : shortest(value); }

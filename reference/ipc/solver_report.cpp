@@ -24,6 +24,7 @@ void IpcSolver::add_row() {
   row.energy = Potential::total(energy.elastic) + energy.barrier + energy.rest;
   row.detected = 1;
   row.condition_number = std::numeric_limits<double>::quiet_NaN();
+  row.condition_without_friction = row.condition_without_contact = row.condition_number;
   row.broad_phases = metrics_.broad_phases;
   row.discrete_detections = metrics_.discrete_detections;
   row.continuous_detections = metrics_.continuous_detections;

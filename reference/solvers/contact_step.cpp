@@ -133,7 +133,7 @@ compare::IterationMetrics ContactStep::new_row(bool detects) const {
   row.residual = residual_;
   row.energy = Potential::total(potential_.terms(x_));
   row.detected = detects ? 1 : 0;
-  row.condition_number = not_asked;
+  row.condition_number = row.condition_without_friction = row.condition_without_contact = not_asked;
   return row;
 }
 

@@ -64,4 +64,18 @@ double condition_number(const BlockMatrix& matrix, Factor& factor) {
   return largest_eigenvalue(static_cast<Eigen::Index>(matrix.rows()), multiply) / smallest_eigenvalue(matrix, factor);
 }
 
+double condition_of_first(const Potential& potential, std::size_t stencils, const PotentialDerivatives& derivatives,
+                          const PotentialDerivatives& projected) {
+  const std::vector<StencilVertices> vertices = potential.vertices();
+  BlockMatrix matrix(potential.mobility());
+  matrix.set_stencils(std::span(vertices).first(stencils));
+  Factor factor;
+  factor.analyze(matrix);
+  for (const PotentialDerivatives* tried : {&derivatives, &projected}) {
+    matrix.assemble(potential.inertias(), std::span(tried->stencil).first(stencils));
+    if (factor.factorize(matrix)) return condition_number(matrix, factor);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace ogc::reference

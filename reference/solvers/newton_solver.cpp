@@ -111,7 +111,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   if (!factorized_definite()) return Outcome::indefinite;
   const Direction direction = direction_of();
   if (!std::isfinite(direction.largest)) return Outcome::not_finite;
-  if (options_.iterations && options_.condition) rows_.back().condition_number = condition_number(matrix_, factor_);
+  if (options_.iterations && options_.condition) measure_condition(rows_.back());
   const double share = accepted_share(direction);
   ++metrics_.iterations;
   ++iterations_since_;
@@ -126,6 +126,14 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step) return Outcome::converged;
   return {};
+}
+
+void NewtonSolver::measure_condition(compare::IterationMetrics& row) {
+  row.condition_number = condition_number(matrix_, factor_);
+  const PotentialDerivatives projected = potential_.derivatives(x_, settings_.projection);
+  const std::size_t elastic = potential_.elastic_count(), normal = elastic + potential_.contacts().size();
+  row.condition_without_friction = condition_of_first(potential_, normal, derivatives_, projected);
+  row.condition_without_contact = condition_of_first(potential_, elastic, derivatives_, projected);
 }
 
 void NewtonSolver::derive(HessianProjection projection) {

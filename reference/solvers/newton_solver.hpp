@@ -80,6 +80,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// With stencils projected where the matrix of these derivatives is not positive definite.
   bool factorized_definite();
   bool factorized();
+  /// Of the matrix at hand, which is factorised, and of what is left of it without friction and without contact.
+  void measure_condition(compare::IterationMetrics& row);
   Direction direction_of();
   /// The direction with Levenberg's damping of the vertices that balls cut (method.md §7.6); nothing where the damped matrix can't be factorised.
   std::optional<Direction> damped(const Direction& undamped);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "reference/energies/activation_drawing.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;
@@ -112,4 +113,33 @@ TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
   CHECK(truth.slope_scale[1] == 12);
   CHECK(truth.energy[2] == 0);
   CHECK(truth.energy_scale[2] == 0);
+}
+
+TEST_CASE("activation: IPC's curvature over OGC's at equal force", "[unit]") {
+  // κ = 1: largest, 3.35, where OGC's stages meet, f = k_c r/2; 0.52 at 0.02. For small forces κ √(12 f/κ), the depth
+  // being √(f/(3κ)); for large ones OGC's curvature is 4 f²/(k_c r²), IPC's f²/(κ k_c r²) but for a logarithm.
+  using reference::curvature_ratio;
+  CHECK(curvature_ratio(0.5, 1) == Approx(3.35).margin(0.005));
+  CHECK(curvature_ratio(0.02, 1) == Approx(0.52).margin(0.005));
+  for (const double kappa : reference::stiffness_ratios) {
+    CHECK(curvature_ratio(1e-8, kappa) == Approx(std::sqrt(12e-8 * kappa)).epsilon(1e-3));
+    CHECK(curvature_ratio(1e9, kappa) == Approx(0.25 / kappa).epsilon(1e-5));
+    for (double f = 1e-3; f < 1e2; f *= 1.3) CHECK(curvature_ratio(f, kappa) <= curvature_ratio(0.5, kappa));
+  }
+}
+
+TEST_CASE("activation: the curves of the drawing are those of the energies", "[unit]") {
+  const std::vector<reference::DrawingPanel> panels = reference::activation_drawing();
+  REQUIRE(panels.size() == 2);
+  REQUIRE(panels[1].layers.size() == reference::stiffness_ratios.size());
+  for (std::size_t i = 0; i < reference::stiffness_ratios.size(); ++i)
+    for (const auto& point : panels[1].layers[i].points)
+      CHECK(point[1] == reference::curvature_ratio(point[0], reference::stiffness_ratios[i]));
+  // Up to half of k_c r OGC's curvature is k_c = 1, so that the ratio is IPC's own curvature, which the first panel has.
+  const reference::DrawingLayer& ipc = panels[0].layers[3];
+  REQUIRE(ipc.name == "ipc_log");
+  for (std::size_t i = 280; i < 399; ++i) {  // 0.7 r and beyond: forces up to 0.34
+    REQUIRE(ipc.points[i][1] < 0.5);
+    CHECK(reference::curvature_ratio(ipc.points[i][1], 1) == Approx(ipc.values[i]).epsilon(1e-9));
+  }
 }

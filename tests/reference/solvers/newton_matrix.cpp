@@ -94,6 +94,36 @@ TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition
   CHECK(condition_number(matrix, factor) == Approx(values.maxCoeff() / values.minCoeff()).epsilon(1e-5));
 }
 
+TEST_CASE("condition numbers without friction and without contact are those of the potentials that lack them", "[property]") {
+  const Pressed pressed;
+  Potential potential(pressed.scene, pressed.topology);
+  potential.begin_step(pressed.x, pressed.x);
+  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups, compare::to_single(pressed.scene.mesh.positions), 6e-3f);
+  const BlockMatrix rows(potential.mobility());
+  const auto condition = [&](HessianProjection projection) {
+    const Eigen::MatrixXd dense = dense_sum(potential, potential.derivatives(pressed.x, projection), rows);
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
+    return values.minCoeff() > 0 ? values.maxCoeff() / values.minCoeff() : 0;
+  };
+  const auto wanted = [&] {
+    const double plain = condition(HessianProjection::none);
+    return plain > 0 ? plain : condition(HessianProjection::clamp);
+  };
+  const double elastic = wanted();
+  potential.set_contacts(detected.sets, pressed.x);
+  const double with_contact = wanted();
+  potential.lag_friction(pressed.x);
+  const double all = wanted();
+  CHECK(std::abs(with_contact - all) > 1e-3 * all);
+  CHECK(std::abs(with_contact - elastic) > 1e-3 * elastic);
+  const PotentialDerivatives derivatives = potential.derivatives(pressed.x, HessianProjection::none);
+  const PotentialDerivatives projected = potential.derivatives(pressed.x, HessianProjection::clamp);
+  const auto first = [&](std::size_t count) { return condition_of_first(potential, count, derivatives, projected); };
+  CHECK(first(potential.stencil_count()) == Approx(all).epsilon(1e-5));
+  CHECK(first(potential.elastic_count() + potential.contacts().size()) == Approx(with_contact).epsilon(1e-5));
+  CHECK(first(potential.elastic_count()) == Approx(elastic).epsilon(1e-5));
+}
+
 TEST_CASE("a matrix that keeps the order of its steady stencils has the bits of one that sorts all of them", "[property]") {
   const Pressed pressed;
   Potential potential(pressed.scene, pressed.topology);
