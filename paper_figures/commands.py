@@ -4,6 +4,8 @@ Every function returns jobs in an order in which they can be done; names are fol
 single precision, all else runs on the CPU.
 """
 
+from dataclasses import dataclass
+
 from paper_figures.timed_runs import Job, Step
 
 TWIST, THREE_CLOTHS, ONE_ITERATION, ACTIVATIONS = "large_radius_twist", "three_cloths_on_sphere", "one_iteration_drop", "activation_drop"
@@ -22,7 +24,15 @@ ENERGIES = ("ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed")
 PAPER_ENERGIES = ENERGIES[:2]
 # The scene's limit of 200 iterations cut off step 35 at the paper's size two short of its end.
 TOLERANCE = ("--set", "newton_tolerance=1e-6", "--set", "newton_iterations=2000")
-ABLATION = ("--solver", "newton", *TOLERANCE, "--set", "frame_steps=1", "--audit", "end")
+WEAK_TOLERANCE = ("--set", "newton_tolerance=1e-4", "--set", "newton_iterations=2000")
+FRAMES = ("--set", "frame_steps=1", "--audit", "end")
+ABLATION = ("--solver", "newton", *TOLERANCE, *FRAMES)
+BY_VBD = ("--set", "redetect_every=10")  # γ_e = 0 is the scene's
+# κ: k_c of IPC's energy over k_c of OGC's. In the paper's drawing (Fig. 21d) both are 1.
+STIFFNESS_RATIOS = (1, 2, 7, 40)
+PRINTED_STIFFNESS = 10  # N/m
+# 16 N/m² r, rounded: a contact carries the weight of a cell, whose area goes as r²; k_c r must follow.
+WEAK_STIFFNESS = {"smoke": 0.5, "small": 0.2, "paper": 0.08}
 
 
 def shared(scale, membrane=NEO_HOOKEAN):
@@ -61,32 +71,72 @@ def three_cloths(scale, backends, start_iterations=None):
     return [start, *single], [Job("vbd_double", (*solve, "--solver", "reference_vbd", *VBD), state), *newton]
 
 
-def ablation(scale, energy):
-    """Fig. 21: all steps by Newton, as `ogc ablate` runs them; a run that does not converge is a result, too."""
-    arguments = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale], *ABLATION, "--set", f"activation={energy}")
-    return Job(f"runs/activation={energy}", arguments, may_fail=True)
+@dataclass(frozen=True)
+class Variant:
+    """A run of Fig. 21: the energy, how many times the contact stiffness is that of OGC's run beside it (κ), and whether
+    that one is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
+
+    energy: str
+    ratio: int = 1
+    weak: bool = False
+
+    @property
+    def label(self):
+        return self.energy + (f", κ = {self.ratio}" if self.ratio != 1 else "") + (", weak contact" if self.weak else "")
+
+    @property
+    def name(self):
+        return self.energy + (f"_kappa{self.ratio}" if self.ratio != 1 else "") + ("_weak" if self.weak else "")
+
+    def stiffness(self, scale):
+        """k_c [N/m]."""
+        return self.ratio * (WEAK_STIFFNESS[scale] if self.weak else PRINTED_STIFFNESS)
+
+    def options(self, scale):
+        return (*(("--set", f"contact_stiffness={self.stiffness(scale):g}") if self.ratio != 1 or self.weak else ()),
+                "--set", f"activation={self.energy}")
 
 
-def last_step(scale, energy, name, options):
-    """Fig. 21: the last step again from the energy's own state before it."""
-    arguments = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale], "--set", f"activation={energy}", "--iterations", "--audit", "end", *options)
-    return Job(f"{name}_{energy}", arguments, (f"runs/activation={energy}", -2))
+PRINTED = tuple(map(Variant, ENERGIES))
+RATIOS = tuple(Variant("ipc_log", ratio) for ratio in STIFFNESS_RATIOS[1:])
+WEAK = (Variant("ogc", weak=True), *(Variant("ipc_log", ratio, True) for ratio in STIFFNESS_RATIOS))
+VARIANTS = (*PRINTED, *RATIOS, *WEAK)
 
 
-def by_newton(scale, energy):
-    return last_step(scale, energy, "newton", ("--solver", "newton", *TOLERANCE, "--condition"))
+def compared(variant):
+    """Whether the variant is one of the paper's two energies: VBD, too, solves its last step."""
+    return variant.energy in PAPER_ENERGIES
 
 
-def by_vbd(scale, energy):
-    return last_step(scale, energy, "vbd", ("--solver", "reference_vbd", "--set", "redetect_every=10"))
+def ablation(scale, variant):
+    """Fig. 21: all steps, by Newton, as `ogc ablate` runs them; a run that does not converge is a result, too. With weak
+    contact by VBD: layers come so near there that Newton takes thousands of iterations for a step."""
+    steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
+    solver = (*BY_VBD, "--residual", *FRAMES) if variant.weak else ABLATION
+    return Job(f"runs/activation={variant.name}", (*steps, *solver, *variant.options(scale)), may_fail=not variant.weak)
 
 
-def by_vbd_on(scale, energy, backend):
-    return last_step(scale, energy, f"vbd_{backend}", ("--backend", backend, "--set", "redetect_every=10"))
+def last_step(scale, variant, name, options, may_fail=False):
+    """Fig. 21: the last step again from the variant's own state before it."""
+    arguments = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale], *variant.options(scale), "--iterations", "--audit", "end", *options)
+    return Job(f"{name}_{variant.name}", arguments, (f"runs/activation={variant.name}", -2), may_fail=may_fail)
+
+
+def by_newton(scale, variant):
+    tolerance = WEAK_TOLERANCE if variant.weak else TOLERANCE
+    return last_step(scale, variant, "newton", ("--solver", "newton", *tolerance, "--condition"), variant.weak)
+
+
+def by_vbd(scale, variant):
+    return last_step(scale, variant, "vbd", ("--solver", "reference_vbd", *BY_VBD))
+
+
+def by_vbd_on(scale, variant, backend):
+    return last_step(scale, variant, f"vbd_{backend}", ("--backend", backend, *BY_VBD))
 
 
 def activations(scale, backend):
-    """Fig. 21: a chain an energy."""
-    for energy in ENERGIES:
-        solved = [by_vbd(scale, energy), by_vbd_on(scale, energy, backend)] if energy in PAPER_ENERGIES else []
-        yield [ablation(scale, energy), by_newton(scale, energy), *solved]
+    """Fig. 21: a chain a variant."""
+    for variant in VARIANTS:
+        solved = [by_vbd(scale, variant), by_vbd_on(scale, variant, backend)] if compared(variant) else []
+        yield [ablation(scale, variant), by_newton(scale, variant), *solved]
