@@ -118,10 +118,12 @@ class RunEvidence:
         return f"{self.audited_states} states audited, {len(self.column('step'))} steps"
 
     def matches(self, wanted):
-        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane, and steps: so many from the scene's start, not a window."""
+        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane,
+        activation, and steps: so many from the scene's start, not a window."""
         m = self.manifest
         special = {"steps": lambda n: self.column("step")[:1] == [1] and len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
-                   "membrane": lambda name: self.membranes == {name}, 
+                   "membrane": lambda name: self.membranes == {name},
+                   "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
                    "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())

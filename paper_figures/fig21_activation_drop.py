@@ -191,8 +191,9 @@ def draw_histogram(axes, states):
             axes.step(centres, forces.counts / max(1, len(forces.force)), where="mid", color=colour(variant), linestyle="--" if variant.weak else "-",
                       label=f"{variant.label}: IPC's softer at {100 * forces.share_softer:.0f} %")
     axes.axvline(contact_forces.HALF, color="black", linewidth=0.8, linestyle=":")
-    axes.set(xscale="log", xlabel="force [k_c r]", ylabel="share of contacts [1]", title="Contacts of the last state by force (dotted: d = r/2)")
-    axes.legend(fontsize=7)
+    axes.set(xscale="log", xlabel="force [k_c r]", ylabel="share of contacts [1]", title="Contacts of the last state by force (dotted: k_c r/2)")
+    axes.set_ylim(0, 1.35 * axes.get_ylim()[1])  # room for the legend
+    axes.legend(fontsize=7, ncols=2)
 
 
 def draw_by_ratio(axes, results, step):
@@ -207,9 +208,10 @@ def draw_conditions(axes, rows):
     shown = [row for row in rows if row["condition_number_at_end [1]"]]
     places = np.arange(len(shown))
     for number, (name, words) in enumerate(CONDITIONS.items()):
-        axes.bar(places + 0.27 * (number - 1), [float(row[f"{name}_at_end [1]"]) for row in shown], 0.27, color=style.COLOURS[number], label=words)
-    axes.set_xticks(places, [row["activation"].replace(", ", "\n") for row in shown], fontsize=6)
-    axes.set(yscale="log", ylabel="condition number [1]", title="Newton's last matrix")
+        axes.barh(places + 0.27 * (number - 1), [float(row[f"{name}_at_end [1]"]) for row in shown], 0.27, color=style.COLOURS[number], label=words)
+    axes.set_yticks(places, [row["activation"] for row in shown], fontsize=7)
+    axes.invert_yaxis()
+    axes.set(xscale="log", xlabel="condition number [1]", title="Newton's last matrix")
     axes.legend(fontsize=7)
 
 

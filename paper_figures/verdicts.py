@@ -17,6 +17,7 @@ import argparse
 import csv
 import io
 import json
+import math
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -119,8 +120,29 @@ def judge(claim, evidence):
     note = [measured.about] if measured.about else []
     note += [f"as in {', '.join(others)}; the paper says it in two ways"] if others and not hit else []
     note += [f"the band was set on {claim['band_set'][:10]}, when this was known: {known}"] if known else []
+    note += _other_choices(claim, evidence, wanted) if not hit else []
     yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
     return Judgement(claim, yes if hit or others else no, measured, "; ".join(note), bool(known))
+
+
+def _other_choices(claim, evidence, wanted):
+    """What the measure gives where a choice that the paper leaves open is made otherwise (`choices` of the claim: `says`,
+    and what is other in the measure): no verdict, but a claim that fails as printed may hold so."""
+    made = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
+    made = [(says, value) for says, value in made if value is not None]
+    hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
+    words = [f"{head} {'; '.join(f'{says}: {value:.3g}' for says, value in found)}"
+             for head, found in (("with", hits), ("not with" if hits else "nor with", [each for each in made if each not in hits])) if found]
+    return [f"not with the printed parameters, {', '.join(words)}"] if words else []
+
+
+def _measured_with(choice, claim, evidence, wanted):
+    """A number, or None where no run made this choice."""
+    try:
+        found = evidence.measure({**claim["measure"], **{key: other for key, other in choice.items() if key != "says"}}, wanted)
+    except EvidenceError:  # a table older than the column
+        return None
+    return found.value if found and not math.isnan(found.value) else None
 
 
 def _known_before(claim, evidence, wanted):

@@ -196,6 +196,26 @@ class Judging(unittest.TestCase):
             with self.assertRaisesRegex(EvidenceError, "mixes commits c1, c2"):
                 verdicts.judge(claim(measure={"table": "fig99", "column": "time", "over": {"kind": "a"}, "under": {"kind": "b"}}), Evidence(name))
 
+    def test_other_choices_are_named_where_the_printed_parameters_refute_and_nowhere_else(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "fig99_paper.csv").write_text("kind,time,commit,device\na,4,c1,d\nb,1,c1,d\nc,7,c1,d\nn,never,c1,d\n")
+            choices = [{"says": f"κ = {kind}", "where": {"kind": kind}} for kind in "bcnx"] + [{"says": "κ = z", "column": "older than it"}]
+
+            def judged(band):
+                about = claim(measure={"table": "fig99", "column": "time", "where": {"kind": "a"}}, band=band, choices=choices)
+                found = verdicts.judge(about, Evidence(name))
+                return found.verdict, found.note
+            self.assertEqual(judged([0, 2]), ("refuted", "not with the printed parameters, with κ = b: 1, not with κ = c: 7"))
+            self.assertEqual(judged([8, 9]), ("refuted", "not with the printed parameters, nor with κ = b: 1; κ = c: 7"))
+            self.assertEqual(judged([3, 5]), ("reproduced", ""))
+
+    def test_a_run_is_told_from_others_by_its_activation(self):
+        runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
+        for name in ("ogc", "cubic"):
+            found = [run for run in runs if run.matches({"activation": name})]
+            self.assertTrue(found)
+            self.assertEqual({run.manifest["settings"]["activation"]["value"] for run in found}, {name})
+
     def test_a_row_about_a_run_that_was_left_out_is_no_evidence(self):
         with tempfile.TemporaryDirectory() as name:
             (Path(name) / "fig99_paper.csv").write_text("kind,time,status,commit,device\na,1,finished,c1,d\nb,,not run,-,\n")
