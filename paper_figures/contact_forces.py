@@ -99,7 +99,8 @@ def forces_of(ogc, run, variant, curve):
 
 
 def table(states):
-    """Rows of the histograms: {variant: Forces}."""
+    """Rows of the histograms, of bins that hold a contact: {variant: Forces}."""
     for variant, forces in states.items():
         for low, high, count in zip(EDGES, EDGES[1:], forces.counts):
-            yield {"activation": variant.label, "force_from [k_c r]": f"{low:.4g}", "force_to [k_c r]": f"{high:.4g}", "contacts [1]": int(count)}
+            if count:
+                yield {"activation": variant.label, "force_from [k_c r]": f"{low:.4g}", "force_to [k_c r]": f"{high:.4g}", "contacts [1]": int(count)}
