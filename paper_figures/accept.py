@@ -13,6 +13,7 @@ import json
 import re
 import subprocess
 import sys
+from fnmatch import fnmatch
 from pathlib import Path
 
 from paper_figures import in_time, recipes
@@ -113,10 +114,15 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     found = [(f"{recipe.name}_{scale}{path.suffix}", path.read_bytes()) for path in outputs if path not in missing]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
-        paths = sorted(folder.rglob("run.json"))
+        paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
         for path in paths:  # one run lies beside its picture, several in a folder
             found += run_files(path, f"{recipe.name}_{scale}" + ("/" + run_name(path, folder) if len(paths) > 1 else ""))
     return found
+
+
+def keeps(recipe, name):
+    """Whether the files of the run of this name are kept; of others the row in the figure's table is, with its command."""
+    return "kept" not in recipe.body or any(fnmatch(name, pattern) for pattern in recipe.body["kept"])
 
 
 def run_name(path, folder):

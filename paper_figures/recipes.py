@@ -3,7 +3,8 @@ runs the steps, or `in_order` where Snakemake can't be had. Paths are relative t
 
 Keys of a YAML file: `title`; then `illustration: figNN`, or `scene` with `script` (a module of paper_figures) and `run` (options of `ogc run`; without it the
 script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes`
-where the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense. A figure that is not there yet has `title`, `scene` and
+where the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense; `kept` where results hold only
+the runs whose names match one of these patterns, and of the others their rows in the figure's table. A figure that is not there yet has `title`, `scene` and
 `missing`: what the program lacks for it.
 """
 
@@ -26,7 +27,7 @@ PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends", "missing"}
+KEYS = {"title", "illustration", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends", "missing", "kept"}
 
 
 class RecipeError(Exception):
