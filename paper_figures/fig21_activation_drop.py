@@ -199,8 +199,8 @@ def draw_histogram(axes, states):
                       label=f"{variant.label}: IPC's softer at {100 * forces.share_softer:.0f} %")
     axes.axvline(contact_forces.HALF, color="black", linewidth=0.8, linestyle=":")
     axes.set(xscale="log", xlabel="force [k_c r]", ylabel="share of contacts [1]", title="Contacts of the last state by force (dotted: k_c r/2)")
-    axes.set_ylim(0, 1.35 * axes.get_ylim()[1])  # room for the legend
-    axes.legend(fontsize=7, ncols=2)
+    axes.set_ylim(0, 1.5 * axes.get_ylim()[1])  # room for the legend
+    axes.legend(fontsize=7)
 
 
 def draw_by_ratio(axes, results, step):
@@ -218,7 +218,8 @@ def draw_conditions(axes, rows):
         axes.barh(places + 0.27 * (number - 1), [float(row[f"{name}_at_end [1]"]) for row in shown], 0.27, color=style.COLOURS[number], label=words)
     axes.set_yticks(places, [row["activation"] for row in shown], fontsize=7)
     axes.invert_yaxis()
-    axes.set(xscale="log", xlim=(1, None), xlabel="condition number [1]", title="Newton's last matrix")
+    largest = max((float(row["condition_number_at_end [1]"]) for row in shown), default=1)
+    axes.set(xscale="log", xlim=(1, 100 * largest), xlabel="condition number [1]", title="Newton's last matrix")
     axes.legend(fontsize=7)
 
 
@@ -243,7 +244,7 @@ def headline(results, rows):
 
 def draw(results, panels, states, rows, scale, out):
     plt, step = style.use(), STEPS[scale]
-    figure, axes = plt.subplots(4, 2, figsize=(11, 15))
+    figure, axes = plt.subplots(4, 2, figsize=(9.5, 13))
     for panel, variant in zip(axes[0], PAPER):
         draw_state(panel, results[variant].run, f"{variant.label}, step {step}")
     draw_convergence(axes[1, 0], results, step)
