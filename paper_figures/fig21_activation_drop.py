@@ -94,13 +94,13 @@ def first_below(rows, level):
 
 def iterations_to(prefix, run, step):
     """Columns of a solver: the iterations of the last step to each level, empty where it was not done."""
-    rows = iterations(run, step) if run and run.status == "finished" else None
+    rows = iterations(run, step) if run else None
     return {f"{prefix}_iterations_to_{name} [1]": first_below(rows, level) if rows else "" for name, level in LEVELS.items()}
 
 
 def conditions(newton, step):
     """Columns of the last matrix of the step, and the median over its iterations; empty where Newton made none."""
-    rows = iterations(newton, step) if newton and newton.status == "finished" else None
+    rows = iterations(newton, step) if newton else None
     known = np.flatnonzero(np.isfinite(rows["condition_number"])) if rows else []
     if not len(known):
         return {**{f"{name}_at_end [1]": "" for name in CONDITIONS}, "median_condition_number [1]": ""}
@@ -124,7 +124,7 @@ def largest_residual(run):
 
 def row_of(variant, found, forces, like, scale):
     """`like`: the runs of OGC's energy with the same contact."""
-    run, step, newton = found.run, STEPS[scale], found.newton if found.newton and found.newton.status == "finished" else None
+    run, step, newton = found.run, STEPS[scale], found.newton
     whole = run.status == "finished"
     return {"activation": variant.label, "kappa [1]": variant.ratio, "contact_stiffness [N/m]": f"{variant.stiffness(scale):g}",
             "status": run.status.partition(":")[0], "steps [1]": len(run.column("step")),

@@ -211,7 +211,7 @@ class Judging(unittest.TestCase):
 
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
-        for name in ("ogc", "cubic"):
+        for name in ("ogc", "ipc_log"):
             found = [run for run in runs if run.matches({"activation": name})]
             self.assertTrue(found)
             self.assertEqual({run.manifest["settings"]["activation"]["value"] for run in found}, {name})

@@ -88,6 +88,13 @@ class Variants(unittest.TestCase):
         self.assertNotIn("contact_stiffness", " ".join(commands.Variant("ipc_log").options("paper")), "the scene's own k_c is the printed one")
 
 
+class Levels(unittest.TestCase):
+    def test_the_first_iteration_at_a_level_counts_and_a_level_that_is_not_reached_is_never(self):
+        """Newton has two rows of an iteration where contacts are detected to judge it."""
+        rows = {"residual": np.array([1, 5e-3, 0.2, 9e-4]), "iteration": np.array([0, 1, 1, 2])}
+        self.assertEqual([fig21_activation_drop.first_below(rows, level) for level in (1e-2, 1e-3, 1e-4)], [1, 2, "never"])
+
+
 class Figure(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
