@@ -60,8 +60,9 @@ def draw(rows, scale, out):
     axes.tick_params(axis="x", labelsize=7)
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
     commits = ", ".join(sorted({row["commit"] for row in rows}))
-    figure.suptitle(f"VBD in single precision ({rows[0]['backend']}, {rows[0]['device']}) at its floor against Newton's "
-                    f"minimiser\n{scale}, commit {commits}", fontsize=8)
+    where = f"{rows[0]['backend']}, {rows[0]['device']}"
+    figure.suptitle(f"VBD in single precision ({where}) at its floor against Newton's minimiser\n"
+                    f"{scale}, commit {commits}", fontsize=8)
     style.save(figure, out)
 
 
