@@ -334,7 +334,7 @@ class Kept(unittest.TestCase):
         there = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
         told = {path for path in there if path.suffix in (".png", ".csv") and (f"`{path.stem}.png`" in words or f"`{path.name}`" in words)}
         unknown = {path.as_posix() for path in there - told if path.as_posix() not in known}
-        self.assertEqual(unknown, {"README.md", "provenance.csv", "durations.csv"})
+        self.assertLessEqual(unknown, {"README.md", "provenance.csv", "durations.csv"})
 
     def test_all_of_them_are_small(self):
         self.assertLess(sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()), LIMIT)
