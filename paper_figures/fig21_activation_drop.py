@@ -99,8 +99,9 @@ def iterations_to(prefix, run, step):
 
 
 def conditions(newton, step):
-    """Columns of the last matrix of the step, and the median over its iterations; empty where Newton made none."""
-    rows = iterations(newton, step) if newton else None
+    """Columns of the last matrix of the step, and the median over its iterations; empty where Newton made none or gave up: its
+    last matrix is then of a state far from the end."""
+    rows = iterations(newton, step) if newton and newton.status == "finished" else None
     known = np.flatnonzero(np.isfinite(rows["condition_number"])) if rows else []
     if not len(known):
         return {**{f"{name}_at_end [1]": "" for name in CONDITIONS}, "median_condition_number [1]": ""}
@@ -234,12 +235,12 @@ def over(rows, column, top=IPC, bottom=OGC):
 
 def headline(results, rows):
     left_out = [variant.label for variant in VARIANTS if variant not in results]
-    missing = f"; NOT RUN: {'; '.join(left_out)}" if left_out else ""
+    missing = f"\nNOT RUN: {'; '.join(left_out)}" if left_out else ""
     by_ratio = ", ".join(f"{over(rows, 'condition_number_at_end [1]', v)} × and {over(rows, 'vbd_iterations_to_1e-3 [1]', v)} × (κ = {v.ratio})"
                          for v in (IPC, *commands.RATIOS) if v in results)
     runs = [run for found in results.values() for run in found.all]
     return (f"the paper's two states are at most {rows[1]['largest_distance_from_ogc [mm]']} mm apart. Of ipc_log over ogc, condition number and VBD's iterations "
-            f"to 10⁻³ (paper: 5 × and 2 ×):\n{by_ratio}{missing}; {commits_in_words(runs)}")
+            f"to 10⁻³ (paper: 5 × and 2 ×):\n{by_ratio}; {commits_in_words(runs)}{missing}")
 
 
 def draw(results, panels, states, rows, scale, out):
