@@ -121,7 +121,7 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
 
 
 def keeps(recipe, name):
-    """Whether the files of the run of this name are kept; of others the row in the figure's table is, with its command."""
+    """Whether the files of the run of this name are kept; of others the row in the figure's table is."""
     return "kept" not in recipe.body or any(fnmatch(name, pattern) for pattern in recipe.body["kept"])
 
 

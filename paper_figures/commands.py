@@ -73,8 +73,8 @@ def three_cloths(scale, backends, start_iterations=None):
 
 @dataclass(frozen=True)
 class Variant:
-    """A run of Fig. 21: the energy, how many times the contact stiffness is that of OGC's run beside it (κ), and whether
-    that one is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
+    """A run of Fig. 21: the energy, how many times the contact stiffness is that of OGC's run beside it (κ), and
+    whether that one is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
 
     energy: str
     ratio: int = 1
@@ -82,7 +82,8 @@ class Variant:
 
     @property
     def label(self):
-        return self.energy + (f", κ = {self.ratio}" if self.ratio != 1 else "") + (", weak contact" if self.weak else "")
+        ratio = f", κ = {self.ratio}" if self.ratio != 1 else ""
+        return self.energy + ratio + (", weak contact" if self.weak else "")
 
     @property
     def name(self):
@@ -109,8 +110,8 @@ def compared(variant):
 
 
 def ablation(scale, variant):
-    """Fig. 21: all steps, by Newton, as `ogc ablate` runs them; a run that does not converge is a result, too. With weak
-    contact by VBD: layers come so near there that Newton takes thousands of iterations for a step."""
+    """Fig. 21: all steps, by Newton, as `ogc ablate` runs them; a run that does not converge is a result, too. With
+    weak contact by VBD: layers come so near there that Newton takes thousands of iterations for a step."""
     steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
     solver = (*BY_VBD, "--residual", *FRAMES) if variant.weak else ABLATION
     return Job(f"runs/activation={variant.name}", (*steps, *solver, *variant.options(scale)), may_fail=not variant.weak)
@@ -118,7 +119,8 @@ def ablation(scale, variant):
 
 def last_step(scale, variant, name, options, may_fail=False):
     """Fig. 21: the last step again from the variant's own state before it."""
-    arguments = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale], *variant.options(scale), "--iterations", "--audit", "end", *options)
+    steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
+    arguments = (*steps, *variant.options(scale), "--iterations", "--audit", "end", *options)
     return Job(f"{name}_{variant.name}", arguments, (f"runs/activation={variant.name}", -2), may_fail=may_fail)
 
 

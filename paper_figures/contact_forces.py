@@ -1,7 +1,8 @@
-"""How hard the contacts of a stored state push, in units of k_c r, by their distances alone; and where IPC's energy is the softer one at that force.
+"""How hard the contacts of a stored state push, in units of k_c r, by their distances alone; and where IPC's energy is
+the softer one at that force.
 
-Distances come from `ogc contacts` on the state's mesh. A contact between two bodies that are fixed is none. What scales a contact's energy (the overlap of
-nearly parallel edges) scales force and curvature alike, and is left out of both.
+Distances come from `ogc contacts` on the state's mesh. A contact between two bodies that are fixed is none. What scales
+a contact's energy (the overlap of nearly parallel edges) scales force and curvature alike, and is left out of both.
 """
 
 import json
@@ -57,7 +58,8 @@ class Forces:
 
 
 def ratio_at(force, curve):
-    """Curvature ratio at these forces, from `ogc illustrate fig21d`'s curve (forces, ratios): both go as powers of the force beyond its ends."""
+    """Curvature ratio at these forces, from `ogc illustrate fig21d`'s curve (forces, ratios); beyond its ends that of the
+    nearer end."""
     known, ratio = np.log(curve)
     return np.exp(np.interp(np.log(np.clip(force, curve[0][0], curve[0][-1])), known, ratio))
 
@@ -67,11 +69,25 @@ def write_obj(path, run, positions):
     with Path(path).open("w") as file:
         file.writelines(f"v {x!s} {y!s} {z!s}\n" for x, y, z in positions)
         for body in run.bodies():
-            file.writelines("f {} {} {}\n".format(*(corners + body["first_vertex"] + 1)) for corners in body["triangles"])
+            file.writelines(
+                "f {} {} {}\n".format(*(corners + body["first_vertex"] + 1)) for corners in body["triangles"]
+            )
 
 
 def contacts_of(ogc, mesh, radius):
-    command = [str(ogc), "contacts", str(mesh), "--radius", repr(radius), "--query-radius", repr(radius), "--engine", "cpu", "--no-margins", "--json"]
+    command = [
+        str(ogc),
+        "contacts",
+        str(mesh),
+        "--radius",
+        repr(radius),
+        "--query-radius",
+        repr(radius),
+        "--engine",
+        "cpu",
+        "--no-margins",
+        "--json",
+    ]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise RunError(f"{' '.join(command)}: {done.stderr.strip()}")
@@ -83,7 +99,7 @@ def distances(ogc, run, frame):
     radius = run.setting("contact_radius")
     moving = np.zeros(len(frame.positions), bool)
     for body in run.bodies():
-        moving[body["first_vertex"]:body["first_vertex"] + body["vertex_count"]] = is_cloth(body)
+        moving[body["first_vertex"] : body["first_vertex"] + body["vertex_count"]] = is_cloth(body)
     with tempfile.TemporaryDirectory() as folder:
         write_obj(Path(folder) / "state.obj", run, frame.positions)
         found = contacts_of(ogc, Path(folder) / "state.obj", radius)
@@ -93,7 +109,8 @@ def distances(ogc, run, frame):
 
 
 def forces_of(ogc, run, variant, curve):
-    """Forces at the last stored state of a run of `variant` (paper_figures.commands); `curve`: the ratio over force of its κ."""
+    """Forces at the last stored state of a run of `variant` (paper_figures.commands); `curve`: the ratio over force of
+    its κ."""
     force = variant.ratio * FORCE[variant.energy](distances(ogc, run, run.frame(run.frames[-1])))
     return Forces(force, ratio_at(force, curve))
 
@@ -103,4 +120,9 @@ def table(states):
     for variant, forces in states.items():
         for low, high, count in zip(EDGES, EDGES[1:], forces.counts):
             if count:
-                yield {"activation": variant.label, "force_from [k_c r]": f"{low:.4g}", "force_to [k_c r]": f"{high:.4g}", "contacts [1]": int(count)}
+                yield {
+                    "activation": variant.label,
+                    "force_from [k_c r]": f"{low:.4g}",
+                    "force_to [k_c r]": f"{high:.4g}",
+                    "contacts [1]": int(count),
+                }

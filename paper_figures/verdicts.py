@@ -126,20 +126,22 @@ def judge(claim, evidence):
 
 
 def _other_choices(claim, evidence, wanted):
-    """What the measure gives where a choice that the paper leaves open is made otherwise (`choices` of the claim: `says`,
-    and what is other in the measure): no verdict, but a claim that fails as printed may hold so."""
+    """What the measure gives where a choice that the paper leaves open is made otherwise (`choices` of the claim:
+    `says`, and what is other in the measure): no verdict, but a claim that fails as printed may hold so."""
     made = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
     made = [(says, value) for says, value in made if value is not None]
     hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
+    misses = [each for each in made if each not in hits]
     words = [f"{head} {'; '.join(f'{says}: {value:.3g}' for says, value in found)}"
-             for head, found in (("with", hits), ("not with" if hits else "nor with", [each for each in made if each not in hits])) if found]
+             for head, found in (("with", hits), ("not with" if hits else "nor with", misses)) if found]
     return [f"not with the printed parameters, {', '.join(words)}"] if words else []
 
 
 def _measured_with(choice, claim, evidence, wanted):
     """A number, or None where no run made this choice."""
     try:
-        found = evidence.measure({**claim["measure"], **{key: other for key, other in choice.items() if key != "says"}}, wanted)
+        otherwise = {key: other for key, other in choice.items() if key != "says"}
+        found = evidence.measure({**claim["measure"], **otherwise}, wanted)
     except EvidenceError:  # a table older than the column
         return None
     return found.value if found and not math.isnan(found.value) else None

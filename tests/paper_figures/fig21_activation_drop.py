@@ -1,4 +1,5 @@
-"""Fig. 21 from small runs: every table and the picture; forces and curvature ratios are those that the program draws; what is varied is told apart by name.
+"""Fig. 21 from small runs: every table and the picture; forces and curvature ratios are those that the program draws;
+what is varied is told apart by name.
 
 Usage: fig21_activation_drop.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h5py is missing.
 """
@@ -31,7 +32,10 @@ class TwoTriangles:
         return {"contact_radius": 1.0}[name]
 
     def bodies(self):
-        return [{"fixed": fixed, "first_vertex": 3 * i, "vertex_count": 3, "triangles": np.array([[0, 1, 2]])} for i, fixed in enumerate((False, True, True))]
+        return [
+            {"fixed": fixed, "first_vertex": 3 * i, "vertex_count": 3, "triangles": np.array([[0, 1, 2]])}
+            for i, fixed in enumerate((False, True, True))
+        ]
 
     @property
     def frame(self):
@@ -85,14 +89,20 @@ class Variants(unittest.TestCase):
             beside = commands.Variant("ogc", weak=variant.weak)
             self.assertEqual(variant.stiffness("small"), variant.ratio * beside.stiffness("small"))
         self.assertIn("contact_stiffness=400", commands.Variant("ipc_log", 40).options("paper"))
-        self.assertNotIn("contact_stiffness", " ".join(commands.Variant("ipc_log").options("paper")), "the scene's own k_c is the printed one")
+        self.assertNotIn(
+            "contact_stiffness",
+            " ".join(commands.Variant("ipc_log").options("paper")),
+            "the scene's own k_c is the printed one",
+        )
 
 
 class Levels(unittest.TestCase):
     def test_the_first_iteration_at_a_level_counts_and_a_level_that_is_not_reached_is_never(self):
         """Newton has two rows of an iteration where contacts are detected to judge it."""
         rows = {"residual": np.array([1, 5e-3, 0.2, 9e-4]), "iteration": np.array([0, 1, 1, 2])}
-        self.assertEqual([fig21_activation_drop.first_below(rows, level) for level in (1e-2, 1e-3, 1e-4)], [1, 2, "never"])
+        self.assertEqual(
+            [fig21_activation_drop.first_below(rows, level) for level in (1e-2, 1e-3, 1e-4)], [1, 2, "never"]
+        )
 
 
 class Figure(unittest.TestCase):
@@ -113,7 +123,9 @@ class Figure(unittest.TestCase):
 
     def test_every_variant_has_a_row_and_what_was_left_out_says_so(self):
         self.assertTrue(self.picture.is_file())
-        self.assertEqual(list(self.rows), [v.label for v in sorted(commands.VARIANTS, key=lambda v: v.name not in SHOWN)])
+        self.assertEqual(
+            list(self.rows), [v.label for v in sorted(commands.VARIANTS, key=lambda v: v.name not in SHOWN)]
+        )
         left_out = [v.label for v in commands.VARIANTS if v.name not in SHOWN]
         self.assertEqual(list(accept.left_out(self.folder)), left_out)
 
@@ -126,7 +138,10 @@ class Figure(unittest.TestCase):
     def test_every_solver_comes_to_every_level(self):
         for label in ("ogc", "ipc_log", "ipc_log, κ = 40", "ogc, weak contact"):
             for solver in ("newton", "vbd", "single_vbd"):
-                found = [int(self.rows[label][f"{solver}_iterations_to_{level} [1]"]) for level in fig21_activation_drop.LEVELS]
+                found = [
+                    int(self.rows[label][f"{solver}_iterations_to_{level} [1]"])
+                    for level in fig21_activation_drop.LEVELS
+                ]
                 self.assertEqual(found, sorted(found))
                 self.assertGreater(found[0], 0)
 
