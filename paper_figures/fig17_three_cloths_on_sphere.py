@@ -1,10 +1,13 @@
-"""Fig. 17: the residual of Eq. 29 over iterations and over time, one step of three cloths on a sphere, by VBD in single and in double precision and by Newton.
+"""Fig. 17: the residual of Eq. 29 over iterations and over time, one step of three cloths on a sphere, by VBD in single
+and in double precision and by Newton.
 
-All start from the same state, that of VBD in single precision after the step before. Contacts are detected again when one vertex in a hundred was cut (γ_e of
-the paper), or as soon as a single one was (γ_e = 0). Curves have the contacts of the solver's last detection, as in the paper; the table adds the residual with
-contacts detected at the end. Newton's curve has the friction of its solve, too: it jumps where friction is lagged anew. The steps before take 500 iterations of
-VBD each, or as many as --start-iterations says: at the paper's size contacts are detected in each of them, which takes a few cores too long. Picture and table say how
-many it were. Curves can be left out (--without); picture and table name them, and `accept` takes them with --incomplete only.
+All start from the same state, that of VBD in single precision after the step before, whose steps were all solved to
+convergence (γ_e = 0). Contacts are detected again when one vertex in a hundred was cut (γ_e of the paper), or as soon
+as a single one was (γ_e = 0). With γ_e = 0 one curve has a hundredth of the printed ε_v, which may be in cm/s. Curves
+have the contacts of the solver's last detection (stale), as in the paper; the table adds the residual with contacts
+detected at the end (fresh). Newton's curve has the friction of its solve, too: it jumps where friction is lagged anew.
+--start-iterations gives the steps before fewer iterations. Curves can be left out (--without); picture and table name
+them, and `accept` takes them with --incomplete only.
 """
 
 import argparse
@@ -21,13 +24,15 @@ from plots import style
 from plots.run_folder import RunError, commits_in_words
 
 SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
+MARKS = (50, 500)  # iterations of the paper's curves of Newton and of VBD
 
 
 def label_of(name):
     """vbd_cuda_any and its like in words."""
     kind, *more = name.split("_")
     where = "single, " + more[0] if kind == "vbd" and more[0] != "double" else "double"
-    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}" + (", γ_e = 0" if more[-1:] == ["any"] else "")
+    zero, slow = (", γ_e = 0" if "any" in more else ""), (", ε_v = 1e-4 m/s" if "slow" in more else "")
+    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}{zero}{slow}"
 
 
 def curves(folder, ogc, jobs, without):
@@ -46,12 +51,20 @@ def first_below(rows, level, name):
     return float(rows[name][below[0]]) if len(below) else float("nan")
 
 
+def residual_at(rows, iteration):
+    """Where the paper's curve ends; nothing where this one ended before."""
+    found = rows["residual"][rows["iteration"] == iteration]
+    return f"{found[0]:.3g}" if len(found) else ""
+
+
 def summary(label, run, start, step):
     rows = iterations(run, step)
     residual = rows["residual"]
     tail = residual[-max(1, len(residual) // 5):]
     return {"curve": label, "iterations [1]": int(rows["iteration"][-1]), "smallest_residual [1]": f"{residual.min():.3g}",
-            "residual_of_last_fifth [1]": f"{np.median(tail):.3g}", "residual_contacts_of_the_end [1]": f"{run.column('residual')[-1]:.3g}", "iterations_to_1e-3 [1]": first_below(rows, 1e-3, "iteration"),
+            "residual_of_last_fifth [1]": f"{np.median(tail):.3g}", "residual_contacts_of_the_end [1]": f"{run.column('residual')[-1]:.3g}",
+            **{f"residual_at_{mark} [1]": residual_at(rows, mark) for mark in MARKS},
+            "iterations_to_1e-3 [1]": first_below(rows, 1e-3, "iteration"),
             "iterations_to_1e-4 [1]": first_below(rows, 1e-4, "iteration"),
             "time_to_1e-3 [ms]": f"{first_below(rows, 1e-3, 'wall'):.4g}", "step [ms]": f"{run.column('wall')[-1]:.4g}",
             "detections [1]": int(run.column("discrete_detections")[-1]), "detection_share_of_time [1]": f"{detection_share(run):.3g}",
@@ -77,6 +90,8 @@ def draw(runs, start, left_out, step, scale, claims, out):
         draw_curve(right, rows, "wall", label, colour, dash)
     left.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title="Over iterations (dots: contacts detected anew)")
     right.set(xscale="log", xlabel="time since the step began [ms]", title="Over time")
+    for mark in MARKS:
+        left.axvline(mark, color="0.7", linewidth=0.6, zorder=0)
     left.legend(fontsize=6.5)
     paper = ", ".join(f"{c['quantity'].replace('_', ' ')} {c['value']:g}" for c in claims)
     figure.suptitle(f"{SCENE} ({scale}), step {step}; {start.setting('iterations')} iterations in each step before; "

@@ -87,7 +87,7 @@ class Parts(Scratch):
         sizes = [float(line.split()[3]) for line in packed[:-1]]
         self.assertEqual(sizes, sorted(sizes))  # what is lost with the last piece is little
         self.assertEqual(len(self.say(there, *self.OPTIONS, "--pack", self.folder / "again")), 1)
-        self.assertEqual(len(self.say(home, "--unpack", self.folder / "pieces")), 7)
+        self.assertEqual(len(self.say(home, "--unpack", self.folder / "pieces")), 12)
         part = device_runs.parts("smoke", "cpu")["fig20"]
         job = part.chains[0][0]
         self.assertTrue(timed_runs.usable(home / part.folder / job.name, job.command("elsewhere/ogc", home / part.folder)))
@@ -149,8 +149,19 @@ class Parts(Scratch):
 
     def test_fewer_iterations_before_the_step_of_fig_17_change_its_start_alone(self):
         whole, fewer = commands.three_cloths("paper", ["cpu"]), commands.three_cloths("paper", ["cpu"], 40)
-        self.assertEqual(fewer[0][0].arguments, (*whole[0][0].arguments, "--set", "iterations=40"))
+        self.assertEqual(fewer[0][0].arguments, (*whole[0][0].arguments[:-1], "iterations=40"))
         self.assertEqual((fewer[0][1:], fewer[1]), (whole[0][1:], whole[1]))
+
+    def test_what_lies_beside_all_rows_of_a_table_is_packed_once(self):
+        there, home = self.folder / "there", self.folder / "home"
+        book = {row: device_runs.Part("table1", row=row, frames=0) for row in ("twist", "knot")}
+        for row in book:
+            (there / "table1" / row / "whole").mkdir(parents=True)
+            (there / "table1" / row / "whole/run.json").write_text('{"status": "finished"}')
+            (there / "table1" / f"{row}_device_memory.json").write_text("{}")
+        device_runs.pack(there, book, self.folder / "pieces")
+        device_runs.unpack(self.folder / "pieces", home, OGC)
+        self.assertEqual(len(list((home / "table1").glob("*_device_memory.json"))), 2)
 
     def test_frames_are_the_first_evenly_on_to_the_last(self):
         (self.folder / "frames").mkdir()
