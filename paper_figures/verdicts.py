@@ -141,7 +141,8 @@ def _measured_with(choice, claim, evidence, wanted):
     """A number, or None where no run made this choice."""
     try:
         otherwise = {key: other for key, other in choice.items() if key != "says"}
-        found = evidence.measure({**claim["measure"], **otherwise}, wanted)
+        printed = claim["measure"][0] if isinstance(claim["measure"], list) else claim["measure"]
+        found = evidence.measure({**printed, **otherwise}, wanted)
     except EvidenceError:  # a table older than the column
         return None
     return found.value if found and not math.isnan(found.value) else None

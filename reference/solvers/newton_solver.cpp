@@ -14,7 +14,7 @@ using compare::HessianProjection;
 using compare::Vec3f;
 
 /// So many times as much a scaled step must lower the energy to be preferred: see the head of newton_solver.hpp.
-constexpr double far_more = 10;
+constexpr double far_more = 2;
 /// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
 constexpr int most_judgements = 4;
 /// λ_v at most: a vertex whose ball leaves it nothing stands as good as still.
@@ -190,7 +190,7 @@ double NewtonSolver::accepted_share(const Direction& direction) {
   const PotentialTerms before = potential_.terms(x_);
   const double noise = derivatives_.energy_noise + value_noise(before);
   Accepted best = timed(line_search, [&] { return searched(direction, before, noise); });
-  if (direction.cut > 0 && direction.cut < matrix_.free_vertices().size() && !best.scaled) {
+  if (direction.cut > 0 && direction.cut < matrix_.free_vertices().size()) {
     if (const auto other = damped(direction)) {
       Accepted held = timed(line_search, [&] { return backtracked(potential_, x_, other->truncated, 1, before, noise); });
       if (held.share > 0 && (best.share == 0 || held.change < best.change)) best = std::move(held);

@@ -15,20 +15,19 @@
 // would keep the residual up for good. Without a tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where
 // bounds keep one from its target it lags, as in the fast path.
 //
-// Backtracking goes along δ' (method.md §7.6). Where balls cut δ it goes along δ scaled to fit all of them, too, and that is
-// taken where it lowers the energy ten times as much: in a crumpled cloth δ' bends whatever stands between a vertex that
-// was cut and one that was not, and a share of 2⁻⁸ that lowers the energy in its seventh digit would pass for progress.
-// No rule is the best everywhere. Where whichever lowers the energy more is taken, sheets that fly together or are nearly
-// closed lose the full steps that tests/reference/solvers/newton.cpp asks for, since δ' moves most vertices far and makes
-// room for all; but Fig. 17's step at scale small, γ_e = 0, then falls to a residual of 5·10⁻⁵ in 50 iterations, where
-// it is left at 0.02 with the factor, and 38 steps of activation_drop at that scale take 511 iterations for 556.
-//
-// Truncation takes from two near vertices that want common travel their separation, too: each keeps a share of its δ, and so
-// of the difference of both. So where vertices are cut their diagonal blocks are multiplied by λ_v = ‖δ_v‖/‖δ'_v‖, and the
-// system is solved and truncated again: those that are free to go take into account what the others may not. That step is
-// taken where it lowers the energy more than δ' does (while a cloth has far to go it is the smaller one, for λ multiplies
-// stiffnesses that common travel does not meet), unless every vertex was cut or scaled δ won. A line search that leaves less
-// than 10⁻³ of a step with cut vertices asks for new balls.
+// Where balls cut δ there are three ways to go, each backtracked (method.md §7.6), and the one that lowers the energy most
+// is taken:
+//   δ'      cut vertex by vertex. In a crumpled cloth it bends whatever stands between a vertex that was cut and one that
+//           was not, and a share of 2⁻⁸ that lowers the energy in its seventh digit would pass for progress;
+//   scaled  δ, scaled to fit all balls. It must lower the energy twice as much as δ', which moves most vertices far and
+//           makes room for all: with no such factor sheets that fly together or are nearly closed lose the full steps
+//           that tests/reference/solvers/newton.cpp asks for;
+//   damped  truncation takes from two near vertices that want common travel their separation, too: each keeps a share of
+//           its δ, and so of the difference of both. So the diagonal blocks of cut vertices are multiplied by
+//           λ_v = ‖δ_v‖/‖δ'_v‖, and the system is solved and truncated again: those that are free to go take into
+//           account what the others may not. While a cloth has far to go this is the smaller step, for λ multiplies
+//           stiffnesses that common travel does not meet.
+// A line search that leaves less than 10⁻³ of a step with cut vertices asks for new balls.
 //
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far from the solution it rarely is. Always
 // projected, a step of a crumpled cloth ends in a long linear tail, for the projection keeps curvature that other stencils cancel.

@@ -201,13 +201,16 @@ class Judging(unittest.TestCase):
             (Path(name) / "fig99_paper.csv").write_text("kind,time,commit,device\na,4,c1,d\nb,1,c1,d\nc,7,c1,d\nn,never,c1,d\n")
             choices = [{"says": f"κ = {kind}", "where": {"kind": kind}} for kind in "bcnx"] + [{"says": "κ = z", "column": "older than it"}]
 
-            def judged(band):
-                about = claim(measure={"table": "fig99", "column": "time", "where": {"kind": "a"}}, band=band, choices=choices)
+            measure = {"table": "fig99", "column": "time", "where": {"kind": "a"}}
+
+            def judged(band, measure=measure):
+                about = claim(measure=measure, band=band, choices=choices)
                 found = verdicts.judge(about, Evidence(name))
                 return found.verdict, found.note
             self.assertEqual(judged([0, 2]), ("refuted", "not with the printed parameters, with κ = b: 1, not with κ = c: 7"))
             self.assertEqual(judged([8, 9]), ("refuted", "not with the printed parameters, nor with κ = b: 1; κ = c: 7"))
             self.assertEqual(judged([3, 5]), ("reproduced", ""))
+            self.assertEqual(judged([8, 9], [measure]), judged([8, 9]), "the first of several places is the printed one")
 
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
