@@ -119,11 +119,13 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane,
-        activation, and steps: so many from the scene's start, not a window."""
+        activation, redetect_fraction (rounded to single precision in the manifest), and steps: so many from the
+        scene's start, not a window."""
         m = self.manifest
         special = {"steps": lambda n: self.column("step")[:1] == [1] and len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
+                   "redetect_fraction": lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
                    "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())

@@ -107,7 +107,7 @@ class Bands(unittest.TestCase):
     def test_no_band_is_younger_than_it_says_nor_than_a_number_that_no_mark_tells_of(self):
         """By the history of the claims and of the kept verdicts; skipped where there is none."""
         commits = history("paper_figures/claims", "paper_figures/results/verdicts.csv")
-        marked = {j.claim["id"] for j in verdicts.judge_all() if j.late}
+        marked = {j.claim["id"] for j in verdicts.judge_all() if j.late or "band_after" in j.claim}  # or no run judges it now
         for each in verdicts.load():
             states = [(date, bands.get(each["id"])) for date, bands, _ in commits if each["id"] in bands]
             if not states or each.get("band") in (None, "stored"):
