@@ -15,7 +15,7 @@ TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and 
 
 THREE_CLOTHS_STEP = {"smoke": 24, "small": 40, "paper": 50}
 # The paper draws 500 and 50.
-THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 500, "newton": 50},
+THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 1000, "newton": 150},
                            "paper": {"vbd": 1000, "newton": 150}}
 ANY = ("--set", "redetect_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
