@@ -182,7 +182,8 @@ class Frames(unittest.TestCase):
         steps = {row: int(n) for rows, n in re.findall(r"([\w|]+)\) echo (\d+)", table) for row in rows.split("|")}
         self.assertEqual(set(steps), set(table1.ROWS))
         for row, n in steps.items():
-            path = SOURCE / f"paper_figures/results/h200/table1_paper/{row}_whole_run.json"
+            results = SOURCE / "paper_figures/results/h200"
+            path, = [*results.glob(f"table1_paper/{row}_whole_run.json"), *results.glob(f"{row}_run.json")]
             time_step = json.loads(path.read_text())["settings"]["time_step"]["value"]
             self.assertEqual(n, max(1, int(1 / 60 / time_step * (1 + 1e-6))), row)
 
