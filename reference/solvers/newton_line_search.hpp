@@ -9,8 +9,7 @@ namespace ogc::reference {
 struct Accepted {
   State x;
   double share = 0;
-  double change = 0;    ///< of the energy [J]
-  bool scaled = false;  ///< along δ scaled to fit all balls
+  double change = 0;  ///< of the energy [J]
 };
 
 /// What rounding of the terms' own values may do to a change of the energy [J].

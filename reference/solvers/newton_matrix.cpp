@@ -114,11 +114,8 @@ void BlockMatrix::assemble_column(std::size_t column, std::span<const double> di
   }
 }
 
-void BlockMatrix::scale_diagonal_block(std::size_t row, double factor) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto begin = static_cast<std::size_t>(column_begin_[3 * row + c]);
-    for (std::size_t k = begin; k < begin + 3 - c; ++k) values_[k] *= factor;
-  }
+void BlockMatrix::add_to_diagonal(std::size_t row, double value) {
+  for (std::size_t c = 0; c < 3; ++c) values_[static_cast<std::size_t>(column_begin_[3 * row + c])] += value;
 }
 
 std::vector<double> BlockMatrix::times(const std::vector<double>& x) const {

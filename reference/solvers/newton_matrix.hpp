@@ -27,8 +27,8 @@ class BlockMatrix {
   /// Sums the stencils' Hessians and, by vertex, what stands on the diagonal (m/h²) [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
-  /// Multiplies the diagonal block of row `row` of blocks by `factor` ≥ 1, until the next assemble: a positive definite matrix stays so.
-  void scale_diagonal_block(std::size_t row, double factor);
+  /// Adds `value` ≥ 0 to the diagonal of row `row` of blocks, until the next assemble: a positive definite matrix stays so.
+  void add_to_diagonal(std::size_t row, double value);
 
   std::size_t rows() const { return 3 * free_.size(); }
   const std::vector<std::int32_t>& column_begin() const { return column_begin_; }

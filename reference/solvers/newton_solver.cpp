@@ -17,8 +17,10 @@ using compare::Vec3f;
 constexpr double far_more = 2;
 /// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
 constexpr int most_judgements = 4;
-/// λ_v at most: a vertex whose ball leaves it nothing stands as good as still.
-constexpr double most_damping = 1e6;
+/// ‖δ_v‖/‖δ'_v‖ at most: a vertex whose ball leaves it nothing stands as good as still.
+constexpr double most_pinned = 1e6;
+/// Each round costs a factorisation; from the third on they rarely lower the energy more.
+constexpr int most_pin_rounds = 6;
 /// A line search that accepts less of a direction with cut vertices has come to a standstill in its balls.
 constexpr double least_share = 1e-3;
 
@@ -176,14 +178,36 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   return direction;
 }
 
-std::optional<NewtonSolver::Direction> NewtonSolver::damped(const Direction& undamped) {
+/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that nothing but inertia
+/// holds then goes as far as its ball allows; sheets that travel together do, too.
+bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
+  const std::vector<double> inertias = potential_.inertias();
   for (std::size_t i = 0; i < free.size(); ++i) {
-    const double wanted = length(undamped.delta[free[i]]), kept = length(undamped.truncated[free[i]]);
-    if (kept < wanted) matrix_.scale_diagonal_block(i, wanted < most_damping * kept ? wanted / kept : most_damping);
+    const std::size_t v = free[i];
+    const double wanted = length(direction.delta[v]), kept = length(direction.truncated[v]);
+    if (!(kept < wanted)) continue;
+    const double ratio = wanted < most_pinned * kept ? wanted / kept : most_pinned;
+    const double more = (ratio - 1) * (inertias[v] + pins[v]);
+    pins[v] += more;
+    matrix_.add_to_diagonal(i, more);
   }
-  if (!timed(factorization, [&] { return factor_.factorize(matrix_); })) return {};
-  return direction_of();
+  return timed(factorization, [&] { return factor_.factorize(matrix_); });
+}
+
+/// Along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers the energy
+/// more.
+Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
+  Accepted best;
+  std::vector<double> pins(x_.size(), 0);
+  for (int round = 0; round < most_pin_rounds && direction.cut > 0; ++round) {
+    if (!pin(direction, pins)) break;
+    direction = direction_of();
+    Accepted found = timed(line_search, [&] { return backtracked(potential_, x_, direction.truncated, 1, before, noise); });
+    if (found.share == 0 || (best.share > 0 && found.change >= best.change)) break;
+    best = std::move(found);
+  }
+  return best;
 }
 
 double NewtonSolver::accepted_share(const Direction& direction) {
@@ -191,10 +215,8 @@ double NewtonSolver::accepted_share(const Direction& direction) {
   const double noise = derivatives_.energy_noise + value_noise(before);
   Accepted best = timed(line_search, [&] { return searched(direction, before, noise); });
   if (direction.cut > 0 && direction.cut < matrix_.free_vertices().size()) {
-    if (const auto other = damped(direction)) {
-      Accepted held = timed(line_search, [&] { return backtracked(potential_, x_, other->truncated, 1, before, noise); });
-      if (held.share > 0 && (best.share == 0 || held.change < best.change)) best = std::move(held);
-    }
+    Accepted held = pinned(direction, before, noise);
+    if (held.share > 0 && (best.share == 0 || held.change < best.change)) best = std::move(held);
   }
   if (best.share == 0) return 0;
   if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
@@ -209,7 +231,7 @@ Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms
     double room = 1;
     for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
     Accepted scaled = backtracked(potential_, x_, direction.delta, room, before, noise);
-    if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled), best.scaled = true;
+    if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
   }
   return best;
 }

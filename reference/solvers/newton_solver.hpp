@@ -22,11 +22,11 @@
 //   scaled  δ, scaled to fit all balls. It must lower the energy twice as much as δ', which moves most vertices far and
 //           makes room for all: with no such factor sheets that fly together or are nearly closed lose the full steps
 //           that tests/reference/solvers/newton.cpp asks for;
-//   damped  truncation takes from two near vertices that want common travel their separation, too: each keeps a share of
-//           its δ, and so of the difference of both. So the diagonal blocks of cut vertices are multiplied by
-//           λ_v = ‖δ_v‖/‖δ'_v‖, and the system is solved and truncated again: those that are free to go take into
-//           account what the others may not. While a cloth has far to go this is the smaller step, for λ multiplies
-//           stiffnesses that common travel does not meet.
+//   pinned  truncation takes from two near vertices that want common travel their separation, too: each keeps a share of
+//           its δ, and so of the difference of both. So springs hold cut vertices where they are, of stiffness
+//           (‖δ_v‖/‖δ'_v‖ − 1)(m_v/h² + what they had), and the system is solved and truncated again: vertices that are
+//           free to go take into account what the others may not. What only inertia holds goes just as far as its ball
+//           allows. Rounds go on while they lower the energy more. Where all vertices were cut `scaled` does the same.
 // A line search that leaves less than 10⁻³ of a step with cut vertices asks for new balls.
 //
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far from the solution it rarely is. Always
@@ -82,8 +82,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// Of the matrix at hand, which is factorised, and of what is left of it without friction and without contact.
   void measure_condition(compare::IterationMetrics& row);
   Direction direction_of();
-  /// The direction with Levenberg's damping of the vertices that balls cut (method.md §7.6); nothing where the damped matrix can't be factorised.
-  std::optional<Direction> damped(const Direction& undamped);
+  bool pin(const Direction& direction, std::vector<double>& pins);
+  Accepted pinned(Direction direction, const PotentialTerms& before, double noise);
   /// The share of the best direction that was taken, or 0.
   double accepted_share(const Direction& direction);
   Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
