@@ -1,4 +1,5 @@
-/* Your kernel before the judge: a shared library that offers one or more stages, in C, so that any language and compiler will do.
+/* Your kernel before the judge: a shared library that offers one or more stages, in C, so that any language and
+ * compiler will do.
  *
  *     #include "compare/plugin.h"
  *     OGC_PLUGIN("mine", OGC_HOST_MEMORY)
@@ -6,16 +7,20 @@
  *
  *     g++ -O2 -shared -fPIC -I INCLUDE mine.cpp -o mine.so && ogc compare truncate --plugin ./mine.so
  *
- * The library offers the stages whose functions it defines. What a stage asks, to the last boundary case, stands in compare/stages/STAGE.hpp;
- * the structures here are the same questions and answers as plain arrays. A page that starts from an empty file: experiments/plugins/README.md.
+ * The library offers the stages whose functions it defines. What a stage asks, to the last boundary case, stands in
+ * compare/stages/STAGE.hpp; the structures here are the same questions and answers as plain arrays. A page that starts
+ * from an empty file: experiments/plugins/README.md.
  *
- * Rules. A function answers all cases of `in`, writes every element of every array of `out` and nothing else, and returns 0; any other value means that it
- * failed, and is reported. Arrays of `in` are read-only. All arrays lie in the memory that the library asked for: with OGC_DEVICE_MEMORY every pointer
- * inside `in` and `out` is CUDA device memory of the primary context of device 0, current when the function is called; the two structures themselves are
- * in host memory always. A function may return before the device has finished: the caller synchronises, and counts the time. Calls come from one thread,
- * one after another; a function may keep what it likes from call to call. Nothing is freed by the library but what it has allocated.
+ * Rules. A function answers all cases of `in`, writes every element of every array of `out` and nothing else, and
+ * returns 0; any other value means that it failed, and is reported. Arrays of `in` are read-only. All arrays lie in the
+ * memory that the library asked for: with OGC_DEVICE_MEMORY every pointer inside `in` and `out` is CUDA device memory
+ * of the primary context of device 0, current when the function is called; the two structures themselves are in host
+ * memory always. A function may return before the device has finished: the caller synchronises, and counts the time.
+ * Calls come from one thread, one after another; a function may keep what it likes from call to call. Nothing is freed
+ * by the library but what it has allocated.
  *
- * Units: metres, newtons, joules. float is IEEE single precision; indices are from 0; int64_t n is the number of cases. */
+ * Units: metres, newtons, joules. float is IEEE single precision; indices are from 0; int64_t n is the number of cases.
+ */
 #ifndef OGC_COMPARE_PLUGIN_H
 #define OGC_COMPARE_PLUGIN_H
 
@@ -39,8 +44,8 @@ extern "C" {
 
 /* What a library says of itself. `version` stays first in every version of this interface. */
 typedef struct ogc_plugin_info {
-  int32_t version; /* OGC_PLUGIN_VERSION */
-  int32_t memory;  /* OGC_HOST_MEMORY or OGC_DEVICE_MEMORY */
+  int32_t version;  /* OGC_PLUGIN_VERSION */
+  int32_t memory;   /* OGC_HOST_MEMORY or OGC_DEVICE_MEMORY */
   const char* name; /* for the report */
 } ogc_plugin_info;
 
@@ -48,16 +53,16 @@ typedef struct ogc_plugin_info {
 OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void);
 
 #ifdef __cplusplus
-#define OGC_PLUGIN(name, memory)                                                   \
-  extern "C" OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {           \
-    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)};    \
-    return &info;                                                                  \
+#define OGC_PLUGIN(name, memory)                                                \
+  extern "C" OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {        \
+    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)}; \
+    return &info;                                                               \
   }
 #else
-#define OGC_PLUGIN(name, memory)                                                   \
-  OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {                      \
-    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)};    \
-    return &info;                                                                  \
+#define OGC_PLUGIN(name, memory)                                                \
+  OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {                   \
+    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)}; \
+    return &info;                                                               \
   }
 #endif
 
@@ -65,9 +70,10 @@ typedef struct ogc_vec3 {
   float x, y, z;
 } ogc_vec3;
 
-/* ---- closest_face: which face of a closed triangle holds the point closest to a given point ---------------------------------------------------- */
+/* ---- closest_face: which face of a closed triangle holds the point closest to a given point ---------------------- */
 
-/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. On a plane between two of them the lower-dimensional one wins. */
+/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. On a plane between two of them the
+ * lower-dimensional one wins. */
 enum { OGC_CORNER_0, OGC_CORNER_1, OGC_CORNER_2, OGC_EDGE_01, OGC_EDGE_12, OGC_EDGE_20, OGC_INTERIOR };
 
 typedef struct ogc_closest_face_in {
@@ -85,7 +91,7 @@ typedef struct ogc_closest_face_out {
 
 OGC_PLUGIN_EXPORT int ogc_closest_face(const ogc_closest_face_in* in, ogc_closest_face_out* out);
 
-/* ---- closest_points: the closest points of two closed edges ------------------------------------------------------------------------------------ */
+/* ---- closest_points: the closest points of two closed edges ------------------------------------------------------ */
 
 enum { OGC_END_0, OGC_END_1, OGC_EDGE_INTERIOR };
 
@@ -104,7 +110,7 @@ typedef struct ogc_closest_points_out {
 
 OGC_PLUGIN_EXPORT int ogc_closest_points(const ogc_closest_points_in* in, ogc_closest_points_out* out);
 
-/* ---- meshes ------------------------------------------------------------------------------------------------------------------------------------ */
+/* ---- meshes ------------------------------------------------------------------------------------------------------ */
 
 /* Row i is items[offsets[i]] … items[offsets[i + 1] - 1], ascending. */
 typedef struct ogc_rows {
@@ -115,14 +121,14 @@ typedef struct ogc_rows {
 /* Edges are numbered by smaller, then larger vertex. */
 typedef struct ogc_topology {
   int32_t vertex_count, edge_count, triangle_count;
-  const int32_t (*edges)[2];          /* [edge_count] smaller vertex first */
-  const int32_t (*triangles)[3];      /* [triangle_count] */
-  const int32_t (*triangle_edges)[3]; /* [triangle_count] from corner k to corner k+1 */
+  const int32_t (*edges)[2];                                  /* [edge_count] smaller vertex first */
+  const int32_t (*triangles)[3];                              /* [triangle_count] */
+  const int32_t (*triangle_edges)[3];                         /* [triangle_count] from corner k to corner k+1 */
   ogc_rows vertex_edges, vertex_triangles, vertex_neighbours; /* rows by vertex */
-  ogc_rows edge_triangles, edge_opposite;                     /* rows by edge; edge_opposite: vertices that share a triangle with it */
+  ogc_rows edge_triangles, edge_opposite; /* rows by edge; edge_opposite: vertices that share a triangle with it */
 } ogc_topology;
 
-/* ---- detect_vertex_facet, detect_edge_edge: contact sets and smallest distances ------------------------------------------------------------------ */
+/* ---- detect_vertex_facet, detect_edge_edge: contact sets and smallest distances ---------------------------------- */
 
 /* Values of `kind` of a face. */
 enum { OGC_FACE_VERTEX, OGC_FACE_EDGE, OGC_FACE_TRIANGLE };
@@ -130,7 +136,8 @@ enum { OGC_FACE_VERTEX, OGC_FACE_EDGE, OGC_FACE_TRIANGLE };
 typedef struct ogc_detect_in {
   ogc_topology topology;
   const int32_t* rigid_groups; /* [vertex_count] a pair whose vertices all carry one number >= 0 is left out */
-  ogc_rows excluded_partners;  /* rows by vertex, nearly all empty: a pair is left out where a vertex of one side stands in the row of one of the other */
+  ogc_rows excluded_partners;  /* rows by vertex, nearly all empty: a pair is left out where a vertex of one side stands
+                                  in the row of one of the other */
   const ogc_vec3* positions;   /* [vertex_count] */
   float contact_radius;        /* r */
   float query_radius;          /* r_q >= r */
@@ -142,8 +149,8 @@ typedef struct ogc_vertex_facet_contact {
   int32_t owner;      /* the lowest-numbered triangle that contains the face */
 } ogc_vertex_facet_contact;
 
-/* `contacts` has room for `capacity`; set `count` to the number found. Where that is more than the capacity, nothing need be written: the function is
- * called once more with room for as many. In any order, each contact once. */
+/* `contacts` has room for `capacity`; set `count` to the number found. Where that is more than the capacity, nothing
+ * need be written: the function is called once more with room for as many. In any order, each contact once. */
 typedef struct ogc_detect_vertex_facet_out {
   ogc_vertex_facet_contact* contacts;
   int64_t capacity, count;
@@ -153,7 +160,8 @@ typedef struct ogc_detect_vertex_facet_out {
 
 OGC_PLUGIN_EXPORT int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out* out);
 
-/* Two faces of the edge-only manifold, vertices or edges, the lower (by kind, then number) first; the lowest-numbered edges that generate the pair. */
+/* Two faces of the edge-only manifold, vertices or edges, the lower (by kind, then number) first; the lowest-numbered
+ * edges that generate the pair. */
 typedef struct ogc_edge_edge_contact {
   int32_t first_kind, first_face;
   int32_t second_kind, second_face;
@@ -168,7 +176,7 @@ typedef struct ogc_detect_edge_edge_out {
 
 OGC_PLUGIN_EXPORT int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_edge_edge_out* out);
 
-/* ---- bound: how far each vertex may move without touching anything ------------------------------------------------------------------------------- */
+/* ---- bound: how far each vertex may move without touching anything ----------------------------------------------- */
 
 typedef struct ogc_bound_in {
   ogc_topology topology;
@@ -177,15 +185,22 @@ typedef struct ogc_bound_in {
 } ogc_bound_in;
 
 typedef struct ogc_bound_out {
-  float* bound; /* [vertex_count] never above gamma_p times the smallest distance of the vertex, its edges and its triangles */
+  float* bound; /* [vertex_count] never above gamma_p times the smallest distance of the vertex, its edges and its
+                   triangles */
 } ogc_bound_out;
 
 OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
 
-/* ---- activation: contact energy over distance ---------------------------------------------------------------------------------------------------- */
+/* ---- activation: contact energy over distance -------------------------------------------------------------------- */
 
 /* Which energy. */
-enum { OGC_ACTIVATION_OGC, OGC_ACTIVATION_OGC_AS_PRINTED, OGC_ACTIVATION_QUADRATIC, OGC_ACTIVATION_IPC_LOG, OGC_ACTIVATION_CUBIC };
+enum {
+  OGC_ACTIVATION_OGC,
+  OGC_ACTIVATION_OGC_AS_PRINTED,
+  OGC_ACTIVATION_QUADRATIC,
+  OGC_ACTIVATION_IPC_LOG,
+  OGC_ACTIVATION_CUBIC
+};
 
 typedef struct ogc_activation_in {
   int64_t n;
@@ -199,7 +214,7 @@ typedef struct ogc_activation_out {
 
 OGC_PLUGIN_EXPORT int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out);
 
-/* ---- truncate: a vertex kept within its bound ---------------------------------------------------------------------------------------------------- */
+/* ---- truncate: a vertex kept within its bound -------------------------------------------------------------------- */
 
 typedef struct ogc_truncate_in {
   int64_t n;
@@ -208,13 +223,14 @@ typedef struct ogc_truncate_in {
 } ogc_truncate_in;
 
 typedef struct ogc_truncate_out {
-  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound exactly; bit for bit what came in where nothing is exceeded */
+  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound exactly; bit for bit what came in where nothing
+                         is exceeded */
   uint8_t* exceeded;  /* [n] 1 where the given position was farther than the bound */
 } ogc_truncate_out;
 
 OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out);
 
-/* ---- membrane, bending, …: force and block of one vertex of one stencil -------------------------------------------------------------------------- */
+/* ---- membrane, bending, …: force and block of one vertex of one stencil ------------------------------------------ */
 
 enum { OGC_MEMBRANE_NONE, OGC_ST_VENANT_KIRCHHOFF, OGC_STABLE_NEO_HOOKEAN };
 enum { OGC_BENDING_NONE, OGC_DISCRETE_HINGE, OGC_ISOMETRIC_QUADRATIC };
@@ -236,7 +252,7 @@ typedef struct ogc_membrane_in {
 typedef struct ogc_bending_case {
   ogc_vec3 vertex[4], start[4];
   float stiffness, rest_angle, damping;
-  int32_t own;     /* which vertex is asked about */
+  int32_t own; /* which vertex is asked about */
   int32_t model;
   float weight[3]; /* isometric quadratic: of x1, o0, o1; that of x0 is minus their sum */
   int64_t damping_form;
@@ -270,7 +286,12 @@ OGC_PLUGIN_EXPORT int ogc_bending(const ogc_bending_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_spring(const ogc_spring_in* in, ogc_force_out* out);
 
 /* The faces that meet in a contact, and their vertices: first side | second side. */
-enum { OGC_POINT_POINT /* 0 | 1 */, OGC_POINT_EDGE /* 0 | 1 2 */, OGC_EDGE_EDGE /* 0 1 | 2 3 */, OGC_POINT_TRIANGLE /* 0 | 1 2 3 */ };
+enum {
+  OGC_POINT_POINT /* 0 | 1 */,
+  OGC_POINT_EDGE /* 0 | 1 2 */,
+  OGC_EDGE_EDGE /* 0 1 | 2 3 */,
+  OGC_POINT_TRIANGLE /* 0 | 1 2 3 */
+};
 
 typedef struct ogc_contact_force_case {
   uint8_t sides;
@@ -301,7 +322,7 @@ typedef struct ogc_friction_force_in {
 OGC_PLUGIN_EXPORT int ogc_contact_force(const ogc_contact_force_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_friction_force(const ogc_friction_force_in* in, ogc_force_out* out);
 
-/* ---- initial_guess: one round of the guess loop for one vertex ----------------------------------------------------------------------------------- */
+/* ---- initial_guess: one round of the guess loop for one vertex --------------------------------------------------- */
 
 typedef struct ogc_initial_guess_case {
   ogc_vec3 start, velocity, acceleration;
@@ -323,7 +344,7 @@ typedef struct ogc_initial_guess_out {
 
 OGC_PLUGIN_EXPORT int ogc_initial_guess(const ogc_initial_guess_in* in, ogc_initial_guess_out* out);
 
-/* ---- block: is a point in the block of a face? --------------------------------------------------------------------------------------------------- */
+/* ---- block: is a point in the block of a face? ------------------------------------------------------------------- */
 
 enum { OGC_VERTEX_IN_SURFACE, OGC_EDGE_IN_EDGES };
 
@@ -347,7 +368,7 @@ typedef struct ogc_block_out {
 
 OGC_PLUGIN_EXPORT int ogc_block(const ogc_block_in* in, ogc_block_out* out);
 
-/* ---- scenes -------------------------------------------------------------------------------------------------------------------------------------- */
+/* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
 /* An edge with exactly two triangles; opposite[k]: the vertex of triangles[k] that is not on it. */
 typedef struct ogc_hinge {
@@ -359,7 +380,8 @@ typedef struct ogc_body {
   int32_t first_vertex, vertex_count, first_triangle, triangle_count;
   int32_t fixed;             /* 1: never moves, has no energies */
   int32_t membrane, bending; /* OGC_MEMBRANE_NONE, …, OGC_BENDING_NONE, … */
-  float density, lame_lambda, lame_mu, membrane_damping, bending_stiffness, bending_damping, contact_stiffness, friction;
+  float density, lame_lambda, lame_mu, membrane_damping, bending_stiffness, bending_damping, contact_stiffness,
+      friction;
 } ogc_body;
 
 typedef struct ogc_scene_spring {
@@ -388,22 +410,24 @@ typedef struct ogc_scene {
   ogc_vec3 gravity;
 } ogc_scene;
 
-/* ---- rest_state: what is computed once of the rest shape ------------------------------------------------------------------------------------------ */
+/* ---- rest_state: what is computed once of the rest shape --------------------------------------------------------- */
 
-/* The rest state as sweep reads it; lists in the order of the topology, without fixed bodies and without models `none`. */
+/* The rest state as sweep reads it; lists in the order of the topology, without fixed bodies and without models `none`.
+ */
 typedef struct ogc_rest {
-  const float* mass;                /* [vertex_count] */
+  const float* mass; /* [vertex_count] */
   int32_t triangle_count, hinge_count;
-  const int32_t (*corner)[3];       /* [triangle_count] */
-  const int32_t* triangle_body;     /* [triangle_count] */
-  const float* area;                /* [triangle_count] */
-  const float (*gradient)[2][2];    /* [triangle_count] of N_1, N_2 */
-  const int32_t (*hinge_vertex)[4]; /* [hinge_count] x0 < x1 of the edge, the opposite vertices */
-  const int32_t* hinge_body;        /* [hinge_count] */
+  const int32_t (*corner)[3];                /* [triangle_count] */
+  const int32_t* triangle_body;              /* [triangle_count] */
+  const float* area;                         /* [triangle_count] */
+  const float (*gradient)[2][2];             /* [triangle_count] of N_1, N_2 */
+  const int32_t (*hinge_vertex)[4];          /* [hinge_count] x0 < x1 of the edge, the opposite vertices */
+  const int32_t* hinge_body;                 /* [hinge_count] */
   const float *rest_angle, *hinge_stiffness; /* [hinge_count] */
-  const float (*weight)[3];         /* [hinge_count] isometric quadratic: of x1, o0, o1; otherwise 0 */
-  const float* edge_length_squared; /* [edge_count] */
-  const float *meeting_stiffness, *meeting_friction; /* [body_count * body_count] of bodies a and b at a * body_count + b */
+  const float (*weight)[3];                  /* [hinge_count] isometric quadratic: of x1, o0, o1; otherwise 0 */
+  const float* edge_length_squared;          /* [edge_count] */
+  const float *meeting_stiffness,
+      *meeting_friction; /* [body_count * body_count] of bodies a and b at a * body_count + b */
 } ogc_rest;
 
 /* Likewise, to be written. A list has room for its capacity; set its count, as with contacts. */
@@ -424,17 +448,17 @@ typedef struct ogc_rest_state_out {
 
 OGC_PLUGIN_EXPORT int ogc_rest_state(const ogc_scene* in, ogc_rest_state_out* out);
 
-/* ---- sweep: one iteration over all colours -------------------------------------------------------------------------------------------------------- */
+/* ---- sweep: one iteration over all colours ----------------------------------------------------------------------- */
 
 typedef struct ogc_sweep_in {
   ogc_scene scene;
   ogc_rest rest;
-  const int32_t* colour;                            /* [vertex_count] -1: prescribed or fixed */
-  const ogc_vec3 *old, *start, *target, *previous;  /* [vertex_count] x, x at the start of the step, y, X_prev */
-  const float* bound;                               /* [vertex_count] */
+  const int32_t* colour;                           /* [vertex_count] -1: prescribed or fixed */
+  const ogc_vec3 *old, *start, *target, *previous; /* [vertex_count] x, x at the start of the step, y, X_prev */
+  const float* bound;                              /* [vertex_count] */
   int64_t vertex_facet_count, edge_edge_count;
-  const ogc_vertex_facet_contact* vertex_facet;     /* [vertex_facet_count] found at X_prev, sorted */
-  const ogc_edge_edge_contact* edge_edge;           /* [edge_edge_count] likewise */
+  const ogc_vertex_facet_contact* vertex_facet; /* [vertex_facet_count] found at X_prev, sorted */
+  const ogc_edge_edge_contact* edge_edge;       /* [edge_edge_count] likewise */
 } ogc_sweep_in;
 
 typedef struct ogc_sweep_out {
@@ -444,7 +468,7 @@ typedef struct ogc_sweep_out {
 
 OGC_PLUGIN_EXPORT int ogc_sweep(const ogc_sweep_in* in, ogc_sweep_out* out);
 
-/* ---- step: a whole step, told event by event ------------------------------------------------------------------------------------------------------ */
+/* ---- step: a whole step, told event by event --------------------------------------------------------------------- */
 
 typedef struct ogc_step_in {
   ogc_scene scene;
@@ -455,21 +479,22 @@ typedef struct ogc_step_in {
 /* Values of `kind` of an event. */
 enum { OGC_DETECTION, OGC_GUESS, OGC_SWEEP };
 
-/* Lists have room for their capacities; set their counts, as with contacts. The i-th detection is the i-th event of that kind. Of all detections together are
- * the two lists of contacts: those of the i-th end where `vertex_facet_end` and `edge_edge_end` say. */
+/* Lists have room for their capacities; set their counts, as with contacts. The i-th detection is the i-th event of
+ * that kind. Of all detections together are the two lists of contacts: those of the i-th end where `vertex_facet_end`
+ * and `edge_edge_end` say. */
 typedef struct ogc_step_out {
-  ogc_rest_state_out rest; /* of the sweeps */
-  int32_t* colour;         /* [vertex_count] of the sweeps; -1: prescribed or fixed */
-  float* query_radius;     /* [1] */
+  ogc_rest_state_out rest;                /* of the sweeps */
+  int32_t* colour;                        /* [vertex_count] of the sweeps; -1: prescribed or fixed */
+  float* query_radius;                    /* [1] */
   ogc_vec3 *target, *position, *velocity; /* [vertex_count] y, and the end of the step */
   int64_t event_capacity, event_count;
   int32_t* kind;            /* [event_count] */
   int32_t* cut;             /* [event_count] of guess and sweep; of a detection 0 */
   ogc_vec3* event_position; /* [event_count][vertex_count] after the event; of a detection X_prev */
   int64_t detection_capacity, detection_count;
-  float *d_min_vertex, *bound; /* [detection_count][vertex_count] */
-  float* d_min_triangle;       /* [detection_count][triangle_count] */
-  float* d_min_edge;           /* [detection_count][edge_count] */
+  float *d_min_vertex, *bound;               /* [detection_count][vertex_count] */
+  float* d_min_triangle;                     /* [detection_count][triangle_count] */
+  float* d_min_edge;                         /* [detection_count][edge_count] */
   int32_t *vertex_facet_end, *edge_edge_end; /* [detection_count] */
   int64_t vertex_facet_capacity, vertex_facet_count, edge_edge_capacity, edge_edge_count;
   ogc_vertex_facet_contact* vertex_facet;

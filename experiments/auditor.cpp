@@ -13,7 +13,8 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Two states wait while a third is judged: the simulation is never idle for want of a buffer, and memory stays a few states.
+/// Two states wait while a third is judged: the simulation is never idle for want of a buffer, and memory stays a few
+/// states.
 constexpr std::size_t most_waiting = 2;
 
 constexpr std::array<std::string_view, 4> audit_names{"every", "frame", "end", "off"};  // by AuditMode
@@ -24,14 +25,16 @@ std::string name_of(AuditMode mode) { return std::string(audit_names[static_cast
 
 AuditMode audit_mode(const std::string& name) {
   const auto found = std::ranges::find(audit_names, name);
-  if (found == audit_names.end()) throw compare::InputError("audit: " + compare::unknown_name("mode", name, audit_names));
+  if (found == audit_names.end())
+    throw compare::InputError("audit: " + compare::unknown_name("mode", name, audit_names));
   return static_cast<AuditMode>(found - audit_names.begin());
 }
 
 std::string left_out_of_audits(const compare::Scene& scene) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
-  if (!scene.excluded_pairs.empty()) add("pairs beside " + counted(scene.excluded_pairs.size(), "excluded pair") + " of vertices");
+  if (!scene.excluded_pairs.empty())
+    add("pairs beside " + counted(scene.excluded_pairs.size(), "excluded pair") + " of vertices");
   for (const compare::PrescribedMotion& motion : scene.motions)
     if (!motion.keyframes.empty()) add("pairs inside '" + motion.name + "', which moves by keyframes");
   return text;

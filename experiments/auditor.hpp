@@ -1,6 +1,6 @@
-// Judges the states of a run while it goes on: exact intersections by the oracle, and the motion certificate against exact bounds of the reference
-// (method.md §5.5). On a device that computes elsewhere it works beside the simulation; on the CPU it takes turns with it, so that it does not
-// steal the cores whose time a step is measured by.
+// Judges the states of a run while it goes on: exact intersections by the oracle, and the motion certificate against
+// exact bounds of the reference (method.md §5.5). On a device that computes elsewhere it works beside the simulation;
+// on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured by.
 #pragma once
 
 #include <condition_variable>
@@ -34,8 +34,8 @@ struct Verdict {
   std::int64_t step = 0;
   compare::AuditResult intersections;
   compare::MotionCertificate motion;
-  std::size_t unsafe_bounds = 0;      ///< vertices whose b_v is above the exact bound of X_prev
-  compare::Index worst_vertex = -1;   ///< of the largest b_v / exact bound among them
+  std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
+  compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
   double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
   bool kept() const { return intersections.count == 0 && motion.kept() && unsafe_bounds == 0; }
 };

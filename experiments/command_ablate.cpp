@@ -1,11 +1,12 @@
-// `ogc ablate`: a grid of runs that differ in some settings, one run folder for each point, and one table over all of them.
+// `ogc ablate`: a grid of runs that differ in some settings, one run folder for each point, and one table over all of
+// them.
 #include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include "compare/files/durable_file.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
-#include "compare/files/durable_file.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/interrupt.hpp"
@@ -58,7 +59,8 @@ std::vector<Point> grid(const std::vector<Axis>& axes) {
 
 std::string name_of(const std::vector<Axis>& axes, const Point& point) {
   std::string name;
-  for (std::size_t i = 0; i < axes.size(); ++i) name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
   return name;
 }
 
@@ -66,9 +68,12 @@ std::string name_of(const std::vector<Axis>& axes, const Point& point) {
 RunOptions options_at(const RunOptions& base, const std::vector<Axis>& axes, const Point& point) {
   RunOptions options = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (axes[i].key == "solver") options.solver = point[i];
-    else if (axes[i].key == "backend") options.backend = point[i];
-    else options.assignments.push_back(axes[i].key + "=" + point[i]);
+    if (axes[i].key == "solver")
+      options.solver = point[i];
+    else if (axes[i].key == "backend")
+      options.backend = point[i];
+    else
+      options.assignments.push_back(axes[i].key + "=" + point[i]);
   }
   options.out = base.out + "/" + name_of(axes, point);
   return options;
@@ -89,8 +94,9 @@ double largest_residual(const std::string& folder) {
 std::vector<std::string> columns(const std::vector<Axis>& axes) {
   std::vector<std::string> names;
   for (const Axis& axis : axes) names.push_back(axis.key);
-  for (const char* name : {"status", "steps [1]", "median_step [ms]", "worst_step [ms]", "iterations_a_step [1]", "detections_a_step [1]", "most_contacts [1]",
-                           "largest_residual [1]", "smallest_distance [m]", "guarantee_kept", "final_hash", "folder"})
+  for (const char* name :
+       {"status", "steps [1]", "median_step [ms]", "worst_step [ms]", "iterations_a_step [1]", "detections_a_step [1]",
+        "most_contacts [1]", "largest_residual [1]", "smallest_distance [m]", "guarantee_kept", "final_hash", "folder"})
     names.emplace_back(name);
   return names;
 }
@@ -157,16 +163,23 @@ void ablate(const AblateOptions& options, CommandContext& context) {
 
 void add_ablate_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<AblateOptions>();
-  CLI::App* command = app.add_subcommand("ablate", "Run a scene over a grid of settings, one run folder for each point, and tabulate");
+  CLI::App* command = app.add_subcommand(
+      "ablate", "Run a scene over a grid of settings, one run folder for each point, and tabulate");
   add_run_options(*command, options->run);
-  command->add_option("--vary", options->vary, "key=a,b,c: a setting, or solver, or backend; repeatable, all combinations are run")
-      ->take_all()->type_size(1)->expected(1)->required();
+  command
+      ->add_option("--vary", options->vary,
+                   "key=a,b,c: a setting, or solver, or backend; repeatable, all combinations are run")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1)
+      ->required();
   command->add_flag("--json", context.json, "Print the summaries as JSON on standard output");
   command->footer(settings_help() +
                   "\nExamples:\n"
                   "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary activation=ogc,ipc_log,cubic\n"
                   "  ogc ablate twist --vary iterations=5,10,20 --vary redetect_fraction=0,0.01,0.1 --out grid\n\n"
-                  "The folder given by --out holds one run folder for each point, named key=value,…, and ablation.csv. A point that fails is a row like the others;\n"
+                  "The folder given by --out holds one run folder for each point, named key=value,…, and ablation.csv. "
+                  "A point that fails is a row like the others;\n"
                   "exit status 1 says that there was one.");
   command->callback([options, &context] { ablate(*options, context); });
 }

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
 
 #include "compare/problem/error.hpp"
 #include "experiments/audits/audit_source.hpp"
@@ -56,8 +56,11 @@ Json to_json(const SmallestDistances& distances, const compare::Topology& topolo
   }
   if (distances.edge >= 0) {
     const auto vertices = [&](compare::Index e) { return topology.edges[static_cast<std::size_t>(e)]; };
-    json["edge_edge"] = {{"distance", distances.edge_edge}, {"edge", distances.edge}, {"edge_vertices", vertices(distances.edge)},
-                         {"other_edge", distances.other_edge}, {"other_edge_vertices", vertices(distances.other_edge)},
+    json["edge_edge"] = {{"distance", distances.edge_edge},
+                         {"edge", distances.edge},
+                         {"edge_vertices", vertices(distances.edge)},
+                         {"other_edge", distances.other_edge},
+                         {"other_edge_vertices", vertices(distances.other_edge)},
                          {"names", {names.edge(vertices(distances.edge)), names.edge(vertices(distances.other_edge))}}};
   }
   return json;
@@ -157,9 +160,10 @@ Audits audit_all(AuditSource& source, const std::string& show) {
       progress.show(static_cast<std::int64_t>(audits.states.size()), counted(audited.result.count, "intersection"));
   };
   const auto together = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  tbb::parallel_pipeline(together, tbb::make_filter<void, Handle>(tbb::filter_mode::serial_in_order, std::ref(reading)) &
-                                       tbb::make_filter<Handle, Handle>(tbb::filter_mode::parallel, judge) &
-                                       tbb::make_filter<Handle, void>(tbb::filter_mode::serial_in_order, keep));
+  tbb::parallel_pipeline(together,
+                         tbb::make_filter<void, Handle>(tbb::filter_mode::serial_in_order, std::ref(reading)) &
+                             tbb::make_filter<Handle, Handle>(tbb::filter_mode::parallel, judge) &
+                             tbb::make_filter<Handle, void>(tbb::filter_mode::serial_in_order, keep));
   return audits;
 }
 
@@ -173,10 +177,10 @@ std::string describe_distances(const std::vector<State>& states) {
            pair.at("names").at(0).get<std::string>() + " and " + pair.at("names").at(1).get<std::string>() +
            (states.size() == 1 ? "" : ", " + state.name) + "\n";
   };
-  const auto& facet = *std::ranges::min_element(
-      states, {}, [](const State& state) { return state.distances.vertex_triangle; });
-  const auto& edges =
-      *std::ranges::min_element(states, {}, [](const State& state) { return state.distances.edge_edge; });
+  const auto& facet = *std::ranges::min_element(states, {},
+                                                [](const State& state) { return state.distances.vertex_triangle; });
+  const auto& edges = *std::ranges::min_element(states, {},
+                                                [](const State& state) { return state.distances.edge_edge; });
   return describe_pair("a vertex to a triangle without it", facet, "vertex_triangle") +
          describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
@@ -272,7 +276,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "audit", "Exact self-intersection audit of a mesh, of a run, or of the frames of any other program");
   command
       ->add_option("MESH|FRAMES|RUN", options->request.paths,
-                   "A mesh (.obj, .ply, .vtp, .stl, .off, .gltf, .glb), several of them as frames, a folder of them, frames in one file (.npz, "
+                   "A mesh (.obj, .ply, .vtp, .stl, .off, .gltf, .glb), several of them as frames, a folder of them, "
+                   "frames in one file (.npz, "
                    ".npy, .pc2), or a run folder")
       ->required();
   command->add_option("--mesh", options->request.topology,

@@ -1,4 +1,5 @@
-// `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and saved failures.
+// `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and
+// saved failures.
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -73,23 +74,27 @@ Judged judged_of(const CompareOptions& options) {
 /// What a plug-in has decides which stages are judged where none is named; one that is named must be there.
 void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
   if (judged.plugin->offered().empty())
-    throw InputError(options.plugin + ": it has no stage's function; write one, such as ogc_truncate (compare/plugin.h)");
+    throw InputError(options.plugin +
+                     ": it has no stage's function; write one, such as ogc_truncate (compare/plugin.h)");
   for (const std::string& name : options.stages)
     if (compare::find_stage(name) && !judged.plugin->has(name))
-      throw InputError(options.plugin + ": it has no function ogc_" + name + "; its stages: " + judged.plugin->offered());
+      throw InputError(options.plugin + ": it has no function ogc_" + name +
+                       "; its stages: " + judged.plugin->offered());
   if (!options.stages.empty()) return;
   for (const Stage stage : compare::all_stages)
     if (judged.plugin->has(compare::stage_name(stage))) options.stages.emplace_back(compare::stage_name(stage));
 }
 
-/// The stages asked for, in the order of all_stages; all of those that the generator and both sides have where none is named.
+/// The stages asked for, in the order of all_stages; all of those that the generator and both sides have where none is
+/// named.
 std::vector<Stage> stages_of(const CompareOptions& options) {
   std::vector<Stage> stages;
   for (const std::string& name : options.stages) {
     const auto stage = compare::find_stage(name);
     if (!stage) {
       std::string known;
-      for (const Stage s : compare::all_stages) known += (known.empty() ? "" : ", ") + std::string(compare::stage_name(s));
+      for (const Stage s : compare::all_stages)
+        known += (known.empty() ? "" : ", ") + std::string(compare::stage_name(s));
       throw InputError("there is no stage '" + name + "'; known: " + known);
     }
     stages.push_back(*stage);
@@ -111,8 +116,8 @@ std::vector<compare::TestCase> given_cases(const CompareOptions& options, OpenSt
   return cases;
 }
 
-std::vector<StageReport> judge_generated(const CompareOptions& options, OpenStates& states, const compare::Contestant& contestant,
-                                         const compare::Authority& authority) {
+std::vector<StageReport> judge_generated(const CompareOptions& options, OpenStates& states,
+                                         const compare::Contestant& contestant, const compare::Authority& authority) {
   std::vector<StageReport> reports;
   for (const Stage stage : stages_of(options)) {
     const std::string name(compare::stage_name(stage));
@@ -124,7 +129,8 @@ std::vector<StageReport> judge_generated(const CompareOptions& options, OpenStat
     judge.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
     judge.states = states.of(options.states);
     judge.progress = [&](std::uint64_t done, std::uint64_t mismatches) {
-      progress.show(static_cast<std::int64_t>(std::min(done, options.cases)), std::to_string(mismatches) + " mismatches");
+      progress.show(static_cast<std::int64_t>(std::min(done, options.cases)),
+                    std::to_string(mismatches) + " mismatches");
     };
     reports.push_back(compare::judge_stage(stage, contestant, authority, judge));
     progress.end();
@@ -132,7 +138,8 @@ std::vector<StageReport> judge_generated(const CompareOptions& options, OpenStat
   return reports;
 }
 
-void write_report(const std::filesystem::path& folder, const std::vector<StageReport>& reports, const std::string& judged) {
+void write_report(const std::filesystem::path& folder, const std::vector<StageReport>& reports,
+                  const std::string& judged) {
   std::string lines;
   for (const StageReport& report : reports) lines += compare::report_json(report).dump() + "\n";
   compare::write_bytes(folder / "report.jsonl", lines);
@@ -149,9 +156,13 @@ int list_stages(const CompareOptions& options) {
 /// --determinism: no truth is asked for, only whether bits stay the same.
 int judge_bits(const CompareOptions& options, const CommandContext& context) {
   const auto reports = determinism_of(backend_of(options.backend), stages_of(options), options.cases, options.seed);
-  if (context.json) print_result(Json{{"backend", options.backend}, {"stages", determinism_json(reports)}});
-  else print_result(compare::determinism_table(reports));
-  return std::all_of(reports.begin(), reports.end(), [](const auto& report) { return report.changed.empty(); }) ? exit_success : exit_check_failed;
+  if (context.json)
+    print_result(Json{{"backend", options.backend}, {"stages", determinism_json(reports)}});
+  else
+    print_result(compare::determinism_table(reports));
+  return std::all_of(reports.begin(), reports.end(), [](const auto& report) { return report.changed.empty(); })
+             ? exit_success
+             : exit_check_failed;
 }
 
 void print_reports(const std::vector<StageReport>& reports, const std::optional<PluginSeen>& plugin,
@@ -172,7 +183,9 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
   for (const StageReport& report : reports)
     if (report.tally.mismatched > 0) text += "\n" + compare::report_mismatches(report, printed_mismatches);
   for (const compare::Explanation& explanation : explanations) text += "\n" + compare::explanation_text(explanation);
-  if (!saved.empty()) text += "\n" + counted(saved.size(), "failing case") + " saved; replay one with: ogc compare --replay " + saved.front() + "\n";
+  if (!saved.empty())
+    text += "\n" + counted(saved.size(), "failing case") + " saved; replay one with: ogc compare --replay " +
+            saved.front() + "\n";
   print_result(text);
 }
 
@@ -187,11 +200,13 @@ int run(CompareOptions options, const CommandContext& context) {
   OpenStates states(authority);
   const bool is_given = !options.problem.empty() || !options.batch.empty() || !options.replay.empty();
   const std::vector<compare::TestCase> given = given_cases(options, states);
-  if (is_given && given.empty()) throw InputError(options.batch + ": holds no problem; write one problem string a line");
-  std::vector<StageReport> reports =
-      is_given ? compare::judge_cases(given, judged.contestant, authority) : judge_generated(options, states, judged.contestant, authority);
+  if (is_given && given.empty())
+    throw InputError(options.batch + ": holds no problem; write one problem string a line");
+  std::vector<StageReport> reports = is_given ? compare::judge_cases(given, judged.contestant, authority)
+                                              : judge_generated(options, states, judged.contestant, authority);
   if (judged.plugin)  // the judge's clock ran while the question travelled, and while ours answered
-    for (StageReport& report : reports) report.tally.contestant_seconds = judged.plugin->seconds(compare::stage_name(report.tally.stage));
+    for (StageReport& report : reports)
+      report.tally.contestant_seconds = judged.plugin->seconds(compare::stage_name(report.tally.stage));
   std::optional<PluginSeen> plugin;
   if (judged.plugin) plugin = PluginSeen{judged.plugin->name(), judged.backend, *judged.times, judged.plugin->notes()};
   const std::filesystem::path folder = options.report.empty() ? "ogc-compare" : options.report;
@@ -212,7 +227,8 @@ int run(CompareOptions options, const CommandContext& context) {
 
 std::string all_stage_names() {
   std::string names;
-  for (const Stage stage : compare::all_stages) names += (names.empty() ? "" : ", ") + std::string(compare::stage_name(stage));
+  for (const Stage stage : compare::all_stages)
+    names += (names.empty() ? "" : ", ") + std::string(compare::stage_name(stage));
   return names;
 }
 
@@ -221,16 +237,18 @@ std::string all_stage_names() {
 void add_compare_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "Differential test of the fast stages against the exact reference");
-  command->add_option("STAGE", options->stages,
-                      all_stage_names() + "; none: all that both sides have");
+  command->add_option("STAGE", options->stages, all_stage_names() + "; none: all that both sides have");
   command->add_option("--backend", options->backend, "cpu or cuda")->capture_default_str();
-  command->add_option("--cases", options->cases, "Cases a stage; for meshes a case is a vertex or an edge, for steps a vertex at an event")
+  command
+      ->add_option("--cases", options->cases,
+                   "Cases a stage; for meshes a case is a vertex or an edge, for steps a vertex at an event")
       ->capture_default_str()
       ->check(whole_number(1, most_cases));
   command->add_option("--seed", options->seed, "Of the generators")
       ->capture_default_str()
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-  command->add_option("--generator", options->generator, "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
+  command->add_option("--generator", options->generator,
+                      "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
   command->add_option("--states", options->states, "A run folder, whose frames become cases too");
   auto* problem = command->add_option(
       "--problem", options->problem,
@@ -239,15 +257,21 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   auto* replay = command->add_option("--replay", options->replay, "A failing case as saved: shrunk, with every bit");
   problem->excludes(replay);
   batch->excludes(replay);
-  command->add_option("--plugin", options->plugin, "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
+  command->add_option(
+      "--plugin", options->plugin,
+      "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
   command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")
       ->capture_default_str()
       ->check(whole_number(1, 3600));
-  command->add_option("--report", options->report, "Folder for report.html, report.jsonl, report.txt and failures/ (without it failures go to ogc-compare/failures)");
+  command->add_option("--report", options->report,
+                      "Folder for report.html, report.jsonl, report.txt and failures/ (without it failures go to "
+                      "ogc-compare/failures)");
   command->add_flag("--determinism", options->determinism,
-                    "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of threads? The digests of two machines or builds "
+                    "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of "
+                    "threads? The digests of two machines or builds "
                     "may be compared");
-  auto* list = command->add_flag("--list", options->list, "Print all stages with what they are asked, their generators and parameters");
+  auto* list = command->add_flag("--list", options->list,
+                                 "Print all stages with what they are asked, their generators and parameters");
   command->add_flag("--markdown", options->markdown, "With --list: as the table of compare/README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(

@@ -3,8 +3,8 @@
 #include <map>
 #include <memory>
 
-#include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
 
 #include "compare/oracle/audit.hpp"
 #include "compare/problem/error.hpp"
@@ -23,7 +23,8 @@ namespace {
 constexpr double default_query_ratio = 4;
 /// The largest lengths of settings: of r, and of r_q, whose cap counts in r.
 constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius = 0x1p30;
-/// r where none is given: cloth scenes of the paper lie between a fifth of an edge (twist) and a whole one (large_radius_twist).
+/// r where none is given: cloth scenes of the paper lie between a fifth of an edge (twist) and a whole one
+/// (large_radius_twist).
 constexpr double default_radius_ratio = 0.2;
 
 struct Options {
@@ -59,7 +60,8 @@ void expect_engine(const std::string& engine) {
 
 void run(const Options& options, const CommandContext& context) {
   if (options.schema) return print_result(contacts_schema());
-  if (options.mesh.empty()) throw compare::InputError("ogc contacts needs a mesh, or --schema; see ogc contacts --help");
+  if (options.mesh.empty())
+    throw compare::InputError("ogc contacts needs a mesh, or --schema; see ogc contacts --help");
   if (options.engine != "exact" && (options.further.ipc || options.further.sdf))
     throw compare::InputError("--ipc and --sdf are answered by the reference; take --engine exact");
   expect_engine(options.engine);
@@ -71,16 +73,18 @@ void run(const Options& options, const CommandContext& context) {
   const double radius = options.radius > 0 ? options.radius : default_radius_ratio * mean_edge_length(mesh);
   const double query_radius = options.query_radius > 0 ? options.query_radius : default_query_ratio * radius;
   if (query_radius < radius)
-    throw compare::InputError("--query-radius " + number(query_radius) + " is below the contact radius " + number(radius) + "; give at least that");
+    throw compare::InputError("--query-radius " + number(query_radius) + " is below the contact radius " +
+                              number(radius) + "; give at least that");
   const std::map<std::string, Engine> engines{{"exact", Engine::exact}, {"cpu", Engine::cpu}, {"cuda", Engine::cuda}};
   const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
   const auto start = std::chrono::steady_clock::now();
-  const ContactReport report =
-      find_contacts(mesh, engines.at(options.engine), static_cast<float>(radius), static_cast<float>(query_radius), bound_relaxation, options.further);
+  const ContactReport report = find_contacts(mesh, engines.at(options.engine), static_cast<float>(radius),
+                                             static_cast<float>(query_radius), bound_relaxation, options.further);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::size_t intersections = compare::audit(report.topology, mesh.positions).count;
   if (intersections > 0)
-    log_line("ogc: " + options.mesh + " intersects itself (" + counted(intersections, "pair") + ", see ogc audit): these bounds keep nothing apart");
+    log_line("ogc: " + options.mesh + " intersects itself (" + counted(intersections, "pair") +
+             ", see ogc audit): these bounds keep nothing apart");
   if (!context.json) return print_result(describe(report, input.names));
   Json head{{"format", "ogc contacts 2"},
             {"mesh", options.mesh},
@@ -106,14 +110,19 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
   command->add_option("--query-radius", options->query_radius, "Query radius r_q ≥ r [m] (default: 4 r)")
       ->check(real_number(least_radius, most_query_radius, "m"));
   command->add_option("--engine", options->engine, "exact (the reference), cpu or cuda (the fast path)")
-      ->check(CLI::IsMember({"exact", "cpu", "cuda"}))->capture_default_str();
+      ->check(CLI::IsMember({"exact", "cpu", "cuda"}))
+      ->capture_default_str();
   add_threads_option(*command, options->threads);
-  command->add_flag("--ipc", options->further.ipc, "List F_IPC (Eq. 3) too; exact engine, looks at all pairs of vertices and triangles");
+  command->add_flag("--ipc", options->further.ipc,
+                    "List F_IPC (Eq. 3) too; exact engine, looks at all pairs of vertices and triangles");
   command->add_flag("--sdf", options->further.sdf, "List F_SDF (Eq. 4) too; likewise");
-  command->add_flag("!--no-margins", options->margins, "Leave the margins of contacts out of the JSON, which they make several times as large");
-  command->add_flag("--squares", options->squares, "With --json: the exact squares of smallest distances and bounds, as fractions [m²]");
+  command->add_flag("!--no-margins", options->margins,
+                    "Leave the margins of contacts out of the JSON, which they make several times as large");
+  command->add_flag("--squares", options->squares,
+                    "With --json: the exact squares of smallest distances and bounds, as fractions [m²]");
   command->add_flag("--schema", options->schema, "Print the JSON Schema of --json");
-  command->add_flag("--json", context.json, "Print all contacts, sets by primitive, smallest distances and bounds as JSON on standard output");
+  command->add_flag("--json", context.json,
+                    "Print all contacts, sets by primitive, smallest distances and bounds as JSON on standard output");
   command->footer(
       "The exact engine's JSON has the signed margins of every contact to the boundaries of its blocks and the kind of "
       "every vertex besides;\n"

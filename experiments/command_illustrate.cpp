@@ -19,8 +19,8 @@ struct Options {
 };
 
 Json to_json(const reference::DrawingLayer& layer) {
-  return {{"name", layer.name},     {"closed", layer.closed}, {"points", layer.points}, {"triangles", layer.triangles}, {"lines", layer.lines},
-          {"values", layer.values}};
+  return {{"name", layer.name},           {"closed", layer.closed}, {"points", layer.points},
+          {"triangles", layer.triangles}, {"lines", layer.lines},   {"values", layer.values}};
 }
 
 Json to_json(const std::string& figure, const std::vector<reference::DrawingPanel>& panels) {
@@ -41,7 +41,8 @@ void run(const Options& options, const CommandContext& context) {
   }
   Json written = Json::array();
   for (const std::string& figure : figures) {
-    const Json json = to_json(figure, figure == "fig21d" ? reference::activation_drawing() : reference::illustration(figure));
+    const Json json = to_json(figure,
+                              figure == "fig21d" ? reference::activation_drawing() : reference::illustration(figure));
     const std::string path = (std::filesystem::path(options.folder) / (figure + ".json")).string();
     compare::write_bytes(path, json.dump() + "\n");
     written.push_back(path);
@@ -54,15 +55,18 @@ void run(const Options& options, const CommandContext& context) {
 
 void add_illustrate_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("illustrate", "Data of the paper's drawings of blocks, Gauss maps, contact sets and truncated steps (Fig. 2c to e, 3 to 9, 22)");
+  CLI::App* command = app.add_subcommand("illustrate",
+                                         "Data of the paper's drawings of blocks, Gauss maps, contact sets and "
+                                         "truncated steps (Fig. 2c to e, 3 to 9, 22)");
   command->add_option("FIGURE", options->figures,
-                      "fig02_models fig03 fig04 fig05 fig06 fig07 fig08 fig09 fig22 (default: all of these) fig21d (for paper_figures/fig21_activation_drop.py)");
+                      "fig02_models fig03 fig04 fig05 fig06 fig07 fig08 fig09 fig22 (default: all of these) fig21d "
+                      "(for paper_figures/fig21_activation_drop.py)");
   command->add_option("--out", options->folder, "Folder to write to, made where it is missing")->capture_default_str();
-  command->footer("Everything is computed by the exact reference; nothing is drawn by hand. The pictures:\n"
-                  "  python3 -m paper_figures.illustrations FOLDER\n\n"
-                  "Example:\n"
-                  "  ogc illustrate fig07 fig08 --out runs/illustrations");
+  command->footer(
+      "Everything is computed by the exact reference; nothing is drawn by hand. The pictures:\n"
+      "  python3 -m paper_figures.illustrations FOLDER\n\n"
+      "Example:\n"
+      "  ogc illustrate fig07 fig08 --out runs/illustrations");
   command->callback([options, &context] { run(*options, context); });
 }
 

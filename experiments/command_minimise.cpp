@@ -164,8 +164,10 @@ int minimise(const Options& options, const CommandContext& context) {
     // After each state, so that an interrupted call leaves what it has.
     if (!options.csv.empty()) compare::write_durably(options.csv, csv_of(rows));
   }
-  if (context.json) print_result(json_of(rows));
-  else print_result(described(rows));
+  if (context.json)
+    print_result(json_of(rows));
+  else
+    print_result(described(rows));
   return status;
 }
 
@@ -173,14 +175,17 @@ int minimise(const Options& options, const CommandContext& context) {
 
 void add_minimise_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("minimise", "How far sweeps at their floor end from the minimiser of the same energy");
+  CLI::App* command = app.add_subcommand("minimise",
+                                         "How far sweeps at their floor end from the minimiser of the same energy");
   command->add_option("FRAME", options->frames, "Frames of runs (RUN/frames/…), each the state before a step")
-      ->required()->take_all();
+      ->required()
+      ->take_all();
   command->add_option("--backend", options->backend, "Where the fast path computes")
-      ->check(CLI::IsMember({"cpu", "cuda"}))->capture_default_str();
+      ->check(CLI::IsMember({"cpu", "cuda"}))
+      ->capture_default_str();
   command->add_option("--sweeps", options->sweeps, "At most so many")
-      ->check(whole_number(1, most_counted))->capture_default_str();
+      ->check(whole_number(1, most_counted))
+      ->capture_default_str();
   command->add_option("--csv", options->csv, "Write the table to this file, a row a state, written after each");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", context.json, "Print the numbers as a JSON array on standard output, an object a state");

@@ -17,7 +17,8 @@ namespace {
 
 std::string introduction(const RunRequest& request) {
   const compare::Scene& scene = request.scene;
-  return scene.name + (request.scale.empty() ? "" : " (" + request.scale + ")") + ": " + std::to_string(scene.mesh.positions.size()) + " vertices, " +
+  return scene.name + (request.scale.empty() ? "" : " (" + request.scale + ")") + ": " +
+         std::to_string(scene.mesh.positions.size()) + " vertices, " +
          counted(scene.mesh.triangles.size(), "triangle") + ", " + std::to_string(scene.settings.steps) + " steps of " +
          number(scene.settings.time_step) + " s; writes " + request.folder.string();
 }
@@ -31,8 +32,10 @@ ResumedRun resumed(const RunOptions& options, const std::string& folder, const C
     if (option->count() > 0 && std::ranges::find(free_options, option->get_name()) == free_options.end())
       given += (given.empty() ? "" : ", ") + option->get_name();
   if (!given.empty())
-    throw compare::InputError("--resume " + folder + " goes on with the scene, settings and options that the folder holds, and with no other; leave out: " + given +
-                              ". For other ones begin a new run, from a frame of this one with --from-state if you like");
+    throw compare::InputError(
+        "--resume " + folder +
+        " goes on with the scene, settings and options that the folder holds, and with no other; leave out: " + given +
+        ". For other ones begin a new run, from a frame of this one with --from-state if you like");
   ResumedRun run = resumed_run(folder);
   run.request.checkpoint_seconds = options.checkpoint_seconds;
   return run;
@@ -43,7 +46,8 @@ int run(const RunOptions& options, const std::string& resume, const CLI::App& co
   if (options.scene.empty() && resume.empty())
     throw compare::InputError("run needs a scene (" + scene_names() +
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
-  ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)} : resumed(options, resume, command);
+  ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}
+                                  : resumed(options, resume, command);
   catch_interrupts();
   const std::string text = introduction(run.request);
   RunSession session(std::move(run.request), contestant_of(run.options));
@@ -66,32 +70,38 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("run", "Simulate a scene into a run folder, audited exactly");
   add_run_options(*command, options)->required(false);
   auto resume = std::make_shared<std::string>();
-  command->add_option("--resume", *resume, "Go on with a run that was cut off, in its own folder, to the same bits; takes no scene, no settings");
+  command->add_option(
+      "--resume", *resume,
+      "Go on with a run that was cut off, in its own folder, to the same bits; takes no scene, no settings");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", context.json, "Print the summary as JSON on standard output");
-  command->footer(settings_help() +
-                  "\nExamples:\n"
-                  "  ogc run cloth_on_sphere --scale smoke\n"
-                  "  ogc run cloth_on_sphere --scale small --solver newton --set newton_tolerance=1e-3 --iterations\n"
-                  "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
-                  "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
-                  "  ogc run shirt.obj --ground 0 --steps 200\n"
-                  "  ogc run --resume runs/twist-paper-20250801-120000\n"
-                  "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
-                  "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the exact one. On the CPU it takes\n"
-                  "turns with the simulation, on a GPU it runs beside it, so that it is never part of a step's time.\n"
-                  "Ctrl-C stops within a second, or after the step that is computed. What is finished stays, whatever\n"
-                  "ends the run: a signal, kill -9, a full disk, power. --resume goes on from checkpoint.h5 (every\n"
-                  "--checkpoint seconds, and at each end that leaves time for it), which the same program and scene take\n"
-                  "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
-                  "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a\n"
-                  "run that still goes on) it says before it computes anything.\n"
-                  "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than half of its momentum are\n"
-                  "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
-                  "Frames are packed and written beside the simulation, which waits where the disk is too slow. The\n"
-                  "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
-                  "Exit status 1: a penetration, a broken bound, a number that is not finite.");
-  command->callback([options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
+  command->footer(
+      settings_help() +
+      "\nExamples:\n"
+      "  ogc run cloth_on_sphere --scale smoke\n"
+      "  ogc run cloth_on_sphere --scale small --solver newton --set newton_tolerance=1e-3 --iterations\n"
+      "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
+      "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
+      "  ogc run shirt.obj --ground 0 --steps 200\n"
+      "  ogc run --resume runs/twist-paper-20250801-120000\n"
+      "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
+      "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the "
+      "exact one. On the CPU it takes\n"
+      "turns with the simulation, on a GPU it runs beside it, so that it is never part of a step's time.\n"
+      "Ctrl-C stops within a second, or after the step that is computed. What is finished stays, whatever\n"
+      "ends the run: a signal, kill -9, a full disk, power. --resume goes on from checkpoint.h5 (every\n"
+      "--checkpoint seconds, and at each end that leaves time for it), which the same program and scene take\n"
+      "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
+      "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a\n"
+      "run that still goes on) it says before it computes anything.\n"
+      "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than "
+      "half of its momentum are\n"
+      "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
+      "Frames are packed and written beside the simulation, which waits where the disk is too slow. The\n"
+      "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
+      "Exit status 1: a penetration, a broken bound, a number that is not finite.");
+  command->callback(
+      [options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
 }
 
 }  // namespace ogc::experiments

@@ -36,14 +36,16 @@ Size size_of(const compare::Scene& scene, std::string_view scale) {
 
 std::vector<Size> sizes(const SceneInfo& info) {
   std::vector<Size> all;
-  for (const std::string_view scale : scale_names) all.push_back(size_of(make_scene(info.name, parse_scale(scale)), scale));
+  for (const std::string_view scale : scale_names)
+    all.push_back(size_of(make_scene(info.name, parse_scale(scale)), scale));
   return all;
 }
 
 Json to_json(const SceneInfo& info) {
   Json json{{"name", info.name}, {"figure", info.figure}, {"summary", info.summary}, {"scales", Json::array()}};
   for (const Size& size : sizes(info))
-    json["scales"].push_back({{"scale", size.scale}, {"vertices", size.vertices}, {"triangles", size.triangles}, {"steps", size.steps}});
+    json["scales"].push_back(
+        {{"scale", size.scale}, {"vertices", size.vertices}, {"triangles", size.triangles}, {"steps", size.steps}});
   return json;
 }
 
@@ -57,8 +59,8 @@ void list(const CommandContext& context) {
       continue;
     }
     for (const Size& size : sizes(info))
-      rows.push_back({std::string(info.name), std::string(info.figure), size.scale, std::to_string(size.vertices), std::to_string(size.triangles),
-                      std::to_string(size.steps)});
+      rows.push_back({std::string(info.name), std::string(info.figure), size.scale, std::to_string(size.vertices),
+                      std::to_string(size.triangles), std::to_string(size.steps)});
     summaries += std::string(info.name) + ": " + std::string(info.summary) + "\n";
   }
   if (context.json) return print_result(json);
@@ -71,13 +73,16 @@ void show(const std::string& name, const CommandContext& context) {
   if (context.json) return print_result(to_json(info));
   std::vector<std::vector<std::string>> rows{{"scale", "vertices", "triangles", "steps"}};
   for (const Size& size : sizes(info))
-    rows.push_back({size.scale, std::to_string(size.vertices), std::to_string(size.triangles), std::to_string(size.steps)});
+    rows.push_back(
+        {size.scale, std::to_string(size.vertices), std::to_string(size.triangles), std::to_string(size.steps)});
   std::vector<std::vector<std::string>> settings;
   for (const compare::SettingInfo& setting : compare::setting_table())
-    settings.push_back({std::string(setting.name), setting.choices.empty() ? number(compare::get_setting(scene.settings, setting), 6) : compare::setting_text(scene.settings, setting),
+    settings.push_back({std::string(setting.name),
+                        setting.choices.empty() ? number(compare::get_setting(scene.settings, setting), 6)
+                                                : compare::setting_text(scene.settings, setting),
                         setting.unit == "1" ? "" : std::string(setting.unit)});
-  print_result(name + " (" + std::string(info.figure) + "): " + std::string(info.summary) + "\n\n" + table(rows, 1) + "\nsettings at small\n" +
-               table(settings, 3));
+  print_result(name + " (" + std::string(info.figure) + "): " + std::string(info.summary) + "\n\n" + table(rows, 1) +
+               "\nsettings at small\n" + table(settings, 3));
 }
 
 /// Moves the files of `from` to `folder`; throws, and moves none, where it holds one of them already.
@@ -118,10 +123,12 @@ void write(const Options& options, const CommandContext& context) {
 
 void run(const Options& options, const CommandContext& context) {
   if (options.schema) return print_result(compare::scene_schema() + "\n");
-  if (!options.folder.empty() && options.scene.empty()) throw compare::InputError("--write needs a scene: ogc scenes NAME --write DIR");
+  if (!options.folder.empty() && options.scene.empty())
+    throw compare::InputError("--write needs a scene: ogc scenes NAME --write DIR");
   for (const std::string& assignment : options.assignments) {
     if (options.folder.empty() || !assignment.starts_with("data="))
-      throw compare::InputError("--set " + assignment + ": only data=DIR, and only with --write; settings stand in the file that is written");
+      throw compare::InputError("--set " + assignment +
+                                ": only data=DIR, and only with --write; settings stand in the file that is written");
   }
   if (options.force && options.folder.empty()) throw compare::InputError("--force belongs to --write DIR");
   if (options.scene.empty()) return list(context);
@@ -137,8 +144,13 @@ void add_scenes_command(CLI::App& app, CommandContext& context) {
   command->add_option("NAME", options->scene, "A scene; without it all are listed");
   command->add_option("--write", options->folder, "Write NAME.json and its meshes into this folder");
   command->add_flag("--force", options->force, "With --write: write over files of these names");
-  command->add_option("--scale", options->scale, "smoke, small or paper: which size --write writes")->capture_default_str();
-  command->add_option("--set", options->assignments, "data=DIR: write dress of Codimensional IPC's published files in DIR")->take_all()->type_size(1)->expected(1);
+  command->add_option("--scale", options->scale, "smoke, small or paper: which size --write writes")
+      ->capture_default_str();
+  command
+      ->add_option("--set", options->assignments, "data=DIR: write dress of Codimensional IPC's published files in DIR")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1);
   command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(

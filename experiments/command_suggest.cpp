@@ -88,15 +88,19 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("suggest", "Settings to run a mesh with, each with its reason");
   command->add_option("MESH", options->mesh, "A mesh file")->required();
   add_mesh_options(*command, options->reading);
-  command->add_option("--fall", options->fall,
-                      "How far it falls before it meets something [m] (default: a tenth of its size)")
+  command
+      ->add_option("--fall", options->fall,
+                   "How far it falls before it meets something [m] (default: a tenth of its size)")
       ->check(real_number(compare::least_length, compare::most_length, "m"));
   command->add_flag("--json", context.json, "Print settings, reasons and the command as JSON on standard output");
   command->footer(
       "The contact radius follows from edges and gaps (nothing is in contact at the start where that can be), the\n"
-      "stiffness from the weight of ten layers, or of as many as there are, and from the fall, the query radius and the\n"
-      "step from how far a vertex may move between two detections, the iterations from how far a stretch wave comes in a\n"
-      "step and from how many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m²; what is printed last\n"
+      "stiffness from the weight of ten layers, or of as many as there are, and from the fall, the query radius and "
+      "the\n"
+      "step from how far a vertex may move between two detections, the iterations from how far a stretch wave comes in "
+      "a\n"
+      "step and from how many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m²; what is printed "
+      "last\n"
       "runs it so. Lengths are in metres.\n\n"
       "Examples:\n"
       "  ogc suggest shirt.obj\n"

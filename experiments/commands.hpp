@@ -1,4 +1,5 @@
-// The subcommands of `ogc`: one file each (command_NAME.cpp), which declares its options and leaves its exit status in the context.
+// The subcommands of `ogc`: one file each (command_NAME.cpp), which declares its options and leaves its exit status in
+// the context.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,9 +11,9 @@ enum ExitStatus : int { exit_success = 0, exit_check_failed = 1, exit_bad_input 
 
 /// What all subcommands share.
 struct CommandContext {
-  bool json = false;           ///< machine-readable result on standard output
-  int status = exit_success;   ///< what the program returns; a command sets it, exceptions are mapped by main
-  std::string command_line;    ///< as typed, for run.json
+  bool json = false;          ///< machine-readable result on standard output
+  int status = exit_success;  ///< what the program returns; a command sets it, exceptions are mapped by main
+  std::string command_line;   ///< as typed, for run.json
 };
 
 void add_scenes_command(CLI::App& app, CommandContext& context);

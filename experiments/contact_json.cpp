@@ -1,5 +1,5 @@
-// The keys of contacts.schema.json, which says what they mean; a test validates this file's output by it. Contacts are printed as they are made: held as
-// JSON, those of 245,000 crowded vertices with their margins do not fit into 20 GB.
+// The keys of contacts.schema.json, which says what they mean; a test validates this file's output by it. Contacts are
+// printed as they are made: held as JSON, those of 245,000 crowded vertices with their margins do not fit into 20 GB.
 #include <algorithm>
 #include <utility>
 
@@ -18,7 +18,9 @@ using compare::Topology;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-const char* name(FaceKind kind) { return kind == FaceKind::vertex ? "vertex" : kind == FaceKind::edge ? "edge" : "triangle"; }
+const char* name(FaceKind kind) {
+  return kind == FaceKind::vertex ? "vertex" : kind == FaceKind::edge ? "edge" : "triangle";
+}
 
 Json to_json(const Face& face) { return {{"kind", name(face.kind)}, {"index", face.index}}; }
 
@@ -34,15 +36,20 @@ Json to_json(const std::vector<reference::BlockMargin>& margins) {
   constexpr std::array<const char*, 3> kinds{"sphere", "end", "wall"};
   Json json = Json::array();
   for (const reference::BlockMargin& margin : margins)
-    json.push_back({{"boundary", kinds[static_cast<std::size_t>(margin.kind)]}, {"across", to_json(margin.across)}, {"sign", margin.sign},
-                    {"length", margin.length}, {"closed", margin.closed}});
+    json.push_back({{"boundary", kinds[static_cast<std::size_t>(margin.kind)]},
+                    {"across", to_json(margin.across)},
+                    {"sign", margin.sign},
+                    {"length", margin.length},
+                    {"closed", margin.closed}});
   return json;
 }
 
 /// Standard output, filled in large pieces.
 class Printer {
  public:
-  void member(const std::string& key, const Json& value) { add(begin(key) + value.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+  void member(const std::string& key, const Json& value) {
+    add(begin(key) + value.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
 
   /// An array of `count` items, one line each.
   template <class Item>
@@ -69,7 +76,9 @@ Json to_json(const reference::FilterCounts& filters) {
   Json json = Json::object();
   for (std::size_t k = 0; k < reference::filtered_predicates; ++k) {
     const reference::FilterCount& count = filters.of[k];
-    if (count.calls > 0) json[std::string(name(static_cast<reference::Filtered>(k)))] = {{"calls", count.calls}, {"undecided", count.undecided}};
+    if (count.calls > 0)
+      json[std::string(name(static_cast<reference::Filtered>(k)))] = {{"calls", count.calls},
+                                                                      {"undecided", count.undecided}};
   }
   return json;
 }
@@ -77,7 +86,10 @@ Json to_json(const reference::FilterCounts& filters) {
 Json vertex_facet(const ContactReport& report, bool with_margins, std::size_t i) {
   const compare::VertexFacetContact& contact = report.vertex_facet.contacts[i];
   const double distance = report.vertex_facet_distance[i];
-  Json json{{"vertex", contact.vertex}, {"face", to_json(contact.face, report.topology)}, {"owner", contact.owner}, {"distance", distance},
+  Json json{{"vertex", contact.vertex},
+            {"face", to_json(contact.face, report.topology)},
+            {"owner", contact.owner},
+            {"distance", distance},
             {"penetration", static_cast<double>(report.contact_radius) - distance}};
   if (!with_margins) return json;
   const reference::Complex mesh{report.topology, report.positions};
@@ -90,11 +102,15 @@ Json vertex_facet(const ContactReport& report, bool with_margins, std::size_t i)
 Json edge_edge(const ContactReport& report, bool with_margins, std::size_t i) {
   const compare::EdgeEdgeContact& contact = report.edge_edge.contacts[i];
   const double distance = report.edge_edge_distance[i];
-  Json json{{"first", to_json(contact.first, report.topology)}, {"second", to_json(contact.second, report.topology)},
-            {"first_edge", contact.first_edge}, {"second_edge", contact.second_edge}, {"distance", distance},
+  Json json{{"first", to_json(contact.first, report.topology)},
+            {"second", to_json(contact.second, report.topology)},
+            {"first_edge", contact.first_edge},
+            {"second_edge", contact.second_edge},
+            {"distance", distance},
             {"penetration", static_cast<double>(report.contact_radius) - distance}};
   if (!with_margins) return json;
-  const reference::PairMargins margins = reference::pair_margins({report.topology, report.positions}, contact, report.contact_radius);
+  const reference::PairMargins margins = reference::pair_margins({report.topology, report.positions}, contact,
+                                                                 report.contact_radius);
   json["first_margins"] = to_json(margins.first);
   json["second_margins"] = to_json(margins.second);
   return json;
@@ -129,7 +145,9 @@ std::vector<std::string> vertex_places(const Topology& topology) {
   const std::vector<std::string> edges = edge_places(topology);
   std::vector<std::string> all;
   for (std::size_t v = 0; v < at(topology.vertex_count); ++v) {
-    const auto has = [&](const char* place) { return std::ranges::any_of(topology.vertex_edges[v], [&](Index e) { return edges[at(e)] == place; }); };
+    const auto has = [&](const char* place) {
+      return std::ranges::any_of(topology.vertex_edges[v], [&](Index e) { return edges[at(e)] == place; });
+    };
     const bool on_triangle = has("inner") || has("boundary");
     const bool odd = has("non_manifold") || (has("loose") && on_triangle);
     all.emplace_back(odd ? "non_manifold" : has("boundary") ? "boundary" : on_triangle ? "inner" : "loose");
@@ -149,8 +167,10 @@ void print_json(const Json& head, const ContactReport& report, bool with_margins
   printer.member("vertices", report.topology.vertex_count);
   printer.member("edges", report.topology.edges);
   printer.member("triangles", report.topology.triangles);
-  printer.list("vertex_facet", report.vertex_facet.contacts.size(), [&](std::size_t i) { return vertex_facet(report, with_margins, i); });
-  printer.list("edge_edge", report.edge_edge.contacts.size(), [&](std::size_t i) { return edge_edge(report, with_margins, i); });
+  printer.list("vertex_facet", report.vertex_facet.contacts.size(),
+               [&](std::size_t i) { return vertex_facet(report, with_margins, i); });
+  printer.list("edge_edge", report.edge_edge.contacts.size(),
+               [&](std::size_t i) { return edge_edge(report, with_margins, i); });
   printer.member("sets", sets_by_primitive(report));
   printer.member("d_min_vertex", report.vertex_facet.d_min_vertex);
   printer.member("d_min_edge", report.edge_edge.d_min_edge);
@@ -161,7 +181,8 @@ void print_json(const Json& head, const ContactReport& report, bool with_margins
   if (report.filters.total().calls > 0) printer.member("filters", to_json(report.filters));
   if (report.exact) {
     Json names = Json::array();
-    for (const reference::VertexKind kind : report.exact->vertex_kind) names.push_back(kinds[static_cast<std::size_t>(kind)]);
+    for (const reference::VertexKind kind : report.exact->vertex_kind)
+      names.push_back(kinds[static_cast<std::size_t>(kind)]);
     printer.member("vertex_kind", names);
   }
   printer.finish();

@@ -24,7 +24,8 @@ compare::ClosestFaceIn vertex_facet_cases(const ContactReport& report, const std
   for (const compare::VertexFacetContact& contact : report.vertex_facet.contacts) {
     const compare::Triangle& corners = report.topology.triangles[static_cast<std::size_t>(contact.owner)];
     cases.point.push_back(positions[static_cast<std::size_t>(contact.vertex)]);
-    cases.triangle.push_back({positions[static_cast<std::size_t>(corners[0])], positions[static_cast<std::size_t>(corners[1])],
+    cases.triangle.push_back({positions[static_cast<std::size_t>(corners[0])],
+                              positions[static_cast<std::size_t>(corners[1])],
                               positions[static_cast<std::size_t>(corners[2])]});
   }
   return cases;
@@ -33,7 +34,8 @@ compare::ClosestFaceIn vertex_facet_cases(const ContactReport& report, const std
 compare::ClosestPointsIn edge_edge_cases(const ContactReport& report, const std::vector<Vec3f>& positions) {
   const auto ends = [&](compare::Index edge) {
     const compare::Edge& vertices = report.topology.edges[static_cast<std::size_t>(edge)];
-    return std::array<Vec3f, 2>{positions[static_cast<std::size_t>(vertices[0])], positions[static_cast<std::size_t>(vertices[1])]};
+    return std::array<Vec3f, 2>{positions[static_cast<std::size_t>(vertices[0])],
+                                positions[static_cast<std::size_t>(vertices[1])]};
   };
   compare::ClosestPointsIn cases;
   for (const compare::EdgeEdgeContact& contact : report.edge_edge.contacts) {
@@ -54,25 +56,31 @@ ExactGeometry exact_geometry(const ContactReport& report, FurtherSets further) {
   return exact;
 }
 
-void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation, FurtherSets further) {
+void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions,
+                float bound_relaxation, FurtherSets further) {
   const compare::Authority authority = reference::authority();
   const reference::FilterCounts before = reference::filter_counts();
   report.vertex_facet = authority.detect_vertex_facet(in).exact;
   report.edge_edge = authority.detect_edge_edge(in).exact;
-  report.bound = authority.bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge, report.vertex_facet.d_min_triangle,
-                                  bound_relaxation}).exact.bound;
+  report.bound = authority
+                     .bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge,
+                             report.vertex_facet.d_min_triangle, bound_relaxation})
+                     .exact.bound;
   report.vertex_facet_distance = authority.closest_face(vertex_facet_cases(report, positions)).distance;
   report.edge_edge_distance = authority.closest_points(edge_edge_cases(report, positions)).contact_distance;
   report.exact = exact_geometry(report, further);
   report.filters = reference::filter_counts().since(before);
 }
 
-void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions, float bound_relaxation, fast::Backend backend) {
+void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions,
+               float bound_relaxation, fast::Backend backend) {
   const compare::Contestant contestant = fast::contestant(backend);
   report.vertex_facet = contestant.detect_vertex_facet(in);
   report.edge_edge = contestant.detect_edge_edge(in);
-  report.bound = contestant.bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge, report.vertex_facet.d_min_triangle,
-                                   bound_relaxation}).bound;
+  report.bound = contestant
+                     .bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge,
+                             report.vertex_facet.d_min_triangle, bound_relaxation})
+                     .bound;
   const std::vector<float> facets = contestant.closest_face(vertex_facet_cases(report, positions)).distance;
   const std::vector<float> edges = contestant.closest_points(edge_edge_cases(report, positions)).contact_distance;
   report.vertex_facet_distance.assign(facets.begin(), facets.end());
@@ -94,12 +102,15 @@ std::string distribution(const std::vector<float>& distances, float query_radius
   constexpr std::size_t parts = 10;
   std::array<std::size_t, parts + 1> counts{};
   for (const float d : distances)
-    ++counts[d >= query_radius ? parts : std::min(parts - 1, static_cast<std::size_t>(static_cast<double>(d) / query_radius * parts))];
+    ++counts[d >= query_radius
+                 ? parts
+                 : std::min(parts - 1, static_cast<std::size_t>(static_cast<double>(d) / query_radius * parts))];
   const std::size_t most = std::max<std::size_t>(1, std::ranges::max(counts));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k <= parts; ++k) {
-    const std::string range = k == parts ? "nothing within r_q" : number(static_cast<double>(k) * query_radius / parts) + " … " +
-                                                                      number(static_cast<double>(k + 1) * query_radius / parts) + " m";
+    const std::string range = k == parts ? "nothing within r_q"
+                                         : number(static_cast<double>(k) * query_radius / parts) + " … " +
+                                               number(static_cast<double>(k + 1) * query_radius / parts) + " m";
     rows.push_back({"  " + range, std::string(counts[k] * 40 / most, '#'), std::to_string(counts[k])});
   }
   return table(rows, 2);
@@ -124,19 +135,22 @@ std::string describe(const reference::FilterCounts& filters) {
   const auto add = [&](std::string_view predicate, const reference::FilterCount& count) {
     if (count.calls == 0) return;
     const double share = static_cast<double>(count.undecided) / static_cast<double>(count.calls);
-    rows.push_back({"  " + std::string(predicate), std::to_string(count.calls), std::to_string(count.undecided), number(share, 2)});
+    rows.push_back({"  " + std::string(predicate), std::to_string(count.calls), std::to_string(count.undecided),
+                    number(share, 2)});
   };
-  for (std::size_t k = 0; k < reference::filtered_predicates; ++k) add(name(static_cast<reference::Filtered>(k)), filters.of[k]);
+  for (std::size_t k = 0; k < reference::filtered_predicates; ++k)
+    add(name(static_cast<reference::Filtered>(k)), filters.of[k]);
   add("all", total);
   return "\nexact predicates, and how many of them intervals left to exact numbers\n" + table(rows, 1);
 }
 
 }  // namespace
 
-ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation,
-                            FurtherSets further) {
+ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius,
+                            float bound_relaxation, FurtherSets further) {
   ContactReport report;
-  report.topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
+  report.topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles,
+                                            mesh.loose_edges);
   report.contact_radius = contact_radius;
   report.query_radius = query_radius;
   const std::vector<Vec3f>& positions = report.positions = compare::to_single(mesh.positions);
@@ -145,16 +159,19 @@ ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float cont
   if (engine == Engine::exact) {
     fill_exact(report, in, positions, bound_relaxation, further);
   } else {
-    fill_fast(report, in, positions, bound_relaxation, engine == Engine::cpu ? fast::Backend::cpu : fast::Backend::cuda);
+    fill_fast(report, in, positions, bound_relaxation,
+              engine == Engine::cpu ? fast::Backend::cpu : fast::Backend::cuda);
   }
   return report;
 }
 
 double mean_edge_length(const compare::Mesh& mesh) {
-  const Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
+  const Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles,
+                                                    mesh.loose_edges);
   double sum = 0;
   for (const compare::Edge& edge : topology.edges) {
-    const compare::Vec3 &a = mesh.positions[static_cast<std::size_t>(edge[0])], &b = mesh.positions[static_cast<std::size_t>(edge[1])];
+    const compare::Vec3 &a = mesh.positions[static_cast<std::size_t>(edge[0])],
+                        &b = mesh.positions[static_cast<std::size_t>(edge[1])];
     sum += std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
   }
   return topology.edges.empty() ? 0 : sum / static_cast<double>(topology.edges.size());
@@ -172,9 +189,11 @@ Json exact_squares(const ContactReport& report, float bound_relaxation) {
 std::string describe(const ContactReport& report, const compare::ElementNames& names) {
   const Topology& topology = report.topology;
   const auto [least, most] = std::ranges::minmax(report.bound);
-  std::string text = std::to_string(topology.vertex_count) + " vertices, " + std::to_string(topology.edges.size()) + " edges, " +
-                     std::to_string(topology.triangles.size()) + " triangles; r = " + number(report.contact_radius, 6) + " m, r_q = " +
-                     number(report.query_radius, 6) + " m\n\n" + counted(report.vertex_facet.contacts.size(), "vertex-facet contact") + "\n";
+  std::string text = std::to_string(topology.vertex_count) + " vertices, " + std::to_string(topology.edges.size()) +
+                     " edges, " + std::to_string(topology.triangles.size()) +
+                     " triangles; r = " + number(report.contact_radius, 6) +
+                     " m, r_q = " + number(report.query_radius, 6) + " m\n\n" +
+                     counted(report.vertex_facet.contacts.size(), "vertex-facet contact") + "\n";
   text += closest(report.vertex_facet.contacts, report.vertex_facet_distance,
                   [&](const compare::VertexFacetContact& contact) {
                     return names.vertex(contact.vertex) + " and " + name(contact.face, topology, names);
@@ -183,8 +202,10 @@ std::string describe(const ContactReport& report, const compare::ElementNames& n
   text += closest(report.edge_edge.contacts, report.edge_edge_distance, [&](const compare::EdgeEdgeContact& contact) {
     return name(contact.first, topology, names) + " and " + name(contact.second, topology, names);
   });
-  text += "\nsmallest distance of a vertex to a triangle without it\n" + distribution(report.vertex_facet.d_min_vertex, report.query_radius);
-  text += "smallest distance of an edge to an edge without its ends\n" + distribution(report.edge_edge.d_min_edge, report.query_radius);
+  text += "\nsmallest distance of a vertex to a triangle without it\n" +
+          distribution(report.vertex_facet.d_min_vertex, report.query_radius);
+  text += "smallest distance of an edge to an edge without its ends\n" +
+          distribution(report.edge_edge.d_min_edge, report.query_radius);
   return text + "\nbounds from " + number(least, 6) + " m to " + number(most, 6) + " m\n" + describe(report.filters);
 }
 

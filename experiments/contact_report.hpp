@@ -28,8 +28,9 @@ struct ContactReport {
   float contact_radius = 0, query_radius = 0;  ///< r, r_q [m]
   compare::DetectVertexFacetOut vertex_facet;
   compare::DetectEdgeEdgeOut edge_edge;
-  std::vector<double> vertex_facet_distance, edge_edge_distance;  ///< [m], one each contact: of the vertex and the owner; between the contact points
-  std::vector<float> bound;                                       ///< b_v, Eq. 21 [m]
+  /// [m], one each contact: of the vertex and the owner; between the contact points
+  std::vector<double> vertex_facet_distance, edge_edge_distance;
+  std::vector<float> bound;  ///< b_v, Eq. 21 [m]
   std::optional<ExactGeometry> exact;
   reference::FilterCounts filters;  ///< predicates asked for all of this; all zero unless exact
 };
@@ -40,16 +41,16 @@ struct FurtherSets {
 };
 
 /// Throws compare::ResourceError where the engine is not available. The mesh must be valid.
-ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius, float bound_relaxation,
-                            FurtherSets further = {});
+ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius,
+                            float bound_relaxation, FurtherSets further = {});
 
 /// Mean length of all edges [m].
 double mean_edge_length(const compare::Mesh& mesh);
 
 /// d_min² and b_v² of Eq. 21–26 as fractions [m²] (reference::ExactSquares), by primitive.
 Json exact_squares(const ContactReport& report, float bound_relaxation);
-/// Prints the report as the schema says, after the members of `head`, contact by contact: with their margins these may be gigabytes. Margins of an exact
-/// report are found on the way; they can be left out.
+/// Prints the report as the schema says, after the members of `head`, contact by contact: with their margins these may
+/// be gigabytes. Margins of an exact report are found on the way; they can be left out.
 void print_json(const Json& head, const ContactReport& report, bool with_margins);
 /// The JSON Schema of `ogc contacts --json` (contacts.schema.json).
 std::string contacts_schema();

@@ -1,4 +1,5 @@
-// The program `ogc`. What goes wrong anywhere below ends here, as one message that says what to do and one of four exit statuses.
+// The program `ogc`. What goes wrong anywhere below ends here, as one message that says what to do and one of four exit
+// statuses.
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -61,11 +62,16 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
 int run_program(int count, char** words) {
   CommandContext context;
   context.command_line = command_line(count, words);
-  CLI::App app("OGC Testbed: a reference and a fast path for Offset Geometric Contact, and a judge between them.\n"
-               "Not the release of the paper's authors.", "ogc");
-  app.footer("Exit status: 0 success, 1 a check failed (mismatch, penetration), 2 wrong usage or bad input, 3 out of a resource,\n"
-             "130 interrupted.\n\nStart with: ogc run cloth_on_sphere --scale smoke");
-  app.set_version_flag("--version", [] { return experiments::version_text(); }, "Version, commit, compiler, CUDA and backends");
+  CLI::App app(
+      "OGC Testbed: a reference and a fast path for Offset Geometric Contact, and a judge between them.\n"
+      "Not the release of the paper's authors.",
+      "ogc");
+  app.footer(
+      "Exit status: 0 success, 1 a check failed (mismatch, penetration), 2 wrong usage or bad input, 3 out of a "
+      "resource,\n"
+      "130 interrupted.\n\nStart with: ogc run cloth_on_sphere --scale smoke");
+  app.set_version_flag(
+      "--version", [] { return experiments::version_text(); }, "Version, commit, compiler, CUDA and backends");
   app.require_subcommand(1);
   add_commands(app, context);
   if (std::getenv("OGC_PARSE_ONLY") != nullptr) run_nothing(app);

@@ -36,8 +36,13 @@ EventTimes event_times(const StepMetrics& row, const std::vector<std::string>& s
 
 class MeasuredSimulation : public compare::Simulation {
  public:
-  MeasuredSimulation(const compare::Scene& scene, std::unique_ptr<Simulation> inner, std::function<compare::StepOut(const compare::StepIn&)> trace)
-      : scene_(scene), topology_(build_topology(scene)), inner_(std::move(inner)), trace_(std::move(trace)), meter_(scene) {}
+  MeasuredSimulation(const compare::Scene& scene, std::unique_ptr<Simulation> inner,
+                     std::function<compare::StepOut(const compare::StepIn&)> trace)
+      : scene_(scene),
+        topology_(build_topology(scene)),
+        inner_(std::move(inner)),
+        trace_(std::move(trace)),
+        meter_(scene) {}
 
   std::vector<StepMetrics> advance(std::int64_t steps) override {
     std::vector<StepMetrics> rows;
@@ -80,7 +85,8 @@ class MeasuredSimulation : public compare::Simulation {
   void add_iterations(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
     const compare::Scene scene = scene_at(before);
     const compare::StepOut trace = trace_({&scene, &topology_});
-    if (trace.position != after.positions) throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
+    if (trace.position != after.positions)
+      throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
     const EventTimes times = event_times(step, inner_->stage_names());
     double now = times.begin;
     const auto begin = std::ranges::find(trace.events, StepEventKind::sweep, &StepEvent::kind);
@@ -123,15 +129,16 @@ class MeasuredSimulation : public compare::Simulation {
   std::unique_ptr<Simulation> inner_;
   std::function<compare::StepOut(const compare::StepIn&)> trace_;
   reference::ResidualMeter meter_;
-  reference::ContactSets contacts_;        ///< of the trace's last detection
-  std::vector<compare::Vec3f> detected_;   ///< where it was
+  reference::ContactSets contacts_;       ///< of the trace's last detection
+  std::vector<compare::Vec3f> detected_;  ///< where it was
 };
 
 }  // namespace
 
 compare::Contestant measured(compare::Contestant contestant, bool iterations) {
   compare::Contestant result = contestant;
-  result.start = [start = contestant.start, step = contestant.step, iterations](const compare::Scene& scene, const compare::SimulationOptions& options) {
+  result.start = [start = contestant.start, step = contestant.step, iterations](
+                     const compare::Scene& scene, const compare::SimulationOptions& options) {
     return std::make_unique<MeasuredSimulation>(scene, start(scene, options), iterations ? step : nullptr);
   };
   return result;

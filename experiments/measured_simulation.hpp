@@ -1,4 +1,5 @@
-// Eq. 29 for contestants that do not know their residual: measured by the reference at the states that they come to, beside the run and outside its times.
+// Eq. 29 for contestants that do not know their residual: measured by the reference at the states that they come to,
+// beside the run and outside its times.
 #pragma once
 
 #include "compare/problem/contestant.hpp"

@@ -30,10 +30,9 @@ std::string repeated_places(const compare::Mesh& mesh) {
 }  // namespace
 
 void add_mesh_options(CLI::App& command, compare::MeshOptions& options) {
-  command.add_flag(
-      "--triangulate,!--no-triangulate", options.triangulate,
-      "Mesh files: cut faces of four corners and more into triangles, with a word "
-      "(the default; --no-triangulate refuses them)");
+  command.add_flag("--triangulate,!--no-triangulate", options.triangulate,
+                   "Mesh files: cut faces of four corners and more into triangles, with a word "
+                   "(the default; --no-triangulate refuses them)");
   command.add_flag(
       "--drop-unused,!--no-drop-unused", options.drop_unused,
       "Mesh files: leave out vertices that no face uses, with a word (the default; --no-drop-unused refuses them)");

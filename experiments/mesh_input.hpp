@@ -21,8 +21,8 @@ struct MeshInput {
 /// Adds --triangulate, --drop-unused (both on unless refused) and --weld. The options must outlive the parsing.
 void add_mesh_options(CLI::App& command, compare::MeshOptions& options);
 
-/// What was taken otherwise than it stands in the file, or should be known of it, a sentence each: what was cut, merged and
-/// left out, vertices at one place, dust and what became of it (`dust_treatment`).
+/// What was taken otherwise than it stands in the file, or should be known of it, a sentence each: what was cut, merged
+/// and left out, vertices at one place, dust and what became of it (`dust_treatment`).
 std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const std::string& dust_treatment);
 
 /// Reads a mesh file as stages see it: dust is 0, coordinates are rounded to single precision. Says on standard error

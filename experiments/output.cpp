@@ -21,7 +21,8 @@ namespace {
 
 /// Characters, not bytes: every byte of UTF-8 but those that continue a character.
 std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 }  // namespace
@@ -29,7 +30,8 @@ std::size_t width(const std::string& text) {
 void print_result(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (std::fflush(stdout) != 0 || !written)
-    throw compare::ResourceError(std::string("standard output does not take the result: ") + std::strerror(errno) + "; free some space or write elsewhere");
+    throw compare::ResourceError(std::string("standard output does not take the result: ") + std::strerror(errno) +
+                                 "; free some space or write elsewhere");
 }
 
 void print_result(const Json& json) {
@@ -50,7 +52,9 @@ std::string number(double value, int digits) {
   return text.str();
 }
 
-std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
 
 std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t left_columns) {
   std::vector<std::size_t> widths;

@@ -1,5 +1,5 @@
-// What goes to standard output, in one place: it is checked (a full disk behind a pipe is an error, not a shorter result), and everything else
-// goes to standard error.
+// What goes to standard output, in one place: it is checked (a full disk behind a pipe is an error, not a shorter
+// result), and everything else goes to standard error.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ std::string counted(std::size_t count, const std::string& noun);
 /// Columns aligned, two spaces between them; the first `left_columns` to the left, the others to the right.
 std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t left_columns);
 
-/// FNV-1a over 64 bits of the positions' bits, x y z in turn, low byte first; 16 hexadecimal digits. Equal if and (almost) only if every bit is.
+/// FNV-1a over 64 bits of the positions' bits, x y z in turn, low byte first; 16 hexadecimal digits. Equal if and
+/// (almost) only if every bit is.
 std::string state_hash(std::span<const compare::Vec3f> positions);
 
 /// Now, UTC, for names of folders: "20250801-120000".

@@ -15,7 +15,8 @@ constexpr int bar_width = 24;
 
 std::string bar(double share) {
   const int full = static_cast<int>(share * bar_width);
-  return "[" + std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(bar_width - full), '.') + "]";
+  return "[" + std::string(static_cast<std::size_t>(full), '#') +
+         std::string(static_cast<std::size_t>(bar_width - full), '.') + "]";
 }
 
 }  // namespace
@@ -26,7 +27,8 @@ Progress::Progress(std::int64_t first, std::int64_t last, std::string unit)
 std::string Progress::time_left(std::int64_t current) const {
   if (current <= first_) return "";
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  const auto seconds = static_cast<long long>(elapsed * static_cast<double>(last_ - current) / static_cast<double>(current - first_));
+  const auto seconds = static_cast<long long>(elapsed * static_cast<double>(last_ - current) /
+                                              static_cast<double>(current - first_));
   if (seconds < 60) return ", " + std::to_string(seconds) + " s left";
   if (seconds < 3600) return ", " + std::to_string(seconds / 60) + " min left";
   return ", " + std::to_string(seconds / 3600) + " h " + std::to_string(seconds / 60 % 60) + " min left";
@@ -36,10 +38,11 @@ void Progress::show(std::int64_t current, const std::string& detail) {
   const Clock::time_point now = Clock::now();
   if (complete_) return;
   complete_ = current == last_;
-  if (!complete_ && shown_ != Clock::time_point{} && now - shown_ < (terminal_ ? redraw_interval : line_interval)) return;
+  if (!complete_ && shown_ != Clock::time_point{} && now - shown_ < (terminal_ ? redraw_interval : line_interval))
+    return;
   shown_ = now;
-  const std::string text =
-      unit_ + " " + std::to_string(current) + "/" + std::to_string(last_) + (detail.empty() ? "" : ", " + detail) + time_left(current);
+  const std::string text = unit_ + " " + std::to_string(current) + "/" + std::to_string(last_) +
+                           (detail.empty() ? "" : ", " + detail) + time_left(current);
   if (!terminal_) {
     std::fputs((text + "\n").c_str(), stderr);
     return;

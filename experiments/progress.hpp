@@ -1,4 +1,5 @@
-// How far a long command is: a bar that is redrawn where a person watches, plain lines (at most one every few seconds) where a file does.
+// How far a long command is: a bar that is redrawn where a person watches, plain lines (at most one every few seconds)
+// where a file does.
 #pragma once
 
 #include <chrono>
@@ -11,7 +12,8 @@ class Progress {
  public:
   /// From `first` to `last` (steps, frames), counted in `unit`.
   Progress(std::int64_t first, std::int64_t last, std::string unit);
-  /// At `current`; `detail` is put behind: "1.2 ms a step, 340 contacts". The end is shown once, however often it is reported.
+  /// At `current`; `detail` is put behind: "1.2 ms a step, 340 contacts". The end is shown once, however often it is
+  /// reported.
   void show(std::int64_t current, const std::string& detail);
   /// Ends the bar, so that what follows starts on a fresh line. Idempotent.
   void end();

@@ -20,24 +20,31 @@ bool says_yes(const Provenance& provenance, const std::string& key) { return tex
 
 void check_end(const std::string& folder, const compare::RunReader& run) {
   if (run.provenance().status != "finished") return;
-  throw compare::InputError(folder + ": is a finished run (" + std::to_string(run.scene().settings.steps) + " steps), there is nothing to resume. For more steps " +
-                            "begin a new run from its last frame: ogc run … --steps N --from-state " + folder + "/frames/" +
-                            compare::frame_name(run.frame_step(run.frame_count() - 1)) + ".h5");
+  throw compare::InputError(folder + ": is a finished run (" + std::to_string(run.scene().settings.steps) +
+                            " steps), there is nothing to resume. For more steps " +
+                            "begin a new run from its last frame: ogc run … --steps N --from-state " + folder +
+                            "/frames/" + compare::frame_name(run.frame_step(run.frame_count() - 1)) + ".h5");
 }
 
-/// Another commit, compiler or toolkit may compute other bits. Changes that are not committed have no name: they are told.
+/// Another commit, compiler or toolkit may compute other bits. Changes that are not committed have no name: they are
+/// told.
 void check_program(const std::string& folder, const Provenance& run) {
   const BuildInfo build = build_info();
   const auto same = [&](const std::string& what, const std::string& theirs, const std::string& ours) {
     if (theirs != ours)
-      throw compare::InputError(folder + ": was computed by another program (" + what + " " + theirs + ", this one: " + ours +
-                                "), which may give other bits. Resume it with that one, or begin a new run from its last frame with --from-state");
+      throw compare::InputError(folder + ": was computed by another program (" + what + " " + theirs +
+                                ", this one: " + ours +
+                                "), which may give other bits. Resume it with that one, or begin a new run from its "
+                                "last frame with --from-state");
   };
   same("commit", run.commit, build.commit);
   same("with uncommitted changes:", run.dirty ? "yes" : "no", build.dirty ? "yes" : "no");
   same("compiler", run.compiler, build.compiler);
   same("CUDA", run.cuda, build.cuda);
-  if (build.dirty) log_line("the program was built with changes that are not committed: that they are those of the interrupted run can't be checked");
+  if (build.dirty)
+    log_line(
+        "the program was built with changes that are not committed: that they are those of the interrupted run can't "
+        "be checked");
 }
 
 /// A CPU may be another one, and have other threads: no bit depends on them.

@@ -10,7 +10,7 @@ namespace ogc::experiments {
 
 /// What a run that goes on is computed by, and what it is asked.
 struct ResumedRun {
-  RunOptions options;   ///< for contestant_of
+  RunOptions options;  ///< for contestant_of
   RunRequest request;
 };
 

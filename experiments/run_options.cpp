@@ -115,7 +115,8 @@ void apply_settings(compare::Scene& scene, const RunOptions& options) {
 const std::vector<std::string> solver_names{"vbd", "newton", "reference_vbd", "ipc"};
 const std::vector<std::string> backend_names{"cpu", "cuda"};
 
-/// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one iteration.
+/// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one
+/// iteration.
 std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
   compare::Scene once = scene;
   once.settings.iterations = once.settings.guess_rounds = 1;
@@ -133,32 +134,52 @@ compare::Contestant solver_of(const RunOptions& options) {
 }  // namespace
 
 CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
-  const std::string kinds =
-      "A built-in scene (" + scene_names() + "), a scene file, or a mesh file: cloth that falls on a ground";
+  const std::string kinds = "A built-in scene (" + scene_names() +
+                            "), a scene file, or a mesh file: cloth that falls on a ground";
   CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
-  command.add_option("--ground", options->ground,
-                     "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)")
+  command
+      .add_option("--ground", options->ground,
+                  "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)")
       ->check(real_number(-compare::most_length, compare::most_length, "m"));
   add_mesh_options(command, options->mesh);
   command.add_option("--solver", options->solver, "How a step is solved")
-      ->check(CLI::IsMember(solver_names))->capture_default_str();
-  command.add_option("--backend", options->backend, "Where it is computed")->check(CLI::IsMember(backend_names))->capture_default_str();
-  command.add_option("--scale", options->scale, "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
+      ->check(CLI::IsMember(solver_names))
+      ->capture_default_str();
+  command.add_option("--backend", options->backend, "Where it is computed")
+      ->check(CLI::IsMember(backend_names))
+      ->capture_default_str();
+  command.add_option("--scale", options->scale,
+                     "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
   command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")
       ->check(whole_number(1, most_counted));
-  command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")->take_all()->type_size(1)->expected(1);
-  command.add_option("--audit", options->audit,
-                      "Which states are judged: each step, stored frames, the last one, none")
-      ->check(CLI::IsMember({"every", "frame", "end", "off"}))->capture_default_str();
-  command.add_option("--from-state", options->from_state, "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
+  command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1);
+  command
+      .add_option("--audit", options->audit, "Which states are judged: each step, stored frames, the last one, none")
+      ->check(CLI::IsMember({"every", "frame", "end", "off"}))
+      ->capture_default_str();
+  command.add_option("--from-state", options->from_state,
+                     "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
-  command.add_flag("--residual", options->residual, "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
-  command.add_flag("--iterations", options->iterations, "Write iterations.csv, a row an iteration, measured beside the run");
-  command.add_flag("--condition", options->condition, "With newton: the same, with the condition number of each matrix, also without friction and without contact (slow)");
+  command.add_flag(
+      "--residual", options->residual,
+      "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
+  command.add_flag("--iterations", options->iterations,
+                   "Write iterations.csv, a row an iteration, measured beside the run");
+  command.add_flag("--condition", options->condition,
+                   "With newton: the same, with the condition number of each matrix, also without friction and without "
+                   "contact (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
-  command.add_option("--show", options->show, "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
-  command.add_option("--checkpoint", options->checkpoint_seconds, "Seconds between two checkpoints, at least; 0: at each state that is judged")
-      ->check(real_number(1e-3, most_checkpoint_seconds, "s", true))->capture_default_str();
+  command.add_option(
+      "--show", options->show,
+      "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
+  command
+      .add_option("--checkpoint", options->checkpoint_seconds,
+                  "Seconds between two checkpoints, at least; 0: at each state that is judged")
+      ->check(real_number(1e-3, most_checkpoint_seconds, "s", true))
+      ->capture_default_str();
   return scene;
 }
 
@@ -167,7 +188,8 @@ std::string data_folder(const std::vector<std::string>& assignments) {
   for (const std::string& assignment : assignments) {
     if (!assignment.starts_with(data_key)) continue;
     folder = assignment.substr(data_key.size());
-    if (folder.empty()) throw compare::InputError("--set data=: give the folder of the data, for example --set data=input");
+    if (folder.empty())
+      throw compare::InputError("--set data=: give the folder of the data, for example --set data=input");
   }
   return folder;
 }
@@ -207,12 +229,16 @@ std::string settings_help() {
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
   if (!std::ranges::count(solver_names, options.solver))
     throw compare::InputError("--solver " + options.solver +
-                              " does not exist; there are: vbd (Vertex Block Descent with OGC contact), newton (Newton's method with OGC contact), "
+                              " does not exist; there are: vbd (Vertex Block Descent with OGC contact), newton "
+                              "(Newton's method with OGC contact), "
                               "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");
   if (!std::ranges::count(backend_names, options.backend))
-    throw compare::InputError("--backend " + options.backend + " does not exist; there are: " + backend_names[0] + ", " + backend_names[1]);
-  if (options.solver != "vbd" && options.backend != "cpu") throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
-  if (options.solver != "newton" && options.condition) throw compare::InputError("--condition belongs to --solver newton");
+    throw compare::InputError("--backend " + options.backend + " does not exist; there are: " + backend_names[0] +
+                              ", " + backend_names[1]);
+  if (options.solver != "vbd" && options.backend != "cpu")
+    throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
+  if (options.solver != "newton" && options.condition)
+    throw compare::InputError("--condition belongs to --solver newton");
   if (options.solver == "ipc" && options.residual)
     throw compare::InputError("--solver ipc has a measure of its own in that column; leave --residual out");
   RunRequest request;

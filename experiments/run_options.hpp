@@ -15,9 +15,9 @@ struct RunOptions {
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
   bool profile = false, iterations = false, condition = false, residual = false;
-  compare::MeshOptions mesh;             ///< of a mesh file in place of a scene
-  std::optional<double> ground;          ///< height of the ground below it [m]
-  int threads = 0;                       ///< 0: all
+  compare::MeshOptions mesh;     ///< of a mesh file in place of a scene
+  std::optional<double> ground;  ///< height of the ground below it [m]
+  int threads = 0;               ///< 0: all
   double checkpoint_seconds = default_checkpoint_seconds;
 };
 

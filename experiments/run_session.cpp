@@ -29,7 +29,9 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
 
 bool finite(const Snapshot& snapshot) {
-  return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
+  return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
 }
 
 /// Not a number where there is none.
@@ -51,8 +53,8 @@ RunRequest checked(RunRequest request) {
   // Scenes of files have none left; what a frame holds is never looked at for it.
   if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
     log_line("ogc: " + request.scene.name + ": " + dust);
-  const std::string problems =
-      compare::describe(compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
+  const std::string problems = compare::describe(
+      compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
   if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
   if (!request.resume) compare::expect_new_run_folder(request.folder);
   return request;
@@ -86,16 +88,19 @@ std::string step_failure(const StepMetrics& row) {
     return "a position became infinite or not a number" + where +
            "; the last good state is kept. Try a smaller time_step, more iterations, or softer materials";
   if (row.status & compare::step_bound_violated)
-    return "a vertex moved further than its bound" + where + ": the guarantee is broken; the last good state is kept. Please report it";
+    return "a vertex moved further than its bound" + where +
+           ": the guarantee is broken; the last good state is kept. Please report it";
   if (row.status & compare::step_indefinite)
     return "Newton's matrix is not positive definite" + where +
            "; the last good state is kept. Set projection to clamp or absolute, or a smaller time_step";
   if (row.status & compare::step_not_converged && !row.notes.empty())
-    return "the solver came to a standstill" + where + " (" + row.notes.back() + "); the last good state is kept. Try a smaller time_step";
+    return "the solver came to a standstill" + where + " (" + row.notes.back() +
+           "); the last good state is kept. Try a smaller time_step";
   if (row.status & compare::step_not_converged)
     return "Newton's method did not converge" + where + ": residual " + number(row.residual) + " after " +
            counted(static_cast<std::size_t>(row.iterations), "iteration") +
-           "; the last good state is kept. Try more newton_iterations, a larger newton_tolerance (0: do all iterations and go on), or a smaller time_step";
+           "; the last good state is kept. Try more newton_iterations, a larger newton_tolerance (0: do all iterations "
+           "and go on), or a smaller time_step";
   return "";
 }
 
@@ -119,11 +124,13 @@ void RunSession::start_state() {
     const std::string file = request_.from_state->string();
     compare::Frame frame = compare::read_frame(*request_.from_state);
     if (frame.positions.size() != start_.positions.size() || frame.velocities.size() != start_.positions.size())
-      throw compare::InputError(file + ": holds " + std::to_string(frame.positions.size()) + " vertices, the scene '" + request_.scene.name + "' has " +
-                                std::to_string(start_.positions.size()) + "; give the scene and scale of the run that the frame comes from");
+      throw compare::InputError(file + ": holds " + std::to_string(frame.positions.size()) + " vertices, the scene '" +
+                                request_.scene.name + "' has " + std::to_string(start_.positions.size()) +
+                                "; give the scene and scale of the run that the frame comes from");
     if (frame.step >= settings_.steps)
-      throw compare::InputError(file + ": is the state after step " + std::to_string(frame.step) + ", and the run ends at step " +
-                                std::to_string(settings_.steps) + "; give a larger --steps");
+      throw compare::InputError(file + ": is the state after step " + std::to_string(frame.step) +
+                                ", and the run ends at step " + std::to_string(settings_.steps) +
+                                "; give a larger --steps");
     start_.step = frame.step;
     start_.positions = std::move(frame.positions);
     start_.velocities = std::move(frame.velocities);
@@ -152,7 +159,10 @@ std::string RunSession::show(const std::string& name, const Snapshot& state, con
 }
 
 void RunSession::open_folder() {
-  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile, .energies = true, .iterations = request_.iterations, .condition = request_.condition});
+  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile,
+                                                   .energies = true,
+                                                   .iterations = request_.iterations,
+                                                   .condition = request_.condition});
   if (request_.from_state || request_.resume) simulation_->restore(start_);
   summary_.scene = request_.scene.name;
   summary_.scale = request_.scale;
@@ -174,17 +184,21 @@ void RunSession::begin_folder() {
   last_good_.bounds.assign(start_.positions.size(), 0);
   compare::Provenance origin = provenance(request_, summary_.device);
   origin.warnings = warnings_.list();
-  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, origin,
-                                                 request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
+  writer_ = std::make_unique<compare::RunWriter>(
+      request_.folder, request_.scene, origin,
+      request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
 }
 
 /// What the run did before is counted from its own rows.
 void RunSession::reopen_folder() {
-  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, step_, request_.backend == "cpu" ? ", " + summary_.device : "");
+  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, step_,
+                                                 request_.backend == "cpu" ? ", " + summary_.device : "");
   const std::vector<StepMetrics> rows = compare::read_steps(request_.folder).rows;
   if (!rows.empty()) summary_.first_step = rows.front().step - 1;
   // An interruption stores a frame where the whole run has none.
-  writer_->keep_frames([this](std::int64_t step) { return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps; });
+  writer_->keep_frames([this](std::int64_t step) {
+    return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps;
+  });
   count(rows);
   summary_.audited_states = static_cast<std::size_t>(request_.resume->audited_states);
   if (summary_.audited_states > 0) summary_.guarantee_kept = true;
@@ -230,8 +244,8 @@ void RunSession::simulate() {
   while (step_ < settings_.steps && !failed() && !interrupted()) {
     if (!one_chunk()) break;
     const double recent = step_times_.empty() ? 0 : step_times_.back();
-    const auto contacts =
-        static_cast<std::size_t>(summary_.last_vertex_facet_contacts + summary_.last_edge_edge_contacts);
+    const auto contacts = static_cast<std::size_t>(summary_.last_vertex_facet_contacts +
+                                                   summary_.last_edge_edge_contacts);
     progress.show(step_, number(recent) + " ms a step, " + counted(contacts, "contact") +
                              ", frames written up to step " + std::to_string(writer_->written().last_step));
   }
@@ -361,15 +375,17 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
   const std::filesystem::path file = request_.folder / ("failed_step_" + std::to_string(verdict.step) + ".ply");
   compare::write_mesh(file, mesh);
   const std::string state = "step_" + std::to_string(verdict.step);
-  const std::string shown =
-      verdict.intersections.count == 0 ? "" : "\nintersections " + show(state, snapshot, verdict.intersections);
+  const std::string shown = verdict.intersections.count == 0
+                                ? ""
+                                : "\nintersections " + show(state, snapshot, verdict.intersections);
   summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() +
                      "); the last good state is kept:" + shown + "\n" + judge_.describe(verdict);
 }
 
 void RunSession::store_frame(const Snapshot& snapshot) {
   if (snapshot.step == last_frame_) return;
-  writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions, snapshot.velocities, snapshot.bounds});
+  writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions,
+                      snapshot.velocities, snapshot.bounds});
   last_frame_ = snapshot.step;
 }
 
@@ -402,7 +418,9 @@ void RunSession::finish() {
   summary_.warnings = warnings_.list();
   writer_->set_warnings(summary_.warnings);
   writer_->set_extra("final_hash", summary_.final_hash);
-  writer_->set_extra("guarantee_kept", !summary_.guarantee_kept ? "not checked" : *summary_.guarantee_kept ? "yes" : "no");
+  writer_->set_extra("guarantee_kept", !summary_.guarantee_kept   ? "not checked"
+                                       : *summary_.guarantee_kept ? "yes"
+                                                                  : "no");
   writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
   writer_->close();
   take_times();

@@ -1,5 +1,6 @@
-// One simulation from its scene to its run folder. States are stored only after they were judged (where they are judged at all), so that the last
-// frame of a folder is the last good state; the simulation may be a few states ahead by then, and is stopped.
+// One simulation from its scene to its run folder. States are stored only after they were judged (where they are judged
+// at all), so that the last frame of a folder is the last good state; the simulation may be a few states ahead by then,
+// and is stopped.
 #pragma once
 
 #include <chrono>
@@ -33,36 +34,38 @@ struct RunSeconds {
 
 struct RunRequest {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
-  compare::Scene scene;               ///< with all settings applied
-  compare::MeshSources sources;       ///< of its bodies' meshes, for messages
-  std::string scale;                  ///< "smoke", …; empty for a scene file
+  compare::Scene scene;                                                            ///< with all settings applied
+  compare::MeshSources sources;  ///< of its bodies' meshes, for messages
+  std::string scale;             ///< "smoke", …; empty for a scene file
   std::string solver = "vbd";
   std::string backend = "cpu";
   AuditMode audit = AuditMode::frame;
-  bool audit_beside = false;          ///< see Auditor
+  bool audit_beside = false;  ///< see Auditor
   std::optional<std::filesystem::path> from_state;
-  std::optional<compare::Checkpoint> resume;  ///< of `folder`, whose run goes on (experiments/resume.hpp)
+  std::optional<compare::Checkpoint> resume;               ///< of `folder`, whose run goes on (experiments/resume.hpp)
   double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
   bool profile = false;
   bool iterations = false, condition = false;  ///< see compare::SimulationOptions
-  bool residual = false;              ///< the contestant was wrapped so (experiments/measured_simulation.hpp); for run.json
+  /// the contestant was wrapped so (experiments/measured_simulation.hpp); for run.json
+  bool residual = false;
   std::filesystem::path folder;
-  std::filesystem::path show;         ///< folder for pictures of what an audit refuses; empty: none
+  std::filesystem::path show;  ///< folder for pictures of what an audit refuses; empty: none
   std::string command_line;
 };
 
 /// What a run comes to. Times of steps [ms]; not-a-number where no step was done.
 struct RunSummary {
   std::string scene, scale, solver, backend, device, folder, status;
-  std::vector<std::string> warnings;   ///< what can hardly be meant, in words (experiments/warnings.hpp)
-  std::string left_out_of_audits;      ///< in words; empty where nothing is
-  std::string failure;                 ///< what went wrong, naming primitives; empty where nothing did
+  std::vector<std::string> warnings;  ///< what can hardly be meant, in words (experiments/warnings.hpp)
+  std::string left_out_of_audits;     ///< in words; empty where nothing is
+  std::string failure;                ///< what went wrong, naming primitives; empty where nothing did
   bool was_interrupted = false;
-  std::int64_t first_step = 0, last_step = 0;   ///< states: from, to
+  std::int64_t first_step = 0, last_step = 0;  ///< states: from, to
   double median_ms = 0, worst_ms = 0;
   std::int64_t worst_step = 0;
   std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
-  std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;  ///< detections: trees brought up to date and asked
+  /// detections: trees brought up to date and asked
+  std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
   double largest_share_at_bound = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
@@ -82,8 +85,8 @@ class RunSession {
   RunSession(RunRequest request, compare::Contestant contestant);
   RunSession(const RunSession&) = delete;
   RunSession& operator=(const RunSession&) = delete;
-  /// Runs to the end, to a failure (RunSummary::failure), or until interrupted. Throws compare::ResourceError where the disk is full; the folder
-  /// then says so as far as it can.
+  /// Runs to the end, to a failure (RunSummary::failure), or until interrupted. Throws compare::ResourceError where the
+  /// disk is full; the folder then says so as far as it can.
   RunSummary run();
 
  private:
@@ -127,7 +130,7 @@ class RunSession {
   std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
   std::int64_t offered_step_ = 0;  ///< of the last state that was offered
   Pace pace_;
-  std::int64_t saved_step_ = -1;   ///< of the last checkpoint
+  std::int64_t saved_step_ = -1;  ///< of the last checkpoint
   std::chrono::steady_clock::time_point saved_at_;
   std::size_t unplanned_audits_ = 0;
   std::vector<double> step_times_;

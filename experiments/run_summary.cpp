@@ -47,8 +47,12 @@ Json to_json(const RunSummary& summary) {
   json["first_step"] = summary.first_step;
   json["last_step"] = summary.last_step;
   json["step_ms"] = {{"median", summary.median_ms}, {"worst", summary.worst_ms}, {"worst_step", summary.worst_step}};
-  json["contacts"] = {{"vertex_facet", summary.last_vertex_facet_contacts}, {"edge_edge", summary.last_edge_edge_contacts}, {"most", summary.most_contacts}};
-  json["detections"] = {{"broad_phases", summary.detections}, {"discrete", summary.discrete_detections}, {"continuous", summary.continuous_detections}};
+  json["contacts"] = {{"vertex_facet", summary.last_vertex_facet_contacts},
+                      {"edge_edge", summary.last_edge_edge_contacts},
+                      {"most", summary.most_contacts}};
+  json["detections"] = {{"broad_phases", summary.detections},
+                        {"discrete", summary.discrete_detections},
+                        {"continuous", summary.continuous_detections}};
   json["guess_rounds"] = summary.guess_rounds;
   json["iterations"] = summary.iterations;
   json["repeats"] = summary.repeats;
@@ -56,8 +60,11 @@ Json to_json(const RunSummary& summary) {
   json["largest_momentum_lost"] = summary.largest_momentum_lost;
   json["largest_lag_m"] = summary.largest_lag;
   json["smallest_distance_m"] = summary.smallest_distance;
-  json["audit"] = {{"states", summary.audited_states},       {"failed_states", summary.failed_states}, {"intersections", summary.intersections},
-                   {"beyond_bound", summary.certificate_violations}, {"unsafe_bounds", summary.unsafe_bounds}};
+  json["audit"] = {{"states", summary.audited_states},
+                   {"failed_states", summary.failed_states},
+                   {"intersections", summary.intersections},
+                   {"beyond_bound", summary.certificate_violations},
+                   {"unsafe_bounds", summary.unsafe_bounds}};
   if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
   if (!summary.failure.empty()) json["failure"] = summary.failure;
   json["warnings"] = summary.warnings;

@@ -36,9 +36,9 @@ constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 struct Measures {
   double edge = 0;  ///< length that stands for all edges [m]
   std::string edge_name;
-  double gap = 0;    ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
-  double mass = 0;   ///< mean of a vertex [kg]
-  double speed = 0;  ///< at the end of the fall [m/s]
+  double gap = 0;     ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
+  double mass = 0;    ///< mean of a vertex [kg]
+  double speed = 0;   ///< at the end of the fall [m/s]
   double layers = 1;  ///< that lie on one another, on average over what is below them
 };
 
@@ -70,8 +70,8 @@ double layers_of(const compare::Mesh& mesh) {
 
 Measures measure(const compare::Mesh& mesh, const compare::Material& material, double fall) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
-  const compare::Topology topology =
-      compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
+  const compare::Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()),
+                                                             mesh.triangles, mesh.loose_edges);
   std::vector<double> lengths;
   for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
   // Where a tenth of the edges is far shorter than most, like those around a can, they decide what may be called near.
@@ -136,9 +136,9 @@ SuggestedNumber radius_of(const Measures& mesh) {
 SuggestedNumber query_radius_of(const Measures& mesh, double radius) {
   const double least = compare::Settings{}.query_radius_cap * radius;
   const double value = std::clamp(two_digits(mesh.edge), least, most_radii * radius);
-  return {
-      value,
-      "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the lists stay short"};
+  return {value,
+          "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the "
+          "lists stay short"};
 }
 
 SuggestedNumber stiffness_of(const Measures& mesh, double radius) {

@@ -173,8 +173,8 @@ void measure_convexity(reference::Minimiser& minimiser, const Positions& swept, 
   result.smallest_eigenvalue = minimiser.smallest_eigenvalue(minimum).value_or(0);
   result.smallest_eigenvalue_between = result.smallest_eigenvalue;
   for (const Positions& x : {halfway(swept, minimum), swept})
-    result.smallest_eigenvalue_between =
-        std::min(result.smallest_eigenvalue_between, minimiser.smallest_eigenvalue(x).value_or(0));
+    result.smallest_eigenvalue_between = std::min(result.smallest_eigenvalue_between,
+                                                  minimiser.smallest_eigenvalue(x).value_or(0));
 }
 
 /// The minimiser whose friction is lagged to itself, from `x`; nothing where it does not come to rest.
@@ -226,8 +226,8 @@ ToMinimiser distance_to_minimiser(const compare::Contestant& contestant, const c
   result.newton_converged = minimum.converged;
   result.largest_distance = distance.largest;
   result.rms_distance = distance.rms;
-  result.largest_distance_own_friction =
-      own ? apart(x, *own, result.free_vertices).largest : std::numeric_limits<double>::quiet_NaN();
+  result.largest_distance_own_friction = own ? apart(x, *own, result.free_vertices).largest
+                                             : std::numeric_limits<double>::quiet_NaN();
   result.rounding = compare::unit_roundoff * largest_coordinate(floor);
   const double lambda = result.smallest_eigenvalue_between;
   result.bound_by_gradient = result.bound_by_energy = std::numeric_limits<double>::infinity();

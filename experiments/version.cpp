@@ -16,9 +16,11 @@ std::string backend_line(const std::string& name, fast::Backend backend) {
 
 std::string version_text() {
   const BuildInfo info = build_info();
-  return "OGC Testbed " + info.version + "\ncommit " + info.commit + (info.dirty ? " (dirty: with changes that are not committed)" : "") +
-         "\ncompiler " + info.compiler + "\nCUDA " + info.cuda + "\nbackends\n" + backend_line("cpu", fast::Backend::cpu) +
-         backend_line("cuda", fast::Backend::cuda) + "Apache-2.0; binaries that link CGAL's GPL parts are passed on under the GPL.";
+  return "OGC Testbed " + info.version + "\ncommit " + info.commit +
+         (info.dirty ? " (dirty: with changes that are not committed)" : "") + "\ncompiler " + info.compiler +
+         "\nCUDA " + info.cuda + "\nbackends\n" + backend_line("cpu", fast::Backend::cpu) +
+         backend_line("cuda", fast::Backend::cuda) +
+         "Apache-2.0; binaries that link CGAL's GPL parts are passed on under the GPL.";
 }
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
-// Which program this is. The data come from a file that the build writes anew whenever the commit changes (version.cmake), so that a
-// program never names the commit of the day on which its build folder was configured.
+// Which program this is. The data come from a file that the build writes anew whenever the commit changes
+// (version.cmake), so that a program never names the commit of the day on which its build folder was configured.
 #pragma once
 
 #include <string>

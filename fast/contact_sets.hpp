@@ -1,5 +1,6 @@
-// Contact sets, smallest distances and conservative bounds for somebody else's solver: give positions, get everything that Offset Geometric Contact needs
-// for one step. Lists grow by themselves; no contact is ever dropped; the same positions give the same bits.
+// Contact sets, smallest distances and conservative bounds for somebody else's solver: give positions, get everything
+// that Offset Geometric Contact needs for one step. Lists grow by themselves; no contact is ever dropped; the same
+// positions give the same bits.
 //
 //   ogc::fast::ContactFinder finder(vertex_count, triangles, loose_edges);
 //   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
@@ -20,15 +21,15 @@ namespace ogc::fast {
 
 /// Lengths [m].
 struct ContactQuery {
-  float contact_radius = 0;         ///< r > 0
-  float query_radius = 0;           ///< r_q ≥ r: nothing is looked for beyond it, so no bound exceeds γ_p r_q
-  float bound_relaxation = 0.45F;   ///< γ_p of Eq. 21, in (0, 0.5)
+  float contact_radius = 0;        ///< r > 0
+  float query_radius = 0;          ///< r_q ≥ r: nothing is looked for beyond it, so no bound exceeds γ_p r_q
+  float bound_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
 };
 
 /// Results on the host, in canonical order (compare/stages); distances and bounds are never above the exact ones.
 struct ContactSets {
-  std::vector<compare::VertexFacetContact> vertex_facet;  ///< F_OGC(v) for all v
-  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< E_OGC; edge numbers: ContactFinder::topology()
+  std::vector<compare::VertexFacetContact> vertex_facet;        ///< F_OGC(v) for all v
+  std::vector<compare::EdgeEdgeContact> edge_edge;              ///< E_OGC; edge numbers: ContactFinder::topology()
   std::vector<float> d_min_vertex, d_min_edge, d_min_triangle;  ///< Eq. 22, 24, 26 [m], at most r_q
   std::vector<float> bound;                                     ///< b_v, Eq. 21 [m]
   friend bool operator==(const ContactSets&, const ContactSets&) = default;
@@ -45,20 +46,22 @@ class ContactEngine {
 /// One mesh, any number of positions. Not for use by several threads at a time.
 class ContactFinder {
  public:
-  /// `exclusions`: pairs that are left out, by groups of vertices and by partners; a vector of numbers, one for each vertex, are groups. Throws compare::InputError
-  /// where an index is out of range or repeated, compare::ResourceError as `contestant(backend)`.
-  ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles, std::span<const compare::Edge> loose_edges = {},
-                Backend backend = Backend::cpu, const compare::ExclusionView& exclusions = {});
+  /// `exclusions`: pairs that are left out, by groups of vertices and by partners; a vector of numbers, one for each
+  /// vertex, are groups. Throws compare::InputError where an index is out of range or repeated, compare::ResourceError
+  /// as `contestant(backend)`.
+  ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles,
+                std::span<const compare::Edge> loose_edges = {}, Backend backend = Backend::cpu,
+                const compare::ExclusionView& exclusions = {});
 
   /// Names of edges and adjacency.
   const compare::Topology& topology() const { return *topology_; }
 
-  /// Positions [m] on the host, results on the host. Throws compare::InputError where the number of positions is not the mesh's, a coordinate is not
-  /// finite, or the query is out of range.
+  /// Positions [m] on the host, results on the host. Throws compare::InputError where the number of positions is not
+  /// the mesh's, a coordinate is not finite, or the query is out of range.
   ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query);
 
-  /// Positions where the backend computes (device memory for Backend::cuda), one for each vertex; results stay there, complete on return, until the
-  /// next call. Coordinates are not checked.
+  /// Positions where the backend computes (device memory for Backend::cuda), one for each vertex; results stay there,
+  /// complete on return, until the next call. Coordinates are not checked.
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query);
 
  private:

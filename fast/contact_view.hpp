@@ -11,8 +11,9 @@ struct alignas(16) VertexFacetRecord {
   int corner[3];
 };
 
-/// {p, q}: first[1] = -1 where p is a vertex, likewise second. `first_edge`, `second_edge`: see compare/stages/detect_edge_edge.hpp; where both
-/// are interiors they are p and q themselves (rest lengths for the mollifier).
+/// {p, q}: first[1] = -1 where p is a vertex, likewise second. `first_edge`, `second_edge`: see
+/// compare/stages/detect_edge_edge.hpp; where both are interiors they are p and q themselves (rest lengths for the
+/// mollifier).
 struct alignas(8) EdgeEdgeRecord {
   int first[2];
   int second[2];
@@ -20,7 +21,8 @@ struct alignas(8) EdgeEdgeRecord {
 };
 
 /// One contact seen from one of its vertices: ascending codes within a vertex's row, so that sums have a fixed order.
-/// Vertex–facet: role 0 is the vertex, roles 1 … 3 the corners. Edge–edge: roles 0, 1 the vertices of p, 2, 3 those of q.
+/// Vertex–facet: role 0 is the vertex, roles 1 … 3 the corners. Edge–edge: roles 0, 1 the vertices of p, 2, 3 those of
+/// q.
 struct Incidence {
   std::uint32_t code;  ///< bit 31: edge–edge; bits 2 … 30: number of the record; bits 0, 1: role
 };
@@ -31,10 +33,10 @@ struct ContactView {
   const EdgeEdgeRecord* edge_edge = nullptr;
   const int* vertex_facet_count = nullptr;  ///< on the device
   const int* edge_edge_count = nullptr;
-  const int* incidence_offsets = nullptr;   ///< vertex_count + 1
+  const int* incidence_offsets = nullptr;  ///< vertex_count + 1
   const Incidence* incidences = nullptr;
-  const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
-  const float* d_min_vertex = nullptr;      ///< [m]
+  const float* bound = nullptr;         ///< b_v, Eq. 21 [m]
+  const float* d_min_vertex = nullptr;  ///< [m]
 };
 
 }  // namespace ogc::fast

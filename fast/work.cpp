@@ -1,7 +1,8 @@
-// The work of an iteration, counted from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of default models counts one, comparisons,
-// negations and the additions that join lanes count none; of branches the longest that generic input takes. Bytes: the sizes of the very structs that are read, each
-// once an iteration, however often a cache serves them: what no order of work can avoid. Searches of the trees depend on the state: there nodes, candidates and
-// distances are counted while a detection runs.
+// The work of an iteration, counted from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path
+// of default models counts one, comparisons, negations and the additions that join lanes count none; of branches the
+// longest that generic input takes. Bytes: the sizes of the very structs that are read, each once an iteration, however
+// often a cache serves them: what no order of work can avoid. Searches of the trees depend on the state: there nodes,
+// candidates and distances are counted while a detection runs.
 #include "fast/contestant.hpp"
 
 #include <algorithm>
@@ -19,17 +20,19 @@ namespace {
 
 // Parts that recur: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
 
-/// fast/kernels/membrane.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
+/// fast/kernels/membrane.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9,
+/// weights 7, blocks 17 + 30, geometric 9 + 4.
 constexpr double membrane_flop = 174;
-/// fast/kernels/bending.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections 12, angle's arguments 11, arctangent2 13, feet 7,
-/// divisors 2, gradient 11, moment 5, force 6, block 17.
+/// fast/kernels/bending.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections 12, angle's
+/// arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
 constexpr double hinge_flop = 141;
-/// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10, activation 3, force 7, block 17;
-/// friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
+/// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10,
+/// activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
 constexpr double contact_flop = 145;
 /// closest_on_triangle, inside: differences 9, normal 9, its square 5, two weights 28, the third 2, quotients 3.
 constexpr double on_triangle_flop = 56;
-/// closest_on_segments, not parallel: differences 9, three dots 15, cross 9, its square 5, projection 5, limit 2, first parameter 15, second 8, weights 2.
+/// closest_on_segments, not parallel: differences 9, three dots 15, cross 9, its square 5, projection 5, limit 2, first
+/// parameter 15, second 8, weights 2.
 constexpr double on_segments_flop = 70;
 /// inertia 12, its inverse 1, solve 28, new position 3, truncation that is not needed 10.
 constexpr double vertex_flop = 54;
@@ -39,10 +42,11 @@ constexpr double contact_vertices = 4;
 
 /// squared_gaps of four lanes: six differences, three products and two sums each.
 constexpr double node_flop = 44;
-/// separation of two edges 96 in single precision; their distance: differences 9, normal 9, squares 16, size 8, limits 3, dots 15, feet 6, from four ends 95;
-/// what is_pair and meet add 6.
+/// separation of two edges 96 in single precision; their distance: differences 9, normal 9, squares 16, size 8, limits
+/// 3, dots 15, feet 6, from four ends 95; what is_pair and meet add 6.
 constexpr double edge_distance_flop = 96 + 161 + 6;
-/// separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides 69, from three edges 67; 6 more.
+/// separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides
+/// 69, from three edges 67; 6 more.
 constexpr double facet_distance_flop = 158 + 192 + 6;
 /// Ends of a candidate edge, and its two positions where the distance is taken; likewise of a facet.
 constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(Place);
@@ -69,17 +73,19 @@ SearchCount count_searches(const Searches<Query>& searches) {
   SearchCount count;
   for (int i = 0; i < searches.count && !searches.query.is_off(); ++i) {
     Search search = searches.query.begin(i);
-    for_each_near(CountedTree{searches.tree, count.nodes}, search.box, search.from, search.limit, [&](const Offer& offer) {
-      ++count.candidates;
-      if (!searches.query.is_pair(search, offer)) return;
-      ++count.distances;
-      search.limit = smaller(search.limit, searches.query.meet(search, offer.primitive, offer.gap));
-    });
+    for_each_near(CountedTree{searches.tree, count.nodes}, search.box, search.from, search.limit,
+                  [&](const Offer& offer) {
+                    ++count.candidates;
+                    if (!searches.query.is_pair(search, offer)) return;
+                    ++count.distances;
+                    search.limit = smaller(search.limit, searches.query.meet(search, offer.primitive, offer.gap));
+                  });
   }
   return count;
 }
 
-/// The CPU's backend, whose searches are counted; of a detection that is repeated because a list grew the last one counts.
+/// The CPU's backend, whose searches are counted; of a detection that is repeated because a list grew the last one
+/// counts.
 class CountingBackend : public CpuBackend {
  public:
   SearchCount edges, facets;
@@ -91,7 +97,8 @@ class CountingBackend : public CpuBackend {
 };
 
 SearchWork work_of(const SearchCount& count, double distance_flop, double candidate_bytes, double position_bytes) {
-  SearchWork work{static_cast<double>(count.nodes), static_cast<double>(count.candidates), static_cast<double>(count.distances)};
+  SearchWork work{static_cast<double>(count.nodes), static_cast<double>(count.candidates),
+                  static_cast<double>(count.distances)};
   work.flop = work.nodes * node_flop + work.distances * distance_flop;
   work.bytes = work.nodes * sizeof(Quad) + work.candidates * candidate_bytes + work.distances * position_bytes;
   return work;
@@ -104,18 +111,23 @@ SweepWork sweep_work(const compare::Scene& scene) {
   const RestState rest = build_rest_state(scene, topology);
   const auto is_free = [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; };
   double triangles = 0, hinges = 0;
-  for (const TriangleRest& triangle : rest.triangles) triangles += static_cast<double>(std::ranges::count_if(triangle.corner, is_free));
-  for (const HingeRest& hinge : rest.hinges) hinges += static_cast<double>(std::ranges::count_if(hinge.vertex, is_free));
-  const bool damped = std::ranges::any_of(rest.materials, [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
+  for (const TriangleRest& triangle : rest.triangles)
+    triangles += static_cast<double>(std::ranges::count_if(triangle.corner, is_free));
+  for (const HingeRest& hinge : rest.hinges)
+    hinges += static_cast<double>(std::ranges::count_if(hinge.vertex, is_free));
+  const bool damped = std::ranges::any_of(
+      rest.materials, [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
   SweepWork work;
   work.vertices = static_cast<int>(std::ranges::count(rest.mobility, Mobility::free));
   work.colours = colour_vertices(rest).count;
   const double vertices = work.vertices;
   work.flop = vertices * vertex_flop + triangles * membrane_flop + hinges * hinge_flop;
   // x as a place, y, X_prev, b_v read; x written as a place, and tight.
-  work.bytes = vertices * (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(Place) + 3 * sizeof(Vec) + sizeof(float)) + triangles * sizeof(MembraneIncidence) +
-               hinges * sizeof(HingeIncidence);
-  if (damped) work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
+  work.bytes = vertices *
+                   (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(Place) + 3 * sizeof(Vec) + sizeof(float)) +
+               triangles * sizeof(MembraneIncidence) + hinges * sizeof(HingeIncidence);
+  if (damped)
+    work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
   work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
   work.flop_edge_edge = contact_vertices * (contact_flop + on_segments_flop);
   work.bytes_contact = contact_vertices * sizeof(ContactIncidence);
@@ -123,15 +135,17 @@ SweepWork sweep_work(const compare::Scene& scene) {
 }
 
 SearchWork search_work(const compare::Scene& scene, std::span<const compare::Vec3f> positions, float query_radius) {
-  if (positions.size() != scene.mesh.positions.size()) throw std::invalid_argument("search_work: positions of another mesh");
+  if (positions.size() != scene.mesh.positions.size())
+    throw std::invalid_argument("search_work: positions of another mesh");
   const compare::Topology topology = compare::build_topology(scene);
   CountingBackend backend;
   BackendContactEngine<CountingBackend> engine(backend, topology, compare::exclusions(scene));
-  engine.find(positions, {static_cast<float>(scene.settings.contact_radius), query_radius, static_cast<float>(scene.settings.bound_relaxation)});
+  engine.find(positions, {static_cast<float>(scene.settings.contact_radius), query_radius,
+                          static_cast<float>(scene.settings.bound_relaxation)});
   const SearchWork edges = work_of(backend.edges, edge_distance_flop, edge_bytes, edge_position_bytes);
   const SearchWork facets = work_of(backend.facets, facet_distance_flop, facet_bytes, facet_position_bytes);
-  return {edges.nodes + facets.nodes, edges.candidates + facets.candidates, edges.distances + facets.distances, edges.flop + facets.flop,
-          edges.bytes + facets.bytes};
+  return {edges.nodes + facets.nodes, edges.candidates + facets.candidates, edges.distances + facets.distances,
+          edges.flop + facets.flop, edges.bytes + facets.bytes};
 }
 
 }  // namespace ogc::fast

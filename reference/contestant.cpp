@@ -63,7 +63,8 @@ compare::Contestant ipc() {
 compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours) {
   compare::Contestant contestant;
   contestant.name = "reference_vbd";
-  contestant.start = [colours = std::move(colours)](const compare::Scene& scene, const compare::SimulationOptions& options) {
+  contestant.start = [colours = std::move(colours)](const compare::Scene& scene,
+                                                    const compare::SimulationOptions& options) {
     return start_vbd(scene, options, colours ? colours(scene) : std::vector<compare::Index>{});
   };
   return contestant;

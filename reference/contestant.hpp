@@ -25,7 +25,8 @@ compare::Contestant newton();
 /// The IPC baseline: likewise.
 compare::Contestant ipc();
 
-/// Vertex Block Descent in double, likewise. `colours`: of a scene's vertices, asked once a simulation (reference/solvers/vbd_solver.hpp); empty for its own.
+/// Vertex Block Descent in double, likewise. `colours`: of a scene's vertices, asked once a simulation
+/// (reference/solvers/vbd_solver.hpp); empty for its own.
 compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours = {});
 
 }  // namespace ogc::reference

@@ -1,5 +1,6 @@
-// All planted faults in one program, chosen at run time by number: `planted_faults` judges them all and prints how many cases each needed, as the table of
-// compare/README.md; `planted_faults NUMBER` judges one and prints what the judge says of it. Exit status 1 where the judge finds nothing in 10⁵ cases.
+// All planted faults in one program, chosen at run time by number: `planted_faults` judges them all and prints how many
+// cases each needed, as the table of compare/README.md; `planted_faults NUMBER` judges one and prints what the judge
+// says of it. Exit status 1 where the judge finds nothing in 10⁵ cases.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ StageReport judged(const tests::Fault& fault, const Authority& authority, std::u
   return judge_stage(fault.stage, wrong, authority, options);
 }
 
-/// Of the runs of 10, 20, 50, 100, … cases the first in which the judge finds the fault: how many cases it counted. 0: none.
+/// Of the runs of 10, 20, 50, 100, … cases the first in which the judge finds the fault: how many cases it counted. 0:
+/// none.
 std::uint64_t cases_needed(const tests::Fault& fault, const Authority& authority) {
   for (std::uint64_t decade = 10; decade <= most_cases; decade *= 10)
     for (const std::uint64_t step : {1u, 2u, 5u}) {

@@ -8,9 +8,9 @@
 #include "compare/problem/error.hpp"
 
 #ifdef OGC_HAS_ASSIMP
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/scene.h>
+#include <assimp/Importer.hpp>
 #endif
 
 namespace ogc::compare {
@@ -75,10 +75,9 @@ PolygonMesh read_with_assimp(const std::filesystem::path& path, bool shares_vert
 bool has_assimp() { return false; }
 
 PolygonMesh read_with_assimp(const std::filesystem::path& path, bool) {
-  throw InputError(
-      path.string() + ": this ogc was built without assimp, which reads '" + path.extension().string() +
-      "': install it (Debian, Ubuntu: apt-get install libassimp-dev) and build again, "
-      "or convert the mesh to .ply or .obj");
+  throw InputError(path.string() + ": this ogc was built without assimp, which reads '" + path.extension().string() +
+                   "': install it (Debian, Ubuntu: apt-get install libassimp-dev) and build again, "
+                   "or convert the mesh to .ply or .obj");
 }
 
 #endif

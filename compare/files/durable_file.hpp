@@ -1,5 +1,5 @@
-// Files that a killed run leaves whole: written under a temporary name, synced, renamed. The name of the temporary file ends in ".partial", which no
-// reader looks for.
+// Files that a killed run leaves whole: written under a temporary name, synced, renamed. The name of the temporary file
+// ends in ".partial", which no reader looks for.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ std::filesystem::path partial_name(const std::filesystem::path& path);
 /// (compare/files/bytes.hpp), as all of these do.
 void write_durably(const std::filesystem::path& path, std::string_view bytes);
 
-/// Writes `bytes` to a new file and reserves `size` bytes of disk for it, so that whoever fills it meets no full disk. Throws ResourceError, and leaves no
-/// file then.
+/// Writes `bytes` to a new file and reserves `size` bytes of disk for it, so that whoever fills it meets no full disk.
+/// Throws ResourceError, and leaves no file then.
 void write_and_reserve(const std::filesystem::path& path, std::string_view bytes, std::size_t size);
 
 /// Reserves the disk for an existing file from byte `from` to byte `to`, which becomes its end where it was shorter.
@@ -50,7 +50,8 @@ class LineAppender {
  public:
   /// Creates the file; throws ResourceError where it can't.
   explicit LineAppender(const std::filesystem::path& path);
-  /// Goes on with a file of which the first `length` bytes are kept. Throws InputError where another process appends to it, ResourceError where it can't.
+  /// Goes on with a file of which the first `length` bytes are kept. Throws InputError where another process appends to
+  /// it, ResourceError where it can't.
   LineAppender(const std::filesystem::path& path, std::size_t length);
   ~LineAppender();
   LineAppender(const LineAppender&) = delete;

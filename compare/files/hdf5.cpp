@@ -6,15 +6,16 @@
 #include <type_traits>
 #include <utility>
 
-#include "compare/problem/error.hpp"
 #include "compare/files/bytes.hpp"
 #include "compare/files/durable_file.hpp"
 #include "compare/files/packing.hpp"
+#include "compare/problem/error.hpp"
 
 namespace ogc::compare {
 namespace {
 
-static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>, "the header names HDF5's types by what they are");
+static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>,
+              "the header names HDF5's types by what they are");
 
 template <class T>
 hid_t native_type() {
@@ -41,7 +42,8 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
 
 std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Rows of a chunk of a dataset that is written `part` rows at a time: a whole number of small parts, or a large part cut evenly.
+/// Rows of a chunk of a dataset that is written `part` rows at a time: a whole number of small parts, or a large part
+/// cut evenly.
 std::size_t rows_in_chunk(std::size_t part) {
   return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : even_chunk_rows(part);
 }
@@ -73,8 +75,11 @@ Hdf5Handle text_type(std::size_t size) {
   return type;
 }
 
-bool write_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type, const Hdf5Handle& space, const void* values) {
-  const Hdf5Handle attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+bool write_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type,
+                     const Hdf5Handle& space, const void* values) {
+  const Hdf5Handle attribute(
+      H5Acreate_by_name(file, object.c_str(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
   return attribute.valid() && H5Awrite(attribute.id(), type, values) >= 0;
 }
 
@@ -102,7 +107,8 @@ void Hdf5File::refuse_read(const std::string& what) const {
 }
 
 void Hdf5File::refuse_write(const std::string& what) const {
-  throw ResourceError(path_.string() + ": can't write " + what + ": free space there, or choose a folder on another disk");
+  throw ResourceError(path_.string() + ": can't write " + what +
+                      ": free space there, or choose a folder on another disk");
 }
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t size) {
@@ -145,12 +151,15 @@ void Hdf5File::create_dataset(const std::string& name, std::size_t rows, std::si
   if (columns > 0) shape.push_back(columns);
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   const Hdf5Handle list = creation_list(shape, part);
-  const Hdf5Handle dataset(H5Dcreate2(file_.id(), name.c_str(), native_type<T>(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle dataset(
+      H5Dcreate2(file_.id(), name.c_str(), native_type<T>(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
+      H5Dclose);
   if (!dataset.valid()) refuse_write(name);
 }
 
-// A chunk that does not shrink is stored as it is, the last one is stored whole. Of the index, a node of 64 chunks has 4 KiB at most (keys of 3 extents)
-// and is at least half full: 128 B a chunk, and as much again covers the levels above. Object header, group entry and attributes: 4 KiB.
+// A chunk that does not shrink is stored as it is, the last one is stored whole. Of the index, a node of 64 chunks has
+// 4 KiB at most (keys of 3 extents) and is at least half full: 128 B a chunk, and as much again covers the levels
+// above. Object header, group entry and attributes: 4 KiB.
 std::size_t Hdf5File::largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part) {
   const std::size_t in_chunk = rows_in_chunk(part), chunks = divide_up(rows, in_chunk);
   return chunks * (in_chunk * row_bytes + 256) + 8192;
@@ -169,8 +178,10 @@ void Hdf5File::write_rows(const std::string& name, std::size_t first_row, std::s
   start[0] = first_row;
   const Hdf5Handle part(H5Dget_space(dataset.id()), H5Sclose);
   const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
-  const bool written = H5Sselect_hyperslab(part.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
-                       H5Dwrite(dataset.id(), native_type<T>(), memory.id(), part.id(), H5P_DEFAULT, values.data()) >= 0;
+  const bool written = H5Sselect_hyperslab(part.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >=
+                           0 &&
+                       H5Dwrite(dataset.id(), native_type<T>(), memory.id(), part.id(), H5P_DEFAULT, values.data()) >=
+                           0;
   if (!dataset.release() || !written) refuse_write(name);
 }
 
@@ -185,17 +196,21 @@ void Hdf5File::write_text(const std::string& name, std::string_view text) {
   const Lock lock(hdf5_library());
   const Hdf5Handle type = text_type(text.size());
   const Hdf5Handle space = scalar_or_row(1);
-  const Hdf5Handle dataset(H5Dcreate2(file_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) refuse_write(name);
+  const Hdf5Handle dataset(
+      H5Dcreate2(file_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+    refuse_write(name);
 }
 
 std::string Hdf5File::read_text(const std::string& name) const {
   const Lock lock(hdf5_library());
   const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle stored(dataset.valid() ? H5Dget_type(dataset.id()) : -1, H5Tclose);
-  if (!stored.valid() || H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) > 0) refuse_read("text '" + name + "' is missing");
+  if (!stored.valid() || H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) > 0)
+    refuse_read("text '" + name + "' is missing");
   std::string text(H5Tget_size(stored.id()), '\0');
-  if (H5Dread(dataset.id(), text_type(text.size()).id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) refuse_read("text '" + name + "' can't be read");
+  if (H5Dread(dataset.id(), text_type(text.size()).id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+    refuse_read("text '" + name + "' can't be read");
   return text;
 }
 
@@ -226,18 +241,21 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values) {
   const Lock lock(hdf5_library());
-  if (!write_attribute(file_.id(), object, name, H5T_NATIVE_INT64, scalar_or_row(values.size()), values.data())) refuse_write("attribute " + name);
+  if (!write_attribute(file_.id(), object, name, H5T_NATIVE_INT64, scalar_or_row(values.size()), values.data()))
+    refuse_write("attribute " + name);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
   const Lock lock(hdf5_library());
-  if (!write_attribute(file_.id(), object, name, H5T_NATIVE_DOUBLE, scalar_or_row(1), &value)) refuse_write("attribute " + name);
+  if (!write_attribute(file_.id(), object, name, H5T_NATIVE_DOUBLE, scalar_or_row(1), &value))
+    refuse_write("attribute " + name);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::string_view text) {
   const Lock lock(hdf5_library());
   const Hdf5Handle type = text_type(text.size());
-  if (!type.valid() || !write_attribute(file_.id(), object, name, type.id(), scalar_or_row(1), text.data())) refuse_write("attribute " + name);
+  if (!type.valid() || !write_attribute(file_.id(), object, name, type.id(), scalar_or_row(1), text.data()))
+    refuse_write("attribute " + name);
 }
 
 bool Hdf5File::has_attribute(const std::string& name) const {
@@ -251,7 +269,8 @@ T Hdf5File::attribute(const std::string& name) const {
   const Hdf5Handle attribute(H5Aopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
   const Hdf5Handle space(attribute.valid() ? H5Aget_space(attribute.id()) : -1, H5Sclose);
   T value{};
-  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1 || H5Aread(attribute.id(), native_type<T>(), &value) < 0)
+  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1 ||
+      H5Aread(attribute.id(), native_type<T>(), &value) < 0)
     refuse_read("attribute '" + name + "' is missing");
   return value;
 }
@@ -272,11 +291,11 @@ void Hdf5File::close() {
   if (!file_.release() || !flushed) refuse_write("the file");
 }
 
-#define OGC_HDF5_VALUE(T)                                                                                \
-  template void Hdf5File::create_dataset<T>(const std::string&, std::size_t, std::size_t, std::size_t);  \
-  template void Hdf5File::write_rows<T>(const std::string&, std::size_t, std::span<const T>);            \
-  template void Hdf5File::write<T>(const std::string&, std::span<const T>, std::size_t);                 \
-  template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                   \
+#define OGC_HDF5_VALUE(T)                                                                               \
+  template void Hdf5File::create_dataset<T>(const std::string&, std::size_t, std::size_t, std::size_t); \
+  template void Hdf5File::write_rows<T>(const std::string&, std::size_t, std::span<const T>);           \
+  template void Hdf5File::write<T>(const std::string&, std::span<const T>, std::size_t);                \
+  template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                  \
   template T Hdf5File::attribute<T>(const std::string&) const;
 OGC_HDF5_VALUE(float)
 OGC_HDF5_VALUE(double)

@@ -37,20 +37,22 @@ class Hdf5Handle {
   Close close_;
 };
 
-/// One HDF5 file, to write or to read. Objects are named by path from the root ("VTKHDF/Points"). Reading throws InputError, writing ResourceError;
-/// both name the file and the object. Values: float, double, std::int32_t, std::int64_t.
+/// One HDF5 file, to write or to read. Objects are named by path from the root ("VTKHDF/Points"). Reading throws
+/// InputError, writing ResourceError; both name the file and the object. Values: float, double, std::int32_t,
+/// std::int64_t.
 class Hdf5File {
  public:
-  /// Empties or creates the file and reserves `size` bytes on the disk before HDF5 gets it: HDF5 1.10 crashes where a write fails while it closes a file.
-  /// What is not needed is given back by `close`.
+  /// Empties or creates the file and reserves `size` bytes on the disk before HDF5 gets it: HDF5 1.10 crashes where a
+  /// write fails while it closes a file. What is not needed is given back by `close`.
   static Hdf5File create(const std::filesystem::path& path, std::size_t size);
   /// Lives in memory only; `name` stands in messages. See `image`.
   static Hdf5File create_in_memory(const std::filesystem::path& name);
   static Hdf5File open(const std::filesystem::path& path);
 
   void create_group(const std::string& name);
-  /// Makes a dataset of `rows` rows with `columns` values (0: one-dimensional), to be written `part` ≥ 1 rows at a time; a long one is shuffled and
-  /// deflated in chunks that fit the parts, so that no chunk is compressed again and again.
+  /// Makes a dataset of `rows` rows with `columns` values (0: one-dimensional), to be written `part` ≥ 1 rows at a
+  /// time; a long one is shuffled and deflated in chunks that fit the parts, so that no chunk is compressed again and
+  /// again.
   template <class T>
   void create_dataset(const std::string& name, std::size_t rows, std::size_t columns, std::size_t part);
   /// Disk that such a dataset takes at most, with all that HDF5 stores about it.

@@ -1,4 +1,5 @@
-// Numbers keep JSON's own distinction: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong type rather than cut off.
+// Numbers keep JSON's own distinction: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong type
+// rather than cut off.
 #include "compare/files/json_reader.hpp"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ Json parse_json(std::string_view text, const std::string& file) {
     if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
     if (event == Json::parse_event_t::object_end) open_objects.pop_back();
     if (event == Json::parse_event_t::key && !open_objects.back().insert(parsed.get<std::string>()).second) {
-      throw InputError(file + ": the key '" + parsed.get<std::string>() + "' stands twice in one object; keep one of them");
+      throw InputError(file + ": the key '" + parsed.get<std::string>() +
+                       "' stands twice in one object; keep one of them");
     }
     return true;
   };
@@ -38,7 +40,9 @@ JsonNode::JsonNode(const Json& value, std::string file, std::string path, std::v
 
 std::string JsonNode::where() const { return file_ + ": " + (path_.empty() ? "/" : path_); }
 
-void JsonNode::fail(const std::string& what, const std::string& remedy) const { problems_->push_back({where(), what, remedy}); }
+void JsonNode::fail(const std::string& what, const std::string& remedy) const {
+  problems_->push_back({where(), what, remedy});
+}
 
 void JsonNode::wrong_type(const std::string& wanted) const {
   constexpr std::size_t most_shown = 40;
@@ -46,11 +50,17 @@ void JsonNode::wrong_type(const std::string& wanted) const {
   fail("is " + (text.size() > most_shown ? value_->type_name() : text), "give " + wanted);
 }
 
-void JsonNode::read(bool& target) const { value_->is_boolean() ? void(target = value_->get<bool>()) : wrong_type("true or false"); }
+void JsonNode::read(bool& target) const {
+  value_->is_boolean() ? void(target = value_->get<bool>()) : wrong_type("true or false");
+}
 
-void JsonNode::read(std::string& target) const { value_->is_string() ? void(target = value_->get<std::string>()) : wrong_type("a text in quotes"); }
+void JsonNode::read(std::string& target) const {
+  value_->is_string() ? void(target = value_->get<std::string>()) : wrong_type("a text in quotes");
+}
 
-void JsonNode::read(double& target) const { value_->is_number() ? void(target = value_->get<double>()) : wrong_type("a number"); }
+void JsonNode::read(double& target) const {
+  value_->is_number() ? void(target = value_->get<double>()) : wrong_type("a number");
+}
 
 void JsonNode::read(std::int64_t& target) const {
   constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
@@ -68,7 +78,8 @@ void JsonNode::read(Index& target) const {
 }
 
 void JsonNode::read(Vec3& target) const {
-  const bool three = value_->is_array() && value_->size() == 3 && std::all_of(value_->begin(), value_->end(), [](const Json& x) { return x.is_number(); });
+  const bool three = value_->is_array() && value_->size() == 3 &&
+                     std::all_of(value_->begin(), value_->end(), [](const Json& x) { return x.is_number(); });
   if (!three) return wrong_type("three numbers, [x, y, z]");
   target = {(*value_)[0].get<double>(), (*value_)[1].get<double>(), (*value_)[2].get<double>()};
 }
@@ -83,9 +94,13 @@ bool JsonNode::expect_array() const {
   return value_->is_array();
 }
 
-JsonNode JsonNode::child(std::size_t i) const { return {(*value_)[i], file_, path_ + "/" + std::to_string(i), *problems_}; }
+JsonNode JsonNode::child(std::size_t i) const {
+  return {(*value_)[i], file_, path_ + "/" + std::to_string(i), *problems_};
+}
 
-JsonNode JsonNode::child(const std::string& key) const { return {value_->at(key), file_, path_ + "/" + key, *problems_}; }
+JsonNode JsonNode::child(const std::string& key) const {
+  return {value_->at(key), file_, path_ + "/" + key, *problems_};
+}
 
 JsonObject::JsonObject(const JsonNode& node) : node_(node), is_object_(node.expect_object()) {}
 
@@ -105,7 +120,8 @@ void JsonObject::finish() const {
   if (!is_object_) return;
   const std::vector<std::string_view> known(asked_.begin(), asked_.end());
   for (const auto& [key, value] : node_.value().items()) {
-    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) node_.child(key).fail(unknown_name("key", key, known), "rename or remove it");
+    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
+      node_.child(key).fail(unknown_name("key", key, known), "rename or remove it");
   }
 }
 

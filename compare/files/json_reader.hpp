@@ -1,4 +1,5 @@
-// Strict reading of JSON: whatever is not asked for is an error, and every error says where. Problems are collected, so that one run lists them all.
+// Strict reading of JSON: whatever is not asked for is an error, and every error says where. Problems are collected, so
+// that one run lists them all.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Keyframes of a prescribed motion as one HDF5 file: `time` [frames] in s, `position` [frames · vertices][3] in m, single precision.
+// Keyframes of a prescribed motion as one HDF5 file: `time` [frames] in s, `position` [frames · vertices][3] in m,
+// single precision.
 #pragma once
 
 #include <filesystem>

@@ -8,9 +8,9 @@
 namespace ogc::compare {
 
 /// Reads a mesh by extension: .obj (v, f and l), .ply (ascii, binary little- and big-endian), .vtp (vtp_parse.hpp), and
-/// .stl, .off, .gltf and .glb where the program was built with assimp. Corners' attributes, colours, normals and materials are left out.
-/// Throws InputError that names the file, the line or element, and what is wrong: missing file, truncated data, index
-/// out of range, NaN.
+/// .stl, .off, .gltf and .glb where the program was built with assimp. Corners' attributes, colours, normals and
+/// materials are left out. Throws InputError that names the file, the line or element, and what is wrong: missing file,
+/// truncated data, index out of range, NaN.
 PolygonMesh read_polygon_mesh(const std::filesystem::path& path);
 
 /// The same, made into a mesh of triangles and loose edges. Coordinates are those of the file, dust included.

@@ -6,7 +6,8 @@
 
 namespace ogc::compare {
 
-/// Whether `word` is exactly one number; a leading '+' is allowed, as printf writes it. Overflow and underflow to zero do not count.
+/// Whether `word` is exactly one number; a leading '+' is allowed, as printf writes it. Overflow and underflow to zero
+/// do not count.
 template <class Number>
 bool parse_number(std::string_view word, Number& number) {
   if (word.starts_with('+')) word.remove_prefix(1);

@@ -1,4 +1,5 @@
-// Line by line; a face may name vertices that come later, so indices are checked at the end, and each face remembers its line.
+// Line by line; a face may name vertices that come later, so indices are checked at the end, and each face remembers
+// its line.
 #include "compare/files/obj.hpp"
 
 #include <algorithm>
@@ -44,7 +45,9 @@ class ObjParser {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const { throw InputError(name_ + ": line " + std::to_string(line) + ": " + what); }
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw InputError(name_ + ": line " + std::to_string(line) + ": " + what);
+  }
 
   void statement(std::string_view line) {
     const std::string_view keyword = next_word(line);
@@ -79,7 +82,8 @@ class ObjParser {
       fail(line_, "'" + std::string(word) + "' is no vertex; count from 1, or backwards from -1");
     }
     const auto count = static_cast<std::int64_t>(mesh_.positions.size());
-    if (i < -count || i > std::numeric_limits<Index>::max()) fail(line_, "vertex " + std::to_string(i) + " does not exist");
+    if (i < -count || i > std::numeric_limits<Index>::max())
+      fail(line_, "vertex " + std::to_string(i) + " does not exist");
     return static_cast<Index>(i < 0 ? count + i : i - 1);
   }
 
@@ -125,7 +129,8 @@ PolygonMesh parse_obj(std::string_view text, const std::string& name) { return O
 std::string print_obj(const Mesh& mesh) {
   std::string text;
   for (const Vec3& v : mesh.positions) text += "v " + shortest(v.x) + ' ' + shortest(v.y) + ' ' + shortest(v.z) + '\n';
-  for (const auto& [a, b, c] : mesh.triangles) text += "f " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + ' ' + std::to_string(c + 1) + '\n';
+  for (const auto& [a, b, c] : mesh.triangles)
+    text += "f " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + ' ' + std::to_string(c + 1) + '\n';
   for (const auto& [a, b] : mesh.loose_edges) text += "l " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + '\n';
   return text;
 }

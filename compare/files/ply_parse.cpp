@@ -1,4 +1,5 @@
-// A header says which scalars follow; every PLY scalar fits a double exactly, so one function reads them all, and what is not wanted is read and dropped.
+// A header says which scalars follow; every PLY scalar fits a double exactly, so one function reads them all, and what
+// is not wanted is read and dropped.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -72,7 +73,9 @@ class HeaderParser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": header line " + std::to_string(line_) + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ": header line " + std::to_string(line_) + ": " + what);
+  }
 
   std::string_view next_line() {
     ++line_;
@@ -100,7 +103,8 @@ class HeaderParser {
   void element(std::string_view line) {
     Element element{std::string(next_word(line)), 0, {}};
     if (!parse_number(next_word(line), element.count)) fail("element '" + element.name + "' has no count");
-    if (element.count > static_cast<std::size_t>(std::numeric_limits<Index>::max())) fail("element '" + element.name + "' has too many entries");
+    if (element.count > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+      fail("element '" + element.name + "' has too many entries");
     if (element.name == "tristrips") fail("triangle strips are not supported; write the mesh with faces");
     header_.elements.push_back(std::move(element));
   }
@@ -120,8 +124,10 @@ class HeaderParser {
   }
 
   Scalar scalar(std::string_view word) const {
-    constexpr std::array<std::string_view, 8> names{"char", "uchar", "short", "ushort", "int", "uint", "float", "double"};
-    constexpr std::array<std::string_view, 8> sized{"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+    constexpr std::array<std::string_view, 8> names{"char", "uchar", "short", "ushort",
+                                                    "int",  "uint",  "float", "double"};
+    constexpr std::array<std::string_view, 8> sized{"int8",  "uint8",  "int16",   "uint16",
+                                                    "int32", "uint32", "float32", "float64"};
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (word == names[i] || word == sized[i]) return static_cast<Scalar>(i);
     }
@@ -166,8 +172,8 @@ class Scalars {
  private:
   void skip_blanks() {
     const std::size_t blanks = std::min(data_.find_first_not_of(" \t\r\n\f\v"), data_.size());
-    line_ +=
-        static_cast<std::size_t>(std::count(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(blanks), '\n'));
+    line_ += static_cast<std::size_t>(
+        std::count(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(blanks), '\n'));
     data_.remove_prefix(blanks);
   }
 
@@ -207,7 +213,9 @@ class BodyParser {
       for (std::size_t i = 0; i < element.count; ++i) entry(element, i);
     }
     if (!has_vertices_) throw InputError(name_ + ": has no element 'vertex'");
-    if (!scalars_.at_end()) throw InputError(name_ + ": " + std::to_string(scalars_.bytes_left()) + " bytes follow the last element; header and data disagree");
+    if (!scalars_.at_end())
+      throw InputError(name_ + ": " + std::to_string(scalars_.bytes_left()) +
+                       " bytes follow the last element; header and data disagree");
     for (std::size_t f = 0; f < mesh_.face_count(); ++f) check("face", f, mesh_.face(f));
     for (std::size_t e = 0; e < mesh_.loose_edges.size(); ++e) check("edge", e, mesh_.loose_edges[e]);
     return std::move(mesh_);
@@ -223,7 +231,8 @@ class BodyParser {
       for (const Property& p : element.properties) {
         if (p.name == name && p.is_list == is_list) return;
       }
-      throw InputError(name_ + ": element '" + element.name + "' has no " + (is_list ? "list " : "") + "property '" + std::string(name) + "'");
+      throw InputError(name_ + ": element '" + element.name + "' has no " + (is_list ? "list " : "") + "property '" +
+                       std::string(name) + "'");
     };
     if (element.name == "vertex") {
       for (const char* name : {"x", "y", "z"}) require(name, false);
@@ -232,7 +241,8 @@ class BodyParser {
       for (const char* name : {"vertex1", "vertex2"}) require(name, false);
     } else if (element.name == "face") {
       const auto is_old_name = [](const Property& p) { return p.name == "vertex_index" && p.is_list; };
-      if (std::none_of(element.properties.begin(), element.properties.end(), is_old_name)) require("vertex_indices", true);
+      if (std::none_of(element.properties.begin(), element.properties.end(), is_old_name))
+        require("vertex_indices", true);
     }
   }
 
@@ -240,13 +250,15 @@ class BodyParser {
     double value = 0;
     if (scalars_.read(type, value)) return value;
     if (scalars_.at_end() || header_.format != Format::ascii) {
-      fail(element, i, "the file ends here, with " + std::to_string(element.count) + " entries announced; it is truncated");
+      fail(element, i,
+           "the file ends here, with " + std::to_string(element.count) + " entries announced; it is truncated");
     }
     fail(element, i, "what stands there is no number");
   }
 
   Index index(const Element& element, std::size_t i, double value) const {
-    if (value >= 0 && value <= std::numeric_limits<Index>::max() && value == std::floor(value)) return static_cast<Index>(value);
+    if (value >= 0 && value <= std::numeric_limits<Index>::max() && value == std::floor(value))
+      return static_cast<Index>(value);
     fail(element, i, "a vertex index is negative or no whole number");
   }
 

@@ -12,9 +12,12 @@ std::string header(const Mesh& mesh, PlyEncoding encoding) {
   constexpr bool little = std::endian::native == std::endian::little;
   std::string text = "ply\nformat ";
   text += encoding == PlyEncoding::ascii ? "ascii" : little ? "binary_little_endian" : "binary_big_endian";
-  text += " 1.0\nelement vertex " + std::to_string(mesh.positions.size()) + "\nproperty double x\nproperty double y\nproperty double z\n";
+  text += " 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
+          "\nproperty double x\nproperty double y\nproperty double z\n";
   text += "element face " + std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\n";
-  if (!mesh.loose_edges.empty()) text += "element edge " + std::to_string(mesh.loose_edges.size()) + "\nproperty int vertex1\nproperty int vertex2\n";
+  if (!mesh.loose_edges.empty())
+    text += "element edge " + std::to_string(mesh.loose_edges.size()) +
+            "\nproperty int vertex1\nproperty int vertex2\n";
   return text + "end_header\n";
 }
 
@@ -39,7 +42,8 @@ void append_binary(std::string& bytes, const Mesh& mesh) {
 
 void append_ascii(std::string& text, const Mesh& mesh) {
   for (const Vec3& v : mesh.positions) text += shortest(v.x) + ' ' + shortest(v.y) + ' ' + shortest(v.z) + '\n';
-  for (const auto& [a, b, c] : mesh.triangles) text += "3 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
+  for (const auto& [a, b, c] : mesh.triangles)
+    text += "3 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
   for (const auto& [a, b] : mesh.loose_edges) text += std::to_string(a) + ' ' + std::to_string(b) + '\n';
 }
 

@@ -34,7 +34,8 @@ struct MeshOptions {
   bool drop_unused = true;  ///< leave out vertices that belong to no face and no edge
   bool weld = false;  ///< merge vertices with exactly equal coordinates; formats without shared vertices (STL, glTF)
                       ///< are always welded
-  bool keep_unused = false;  ///< neither leave them out nor refuse them: where another file counts the vertices of this one
+  /// neither leave them out nor refuse them: where another file counts the vertices of this one
+  bool keep_unused = false;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 

@@ -1,5 +1,5 @@
-// Scene files: JSON that references meshes. Strict: an unknown key, a wrong type, a value out of range or a missing file is an error that names the
-// file and the path inside it.
+// Scene files: JSON that references meshes. Strict: an unknown key, a wrong type, a value out of range or a missing
+// file is an error that names the file and the path inside it.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,8 @@ struct SceneFile {
 /// The same, with all of that.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
-/// Writes `folder`/NAME.json and one PLY a body (positions and, where they differ, rest positions). Returns the path of the JSON file.
+/// Writes `folder`/NAME.json and one PLY a body (positions and, where they differ, rest positions). Returns the path of
+/// the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
 
 /// The JSON Schema of scene files.

@@ -1,4 +1,5 @@
-// One pass over the document: bodies load their meshes as they are read, motions select from them, and every problem on the way is collected.
+// One pass over the document: bodies load their meshes as they are read, motions select from them, and every problem on
+// the way is collected.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -59,8 +60,10 @@ void read_material(const JsonNode& node, Material& material) {
       if (!in_range(info, number)) value.fail("is " + shortest(number), "give " + describe_range(info));
     });
   }
-  object.optional("membrane", [&](const JsonNode& value) { read_model(value, membrane_model_names(), material.membrane); });
-  object.optional("bending", [&](const JsonNode& value) { read_model(value, bending_model_names(), material.bending); });
+  object.optional("membrane",
+                  [&](const JsonNode& value) { read_model(value, membrane_model_names(), material.membrane); });
+  object.optional("bending",
+                  [&](const JsonNode& value) { read_model(value, bending_model_names(), material.bending); });
   object.finish();
 }
 
@@ -75,7 +78,10 @@ std::string name_of_file(const std::filesystem::path& file) {
 class SceneReader {
  public:
   explicit SceneReader(const std::filesystem::path& file)
-      : folder_(file.parent_path()), name_(file.string()), json_(parse_json(read_bytes(file), name_)), root_(json_, name_, "", problems_) {}
+      : folder_(file.parent_path()),
+        name_(file.string()),
+        json_(parse_json(read_bytes(file), name_)),
+        root_(json_, name_, "", problems_) {}
 
   SceneFile read() {
     check_version();
@@ -85,11 +91,15 @@ class SceneReader {
     object.optional_value("name", scene_.name);
     object.optional_value("gravity", scene_.gravity);
     object.optional("settings", [&](const JsonNode& node) { read_settings(node, scene_.settings); });
-    object.required("bodies", [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
+    object.required("bodies",
+                    [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
     note(describe(clear_dust(scene_)));
-    object.optional("motions", [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
-    object.optional("springs", [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
-    object.optional("excluded_pairs", [&](const JsonNode& node) { each(node, [&](const JsonNode& pairs) { read_excluded(pairs); }); });
+    object.optional("motions",
+                    [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
+    object.optional("springs",
+                    [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
+    object.optional("excluded_pairs",
+                    [&](const JsonNode& node) { each(node, [&](const JsonNode& pairs) { read_excluded(pairs); }); });
     object.finish();
     stop_at_problems();
     round_to_single(scene_);
@@ -107,7 +117,8 @@ class SceneReader {
     std::int64_t version = 0;
     node.read(version);
     if (version > scene_format_version) {
-      node.fail("scene format " + std::to_string(version) + " is newer than " + std::to_string(scene_format_version) + ", the newest that this ogc reads",
+      node.fail("scene format " + std::to_string(version) + " is newer than " + std::to_string(scene_format_version) +
+                    ", the newest that this ogc reads",
                 "use a newer ogc");
     } else if (version < 1 && node.value().is_number_integer()) {
       node.fail("there is no scene format " + std::to_string(version), "give " + std::to_string(scene_format_version));
@@ -167,7 +178,8 @@ class SceneReader {
   bool is_valid(const JsonNode& node, const LoadedMesh& loaded) {
     const std::vector<Problem> found = validate(loaded.mesh, 10, ElementNames(loaded.source));
     for (const Problem& problem : found) {
-      problems_.push_back({node.where() + " (" + node.value().get<std::string>() + "): " + problem.where, problem.what, problem.remedy});
+      problems_.push_back({node.where() + " (" + node.value().get<std::string>() + "): " + problem.where, problem.what,
+                           problem.remedy});
     }
     return found.empty();
   }
@@ -321,7 +333,9 @@ class SceneReader {
     object.required("body", [&](const JsonNode& value) { body = find_body(value); });
     if (object.has("box") && object.has("indices")) node.fail("has both 'box' and 'indices'", "keep one of them");
     object.optional("box", [&](const JsonNode& value) { select_box(value, body, vertices); });
-    object.optional("indices", [&](const JsonNode& value) { each(value, [&](const JsonNode& index) { select_index(index, body, vertices); }); });
+    object.optional("indices", [&](const JsonNode& value) {
+      each(value, [&](const JsonNode& index) { select_index(index, body, vertices); });
+    });
     object.finish();
     if (body == nullptr || object.has("box") || object.has("indices")) return;
     for (Index i = 0; i < body->vertex_count; ++i) vertices.push_back(body->first_vertex + i);
@@ -337,7 +351,8 @@ class SceneReader {
     const std::size_t before = vertices.size();
     for (Index v = body->first_vertex; v < body->first_vertex + body->vertex_count; ++v) {
       const Vec3& x = scene_.mesh.positions[static_cast<std::size_t>(v)];
-      if (x.x >= low.x && x.x <= high.x && x.y >= low.y && x.y <= high.y && x.z >= low.z && x.z <= high.z) vertices.push_back(v);
+      if (x.x >= low.x && x.x <= high.x && x.y >= low.y && x.y <= high.y && x.z >= low.z && x.z <= high.z)
+        vertices.push_back(v);
     }
     if (vertices.size() == before) node.fail("holds no vertex of body '" + body->name + "'", "widen the box [m]");
   }
@@ -356,7 +371,8 @@ class SceneReader {
                        "name a vertex of the body");
     }
     if (i < body->vertex_count) return vertices.push_back(body->first_vertex + i);
-    node.fail("is " + std::to_string(i), "body '" + body->name + "' has vertices 0 to " + std::to_string(body->vertex_count - 1));
+    node.fail("is " + std::to_string(i),
+              "body '" + body->name + "' has vertices 0 to " + std::to_string(body->vertex_count - 1));
   }
 
   std::filesystem::path folder_;

@@ -1,4 +1,5 @@
-// Settings and materials come from their tables; the rest is written out. A test asks the reader for every key that stands here.
+// Settings and materials come from their tables; the rest is written out. A test asks the reader for every key that
+// stands here.
 #include "compare/files/json_reader.hpp"
 #include "compare/files/scene_files.hpp"
 #include "compare/problem/material_table.hpp"
@@ -9,10 +10,16 @@ namespace {
 Json value(const char* type, const std::string& description) { return {{"type", type}, {"description", description}}; }
 
 Json vector(const std::string& description) {
-  return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}, {"description", description}};
+  return {{"type", "array"},
+          {"items", {{"type", "number"}}},
+          {"minItems", 3},
+          {"maxItems", 3},
+          {"description", description}};
 }
 
-Json array(const Json& items, const std::string& description) { return {{"type", "array"}, {"items", items}, {"description", description}}; }
+Json array(const Json& items, const std::string& description) {
+  return {{"type", "array"}, {"items", items}, {"description", description}};
+}
 
 // Strict: no other keys.
 Json object(const Json& properties, const std::vector<std::string>& required) {
@@ -21,7 +28,9 @@ Json object(const Json& properties, const std::vector<std::string>& required) {
   return json;
 }
 
-std::string with_unit(std::string_view meaning, std::string_view unit) { return std::string(meaning) + " [" + std::string(unit) + "]"; }
+std::string with_unit(std::string_view meaning, std::string_view unit) {
+  return std::string(meaning) + " [" + std::string(unit) + "]";
+}
 
 Json model_schema(std::span<const std::string_view> names, std::string_view standard) {
   Json json = {{"enum", Json::array()}, {"default", standard}};
@@ -39,7 +48,8 @@ Json settings_schema() {
       continue;
     }
     const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
-    Json& row = properties[std::string(info.name)] = value(whole ? "integer" : "number", with_unit(info.meaning, info.unit));
+    Json& row = properties[std::string(info.name)] = value(whole ? "integer" : "number",
+                                                           with_unit(info.meaning, info.unit));
     row["minimum"] = info.minimum;
     row["maximum"] = info.maximum;
     if (const auto* field = std::get_if<double Settings::*>(&info.field)) row["default"] = defaults.**field;
@@ -70,7 +80,8 @@ Json body_schema() {
       {"mesh", value("string", ".ply or .obj file, relative to this file; start positions [m]")},
       {"rest_mesh", value("string", "the same faces at their rest positions [m]; default: the mesh")},
       {"velocity", vector("of all vertices at the start [m/s]; default 0")},
-      {"velocities", value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
+      {"velocities",
+       value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
   };
   return object(properties, {"mesh"});
@@ -78,10 +89,11 @@ Json body_schema() {
 
 Json motion_schema() {
   const Json box = object({{"minimum", vector("[m]")}, {"maximum", vector("[m]")}}, {"minimum", "maximum"});
-  const Json selection = object({{"body", value("string", "name of a body; all of its vertices unless 'box' or 'indices' says which")},
-                                 {"box", box},
-                                 {"indices", array(value("integer", "number in the body's mesh file, from 0"), "vertices")}},
-                                {"body"});
+  const Json selection = object(
+      {{"body", value("string", "name of a body; all of its vertices unless 'box' or 'indices' says which")},
+       {"box", box},
+       {"indices", array(value("integer", "number in the body's mesh file, from 0"), "vertices")}},
+      {"body"});
   const Json properties = {
       {"name", value("string", "letters, digits, _ and -")},
       {"vertices", array(selection, "what moves, as one rigid group")},
@@ -91,13 +103,17 @@ Json motion_schema() {
       {"velocity", vector("[m/s]; default 0")},
       {"start", value("number", "at rest before [s]; default 0")},
       {"end", value("number", "at rest after [s]; default 1e30")},
-      {"keyframes", value("string", "in place of the rigid motion: HDF5 file, relative to this file, with time [frames] in s and position [frames · vertices][3] in m")},
+      {"keyframes", value("string",
+                          "in place of the rigid motion: HDF5 file, relative to this file, with time [frames] in s and "
+                          "position [frames · vertices][3] in m")},
   };
   return object(properties, {"name", "vertices"});
 }
 
 Json spring_schema() {
-  const Json end = object({{"body", value("string", "name of a body")}, {"index", value("integer", "vertex in the body's mesh file, from 0")}}, {"body", "index"});
+  const Json end = object({{"body", value("string", "name of a body")},
+                           {"index", value("integer", "vertex in the body's mesh file, from 0")}},
+                          {"body", "index"});
   const auto number = [](const std::string& description) {
     Json json = value("number", description);
     json["minimum"] = 0;
@@ -123,8 +139,12 @@ Json excluded_schema() {
     json["minItems"] = json["maxItems"] = 2;
     return json;
   };
-  const Json pairs = array(two({{"type", "integer"}}, "a vertex of the first body and one of the second, each numbered within its body from 0"), "pairs");
-  return object({{"bodies", two({{"type", "string"}}, "names; may be the same")}, {"vertices", pairs}}, {"bodies", "vertices"});
+  const Json pairs = array(
+      two({{"type", "integer"}},
+          "a vertex of the first body and one of the second, each numbered within its body from 0"),
+      "pairs");
+  return object({{"bodies", two({{"type", "string"}}, "names; may be the same")}, {"vertices", pairs}},
+                {"bodies", "vertices"});
 }
 
 }  // namespace
@@ -137,8 +157,11 @@ std::string scene_schema() {
       {"settings", settings_schema()},
       {"bodies", array(body_schema(), "in the order of their vertices")},
       {"motions", array(motion_schema(), "prescribed motions")},
-      {"springs", array(spring_schema(), "between a vertex and another, or a point between two others; no part of contact")},
-      {"excluded_pairs", array(excluded_schema(), "two faces are no contact, and not audited, where a vertex of one and a vertex of the other are such a pair")},
+      {"springs",
+       array(spring_schema(), "between a vertex and another, or a point between two others; no part of contact")},
+      {"excluded_pairs", array(excluded_schema(),
+                               "two faces are no contact, and not audited, where a vertex of one and a vertex of the "
+                               "other are such a pair")},
   };
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
   schema.update(object(properties, {"format_version", "bodies"}));

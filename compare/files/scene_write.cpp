@@ -1,5 +1,5 @@
-// Everything is written, defaults too: a scene file shows what can be edited. Rows of numbers stay on one line, and numbers that the reader rounds to
-// single precision are written as short as that allows.
+// Everything is written, defaults too: a scene file shows what can be edited. Rows of numbers stay on one line, and
+// numbers that the reader rounds to single precision are written as short as that allows.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -67,10 +67,13 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
     return name;
   };
   Json json = {{"name", body.name}, {"fixed", body.fixed}, {"mesh", write(stem + ".ply", scene.mesh.positions)}};
-  const auto start = scene.mesh.positions.begin() + body.first_vertex, rest = scene.rest_positions.begin() + body.first_vertex;
-  if (!std::equal(start, start + body.vertex_count, rest, same_bits)) json["rest_mesh"] = write(stem + "_rest.ply", scene.rest_positions);
+  const auto start = scene.mesh.positions.begin() + body.first_vertex,
+             rest = scene.rest_positions.begin() + body.first_vertex;
+  if (!std::equal(start, start + body.vertex_count, rest, same_bits))
+    json["rest_mesh"] = write(stem + "_rest.ply", scene.rest_positions);
   const auto velocity = scene.velocities.begin() + body.first_vertex;
-  const bool uniform = std::all_of(velocity, velocity + body.vertex_count, [&](const Vec3& v) { return same_bits(v, *velocity); });
+  const bool uniform = std::all_of(velocity, velocity + body.vertex_count,
+                                   [&](const Vec3& v) { return same_bits(v, *velocity); });
   if (uniform) {
     json["velocity"] = rounded_json(*velocity);
   } else {
@@ -120,8 +123,11 @@ Json springs_json(const Scene& scene) {
   };
   Json springs = Json::array();
   for (const Spring& spring : scene.springs) {
-    springs.push_back({{"first", end(spring.first)}, {"second", end(spring.second)}, {"stiffness", as_typed(spring.stiffness)},
-                       {"rest_length", as_typed(spring.rest_length)}, {"damping", as_typed(spring.damping)}});
+    springs.push_back({{"first", end(spring.first)},
+                       {"second", end(spring.second)},
+                       {"stiffness", as_typed(spring.stiffness)},
+                       {"rest_length", as_typed(spring.rest_length)},
+                       {"damping", as_typed(spring.damping)}});
     if (spring.third >= 0) springs.back().update({{"third", end(spring.third)}, {"ratio", as_typed(spring.ratio)}});
   }
   return springs;
@@ -134,7 +140,8 @@ Json excluded_json(const Scene& scene) {
   std::array<Index, 2> current{-1, -1};
   for (const auto& [a, b] : scene.excluded_pairs) {
     const std::array<Index, 2> bodies{owner[static_cast<std::size_t>(a)], owner[static_cast<std::size_t>(b)]};
-    const Body &first = scene.bodies[static_cast<std::size_t>(bodies[0])], &second = scene.bodies[static_cast<std::size_t>(bodies[1])];
+    const Body &first = scene.bodies[static_cast<std::size_t>(bodies[0])],
+               &second = scene.bodies[static_cast<std::size_t>(bodies[1])];
     if (bodies != current) runs.push_back({{"bodies", {first.name, second.name}}, {"vertices", Json::array()}});
     current = bodies;
     runs.back()["vertices"].push_back({a - first.first_vertex, b - second.first_vertex});
@@ -143,7 +150,8 @@ Json excluded_json(const Scene& scene) {
 }
 
 void print(const Json& value, const std::string& indent, std::string& text) {
-  const bool is_row = value.is_array() && std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_primitive(); });
+  const bool is_row = value.is_array() &&
+                      std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_primitive(); });
   if (value.is_primitive() || value.empty()) {
     text += value.dump();
     return;
@@ -167,7 +175,8 @@ void print(const Json& value, const std::string& indent, std::string& text) {
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene) {
   const std::vector<Problem> problems = validate(scene);
   if (!problems.empty()) throw InputError("a scene that can't be read back is not written: " + describe(problems));
-  Json json = {{"format_version", scene_format_version}, {"name", scene.name}, {"gravity", rounded_json(scene.gravity)}};
+  Json json = {
+      {"format_version", scene_format_version}, {"name", scene.name}, {"gravity", rounded_json(scene.gravity)}};
   json["settings"] = settings_json(scene.settings);
   json["bodies"] = Json::array();
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_json(folder, scene, body));

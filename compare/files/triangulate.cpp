@@ -24,8 +24,8 @@ class Cutter {
       : left_(corners.begin(), corners.end()), positions_(positions) {
     Vec3 sum;
     for (std::size_t k = 0; k + 2 < corners.size(); ++k) {
-      const Vec3 part =
-          cross(difference(at(corners[k + 1]), at(corners[0])), difference(at(corners[k + 2]), at(corners[0])));
+      const Vec3 part = cross(difference(at(corners[k + 1]), at(corners[0])),
+                              difference(at(corners[k + 2]), at(corners[0])));
       sum = {sum.x + part.x, sum.y + part.y, sum.z + part.z};
     }
     const double length = std::hypot(sum.x, sum.y, sum.z);

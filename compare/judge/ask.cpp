@@ -9,7 +9,9 @@ namespace ogc::compare {
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// Asks both sides the same question.
 class Asker {
@@ -39,7 +41,8 @@ class Asker {
 };
 
 /// Likewise, and each event of the answer is a question of its own.
-void ask_step(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+void ask_step(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker,
+              Tally& tally) {
   const StepIn question = step_question(test);
   const StepOut out = asker.answer(question, contestant.step);
   if (!can_judge_step(test, question, out, tally)) return;
@@ -51,15 +54,19 @@ void ask_step(const TestCase& test, const Contestant& contestant, const Authorit
 }
 
 /// The truth follows the answer, so the contestant is asked first.
-void ask_sweep(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+void ask_sweep(const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker,
+               Tally& tally) {
   const SweepQuestion question(std::get<SweepCase>(test.data), authority);
   const SweepOut out = asker.answer(question.in(), contestant.sweep);
   if (!can_judge_sweep(test, question.in(), out, tally)) return;
-  const std::function<SweepTruth(const SweepIn&)> about_answer = [&](const SweepIn& in) { return authority.sweep(in, out); };
+  const std::function<SweepTruth(const SweepIn&)> about_answer = [&](const SweepIn& in) {
+    return authority.sweep(in, out);
+  };
   judge_sweep(test, question.in(), asker.truth(question.in(), about_answer), out, tally);
 }
 
-void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
+void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, const Authority& authority, Asker& asker,
+              Tally& tally) {
   if (stage == Stage::step) {
     ask_step(test, contestant, authority, asker, tally);
     return;
@@ -85,8 +92,11 @@ void ask_mesh(Stage stage, const TestCase& test, const Contestant& contestant, c
   }
   const DetectIn in = detect_question(test);
   if (stage == Stage::detect_vertex_facet)
-    judge_detect_vertex_facet(test, asker.truth(in, authority.detect_vertex_facet), asker.answer(in, contestant.detect_vertex_facet), tally);
-  else judge_detect_edge_edge(test, asker.truth(in, authority.detect_edge_edge), asker.answer(in, contestant.detect_edge_edge), tally);
+    judge_detect_vertex_facet(test, asker.truth(in, authority.detect_vertex_facet),
+                              asker.answer(in, contestant.detect_vertex_facet), tally);
+  else
+    judge_detect_edge_edge(test, asker.truth(in, authority.detect_edge_edge),
+                           asker.answer(in, contestant.detect_edge_edge), tally);
 }
 
 /// Position and cut are asked about the y of the answer.
@@ -97,11 +107,16 @@ void ask_guess(Cases cases, const Contestant& contestant, const Authority& autho
   judge_initial_guess(cases, in, asker.truth(in, authority.initial_guess), cut, out, tally);
 }
 
-void ask_force(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, Asker& asker, Tally& tally) {
-  const auto put = [&](const auto& in, const auto& truth, const auto& answer) { judge_force(cases, asker.truth(in, truth), asker.answer(in, answer), tally); };
+void ask_force(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, Asker& asker,
+               Tally& tally) {
+  const auto put = [&](const auto& in, const auto& truth, const auto& answer) {
+    judge_force(cases, asker.truth(in, truth), asker.answer(in, answer), tally);
+  };
   switch (stage) {
-    case Stage::contact_force: return put(case_question(cases, &ContactForceIn::cases), authority.contact_force, contestant.contact_force);
-    case Stage::friction_force: return put(case_question(cases, &FrictionForceIn::cases), authority.friction_force, contestant.friction_force);
+    case Stage::contact_force:
+      return put(case_question(cases, &ContactForceIn::cases), authority.contact_force, contestant.contact_force);
+    case Stage::friction_force:
+      return put(case_question(cases, &FrictionForceIn::cases), authority.friction_force, contestant.friction_force);
     case Stage::membrane: return put(case_question(cases, &MembraneIn::cases), authority.membrane, contestant.membrane);
     case Stage::spring: return put(case_question(cases, &SpringIn::cases), authority.spring, contestant.spring);
     default: return put(case_question(cases, &BendingIn::cases), authority.bending, contestant.bending);
@@ -110,7 +125,8 @@ void ask_force(Stage stage, Cases cases, const Contestant& contestant, const Aut
 
 }  // namespace
 
-void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, std::mutex& contestant_turn, Tally& tally) {
+void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
+         std::mutex& contestant_turn, Tally& tally) {
   if (cases.empty()) return;
   Asker asker(contestant_turn, tally);
   if (is_mesh_stage(stage)) {
@@ -119,10 +135,12 @@ void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority
     ask_force(stage, cases, contestant, authority, asker, tally);
   } else if (stage == Stage::closest_face) {
     const ClosestFaceIn in = face_question(cases);
-    judge_closest_face(cases, in, asker.truth(in, authority.closest_face), asker.answer(in, contestant.closest_face), tally);
+    judge_closest_face(cases, in, asker.truth(in, authority.closest_face), asker.answer(in, contestant.closest_face),
+                       tally);
   } else if (stage == Stage::closest_points) {
     const ClosestPointsIn in = points_question(cases);
-    judge_closest_points(cases, in, asker.truth(in, authority.closest_points), asker.answer(in, contestant.closest_points), tally);
+    judge_closest_points(cases, in, asker.truth(in, authority.closest_points),
+                         asker.answer(in, contestant.closest_points), tally);
   } else if (stage == Stage::initial_guess) {
     ask_guess(cases, contestant, authority, asker, tally);
   } else if (stage == Stage::activation) {

@@ -10,6 +10,7 @@
 namespace ogc::compare {
 
 /// Up to `count` legal questions (compare/stages/block.hpp); fewer where the mesh is too small to ask.
-std::vector<BlockQuestion> block_questions(Random& random, const Topology& topology, const std::vector<Vec3f>& positions, int count);
+std::vector<BlockQuestion> block_questions(Random& random, const Topology& topology,
+                                           const std::vector<Vec3f>& positions, int count);
 
 }  // namespace ogc::compare

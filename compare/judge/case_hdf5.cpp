@@ -4,9 +4,9 @@
 #include <cctype>
 
 #include "compare/files/bytes.hpp"
+#include "compare/files/hdf5.hpp"
 #include "compare/files/json_reader.hpp"
 #include "compare/judge/numbers_json.hpp"
-#include "compare/files/hdf5.hpp"
 
 namespace ogc::compare {
 
@@ -37,29 +37,36 @@ Table table_of(const Json& json) {
   const Table table{nested && !json[0].empty() ? leaf_of(json[0][0]) : leaf_of(json[0]), nested ? json[0].size() : 0};
   const auto fits = [&](const Json& x) { return leaf_of(x) == table.leaf; };
   const bool same = std::all_of(json.begin(), json.end(), [&](const Json& row) {
-    return nested ? row.is_array() && row.size() == table.columns && std::all_of(row.begin(), row.end(), fits) : fits(row);
+    return nested ? row.is_array() && row.size() == table.columns && std::all_of(row.begin(), row.end(), fits)
+                  : fits(row);
   });
   return same ? table : Table{};
 }
 
 template <class T>
 T value_of(const Json& json) {
-  if constexpr (std::is_same_v<T, float>) return number(json);
-  else return json.get<T>();
+  if constexpr (std::is_same_v<T, float>)
+    return number(json);
+  else
+    return json.get<T>();
 }
 
 template <class T>
 Json json_of(T value) {
-  if constexpr (std::is_same_v<T, float>) return hexadecimal(value);
-  else return value;
+  if constexpr (std::is_same_v<T, float>)
+    return hexadecimal(value);
+  else
+    return value;
 }
 
 template <class T>
 void write_table(Hdf5File& file, const std::string& name, const Json& json, std::size_t columns) {
   std::vector<T> values;
   for (const Json& row : json) {
-    if (columns == 0) values.push_back(value_of<T>(row));
-    else for (const Json& x : row) values.push_back(value_of<T>(x));
+    if (columns == 0)
+      values.push_back(value_of<T>(row));
+    else
+      for (const Json& x : row) values.push_back(value_of<T>(x));
   }
   file.write<T>(name, values, columns);
 }
@@ -84,9 +91,12 @@ Json read_table(const Hdf5File& file, const std::string& name) {
 /// Moves the tables of the JSON into datasets.
 Json put_away(Hdf5File& file, const std::string& name, const Json& json) {
   if (const Table table = table_of(json); table.leaf != Leaf::none) {
-    if (table.leaf == Leaf::single) write_table<float>(file, name, json, table.columns);
-    else if (table.leaf == Leaf::real) write_table<double>(file, name, json, table.columns);
-    else write_table<std::int64_t>(file, name, json, table.columns);
+    if (table.leaf == Leaf::single)
+      write_table<float>(file, name, json, table.columns);
+    else if (table.leaf == Leaf::real)
+      write_table<double>(file, name, json, table.columns);
+    else
+      write_table<std::int64_t>(file, name, json, table.columns);
     return "@" + std::string(leaf_names[static_cast<std::size_t>(table.leaf)]) + ":" + name;
   }
   if (!json.is_structured()) return json;

@@ -1,5 +1,6 @@
-// A case as HDF5: dataset `case` holds its JSON text, in which every array of numbers is replaced by the name of a dataset beside it ("@float:positions",
-// "@integer:mesh.triangles", "@double:…"), so that other programs read coordinates and connectivity as arrays, and every bit comes back.
+// A case as HDF5: dataset `case` holds its JSON text, in which every array of numbers is replaced by the name of a
+// dataset beside it ("@float:positions", "@integer:mesh.triangles", "@double:…"), so that other programs read
+// coordinates and connectivity as arrays, and every bit comes back.
 #pragma once
 
 #include <filesystem>

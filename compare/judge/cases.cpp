@@ -42,8 +42,8 @@ Stage parse_stage(const std::string& value) {
 }  // namespace
 
 std::string print_problem(const CaseName& name) {
-  std::string line = "stage=" + std::string(stage_name(name.stage)) + " gen=" + name.generator + " seed=" + std::to_string(name.seed) +
-                     " index=" + std::to_string(name.index);
+  std::string line = "stage=" + std::string(stage_name(name.stage)) + " gen=" + name.generator +
+                     " seed=" + std::to_string(name.seed) + " index=" + std::to_string(name.index);
   for (const Override& parameter : name.overrides) line += " " + parameter.name + "=" + print_value(parameter.value);
   if (!name.states.empty()) line += " states=" + name.states;
   return line;
@@ -72,13 +72,15 @@ CaseName parse_problem(const std::string& line) {
     } else if (key == "index") {
       name.index = parse_number(key, value);
     } else if (equals == std::string::npos) {
-      throw InputError("problem string: '" + word + "' in '" + line + "' is no key=value; keys: stage, gen, seed, index, states and the stage's parameters");
+      throw InputError("problem string: '" + word + "' in '" + line +
+                       "' is no key=value; keys: stage, gen, seed, index, states and the stage's parameters");
     } else {
       name.overrides.push_back({key, parse_value(key, value)});
     }
   }
   if (!has_stage || name.generator.empty())
-    throw InputError("problem string: '" + line + "' lacks stage or gen; example: stage=closest_face gen=ladder.needle seed=7 index=1234");
+    throw InputError("problem string: '" + line +
+                     "' lacks stage or gen; example: stage=closest_face gen=ladder.needle seed=7 index=1234");
   make_canonical(name.stage, name.overrides);
   return name;
 }

@@ -25,20 +25,21 @@ struct Override {
   friend bool operator==(const Override&, const Override&) = default;
 };
 
-/// Names a generated case. Printed: `stage=detect_edge_edge gen=few seed=7 index=1234`, then parameters that are not the generator's own (` r=0.002`), and for
-/// real states ` states=RUN`.
+/// Names a generated case. Printed: `stage=detect_edge_edge gen=few seed=7 index=1234`, then parameters that are not
+/// the generator's own (` r=0.002`), and for real states ` states=RUN`.
 struct CaseName {
   Stage stage = Stage::closest_face;
   std::string generator;
   std::uint64_t seed = 0, index = 0;
-  std::string states;                ///< run folder; empty unless the generator takes real states
+  std::string states;                 ///< run folder; empty unless the generator takes real states
   std::vector<Override> overrides{};  ///< in the stage's order
   friend bool operator==(const CaseName&, const CaseName&) = default;
 };
 
 /// The canonical line.
 std::string print_problem(const CaseName& name);
-/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong, or the parameter that the stage lacks.
+/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong,
+/// or the parameter that the stage lacks.
 CaseName parse_problem(const std::string& line);
 
 struct ClosestFaceCase {
@@ -88,8 +89,9 @@ struct SweepCase {
   std::shared_ptr<const Scene> scene;               ///< rounded
   std::vector<Index> colour;                        ///< as in SweepIn
   std::vector<Vec3f> old, start, target, previous;  ///< x (what is beyond the bound is brought back), xᵗ, y, X_prev [m]
-  std::vector<float> largest_bound;                 ///< [m]; b_v is the smaller one of it and the bound of the detection
-  float query_radius = 0;                           ///< r_q [m]
+  /// [m]; b_v is the smaller one of it and the bound of the detection
+  std::vector<float> largest_bound;
+  float query_radius = 0;  ///< r_q [m]
 };
 
 struct ActivationCase {
@@ -102,8 +104,9 @@ struct TruncateCase {
   float bound = 0;
 };
 
-using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase, MembraneCase, BendingCase, RestStateCase,
-                              BlockCase, InitialGuessCase, ContactForceCase, FrictionForceCase, SpringCase, SweepCase, StepCase>;
+using CaseData = std::variant<ClosestFaceCase, ClosestPointsCase, MeshCase, BoundCase, ActivationCase, TruncateCase,
+                              MembraneCase, BendingCase, RestStateCase, BlockCase, InitialGuessCase, ContactForceCase,
+                              FrictionForceCase, SpringCase, SweepCase, StepCase>;
 
 struct TestCase {
   CaseName name;

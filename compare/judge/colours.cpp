@@ -31,7 +31,8 @@ std::vector<Index> random_colours(Random& random, const Scene& scene, const Topo
   const std::vector<Index> groups = rigid_groups(scene);
   std::vector<Index> order(near.size()), colour(near.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
   const bool chain = random.one_in(8);
   Index next = 0;
   for (const Index v : order) {

@@ -23,25 +23,38 @@ namespace {
 std::vector<std::array<Index, 2>> to_pairs(const Json& json, std::size_t count) {
   const auto pairs = json.get<std::vector<std::array<Index, 2>>>();
   for (const auto& [a, b] : pairs)
-    if (std::min(a, b) < 0 || static_cast<std::size_t>(std::max(a, b)) >= count || a == b) throw InputError("excluded_pairs need two vertices each");
+    if (std::min(a, b) < 0 || static_cast<std::size_t>(std::max(a, b)) >= count || a == b)
+      throw InputError("excluded_pairs need two vertices each");
   return pairs;
 }
 
 struct ToJson {
-  Json operator()(const ClosestFaceCase& c) const { return {{"point", to_json(c.point)}, {"triangle", points_to_json(c.triangle)}}; }
-  Json operator()(const ClosestPointsCase& c) const { return {{"first", points_to_json(c.first)}, {"second", points_to_json(c.second)}}; }
+  Json operator()(const ClosestFaceCase& c) const {
+    return {{"point", to_json(c.point)}, {"triangle", points_to_json(c.triangle)}};
+  }
+  Json operator()(const ClosestPointsCase& c) const {
+    return {{"first", points_to_json(c.first)}, {"second", points_to_json(c.second)}};
+  }
   Json operator()(const MeshCase& c) const {
-    Json json{{"mesh", topology_to_json(*c.topology)}, {"rigid_groups", c.rigid_groups}, {"positions", points_to_json(c.positions)},
-              {"contact_radius", hexadecimal(c.contact_radius)}, {"query_radius", hexadecimal(c.query_radius)}};
+    Json json{{"mesh", topology_to_json(*c.topology)},
+              {"rigid_groups", c.rigid_groups},
+              {"positions", points_to_json(c.positions)},
+              {"contact_radius", hexadecimal(c.contact_radius)},
+              {"query_radius", hexadecimal(c.query_radius)}};
     if (c.partners.rows() > 0) json["excluded_pairs"] = pairs_of(c.partners);
     return json;
   }
   Json operator()(const BoundCase& c) const {
-    return {{"mesh", topology_to_json(*c.topology)}, {"d_min_vertex", numbers_to_json(c.d_min_vertex)}, {"d_min_edge", numbers_to_json(c.d_min_edge)},
-            {"d_min_triangle", numbers_to_json(c.d_min_triangle)}, {"bound_relaxation", hexadecimal(c.bound_relaxation)}};
+    return {{"mesh", topology_to_json(*c.topology)},
+            {"d_min_vertex", numbers_to_json(c.d_min_vertex)},
+            {"d_min_edge", numbers_to_json(c.d_min_edge)},
+            {"d_min_triangle", numbers_to_json(c.d_min_triangle)},
+            {"bound_relaxation", hexadecimal(c.bound_relaxation)}};
   }
   Json operator()(const ActivationCase& c) const {
-    return {{"distance", hexadecimal(c.distance)}, {"contact_radius", hexadecimal(c.contact_radius)}, {"stiffness", hexadecimal(c.stiffness)},
+    return {{"distance", hexadecimal(c.distance)},
+            {"contact_radius", hexadecimal(c.contact_radius)},
+            {"stiffness", hexadecimal(c.stiffness)},
             {"activation", activation_names()[static_cast<std::size_t>(c.activation)]}};
   }
   Json operator()(const TruncateCase& c) const {
@@ -59,20 +72,24 @@ struct ToJson {
 };
 
 MeshCase to_mesh_case(const Json& data) {
-  MeshCase c{to_topology(data.at("mesh")), data.at("rigid_groups").get<std::vector<Index>>(), {}, number(data.at("contact_radius")),
+  MeshCase c{to_topology(data.at("mesh")),
+             data.at("rigid_groups").get<std::vector<Index>>(),
+             {},
+             number(data.at("contact_radius")),
              number(data.at("query_radius"))};
   for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
   const auto count = static_cast<std::size_t>(c.topology->vertex_count);
-  if (c.positions.size() != count || c.rigid_groups.size() != count) throw InputError("positions and rigid_groups need one entry a vertex");
+  if (c.positions.size() != count || c.rigid_groups.size() != count)
+    throw InputError("positions and rigid_groups need one entry a vertex");
   if (data.contains("excluded_pairs")) c.partners = partner_rows(count, to_pairs(data.at("excluded_pairs"), count));
   return c;
 }
 
 BoundCase to_bound_case(const Json& data) {
-  BoundCase c{to_topology(data.at("mesh")), to_numbers(data.at("d_min_vertex")), to_numbers(data.at("d_min_edge")), to_numbers(data.at("d_min_triangle")),
-              number(data.at("bound_relaxation"))};
-  if (c.d_min_vertex.size() != static_cast<std::size_t>(c.topology->vertex_count) || c.d_min_edge.size() != c.topology->edges.size() ||
-      c.d_min_triangle.size() != c.topology->triangles.size())
+  BoundCase c{to_topology(data.at("mesh")), to_numbers(data.at("d_min_vertex")), to_numbers(data.at("d_min_edge")),
+              to_numbers(data.at("d_min_triangle")), number(data.at("bound_relaxation"))};
+  if (c.d_min_vertex.size() != static_cast<std::size_t>(c.topology->vertex_count) ||
+      c.d_min_edge.size() != c.topology->edges.size() || c.d_min_triangle.size() != c.topology->triangles.size())
     throw InputError("d_min_vertex, d_min_edge and d_min_triangle need one entry a vertex, edge and triangle");
   return c;
 }
@@ -95,7 +112,8 @@ StepCase to_step_case(const Json& data) {
 CaseData to_data(Stage stage, const Json& data) {
   switch (stage) {
     case Stage::closest_face: return ClosestFaceCase{to_point(data.at("point")), to_points<3>(data.at("triangle"))};
-    case Stage::closest_points: return ClosestPointsCase{to_points<2>(data.at("first")), to_points<2>(data.at("second"))};
+    case Stage::closest_points:
+      return ClosestPointsCase{to_points<2>(data.at("first")), to_points<2>(data.at("second"))};
     case Stage::rest_state: return to_rest_state_case(data);
     case Stage::block: return to_block_case(data);
     case Stage::initial_guess: return to_initial_guess_case(data);
@@ -103,7 +121,8 @@ CaseData to_data(Stage stage, const Json& data) {
     case Stage::sweep: return to_sweep_case(data);
     case Stage::step: return to_step_case(data);
     case Stage::activation: return to_activation_case(data);
-    case Stage::truncate: return TruncateCase{to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
+    case Stage::truncate:
+      return TruncateCase{to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
     case Stage::detect_vertex_facet:
     case Stage::detect_edge_edge: return to_mesh_case(data);
     default: return to_force_case(stage, data);
@@ -113,12 +132,16 @@ CaseData to_data(Stage stage, const Json& data) {
 }  // namespace
 
 nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message) {
-  return {{"format", case_format_version}, {"problem", print_problem(test.name)}, {"message", message}, {"data", std::visit(ToJson{}, test.data)}};
+  return {{"format", case_format_version},
+          {"problem", print_problem(test.name)},
+          {"message", message},
+          {"data", std::visit(ToJson{}, test.data)}};
 }
 
 std::filesystem::path save_case(const std::filesystem::path& folder, const TestCase& test, const std::string& message) {
   const CaseName& name = test.name;
-  std::string stem = std::string(stage_name(name.stage)) + "." + name.generator + "." + std::to_string(name.seed) + "." + std::to_string(name.index);
+  std::string stem = std::string(stage_name(name.stage)) + "." + name.generator + "." + std::to_string(name.seed) +
+                     "." + std::to_string(name.index);
   for (const Override& parameter : name.overrides) stem += "." + parameter.name + "=" + hexadecimal(parameter.value);
   const std::filesystem::path path = folder / (stem + ".h5");
   write_case_hdf5(path, case_to_json(test, message));
@@ -136,7 +159,8 @@ TestCase load_case(const std::filesystem::path& path) {
     const Json json = is_text ? parse_json(text, path.string()) : read_case_hdf5(path);
     const int format = json.at("format").get<int>();
     if (format != case_format_version)
-      throw InputError("format " + std::to_string(format) + " is not the one this program reads (" + std::to_string(case_format_version) + ")");
+      throw InputError("format " + std::to_string(format) + " is not the one this program reads (" +
+                       std::to_string(case_format_version) + ")");
     TestCase test{parse_problem(json.at("problem").get<std::string>()), {}};
     test.data = to_data(test.name.stage, json.at("data"));
     return test;

@@ -21,11 +21,12 @@ nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& mes
 /// ResourceError where the disk does not take it.
 std::filesystem::path save_case(const std::filesystem::path& folder, const TestCase& test, const std::string& message);
 
-/// Reads a saved case, or one written by hand as JSON (.json, as case_to_json gives it). Throws InputError that names the file and the key that is missing or
-/// wrong.
+/// Reads a saved case, or one written by hand as JSON (.json, as case_to_json gives it). Throws InputError that names
+/// the file and the key that is missing or wrong.
 TestCase load_case(const std::filesystem::path& file);
 
-/// Reads a batch file: one problem string a line; empty lines and lines that begin with # are skipped. Throws InputError that names file and line.
+/// Reads a batch file: one problem string a line; empty lines and lines that begin with # are skipped. Throws
+/// InputError that names file and line.
 std::vector<CaseName> load_batch(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

@@ -31,13 +31,15 @@ struct Reader {
   void operator()(const char* name, float& x) const { x = number(json.at(name)); }
   void operator()(const char* name, std::int32_t& x) const {
     x = json.at(name).get<std::int32_t>();
-    if (x < 0 || x > 3) throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
+    if (x < 0 || x > 3)
+      throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
   }
   /// Bits of vertices; none in files that are older than they.
   void operator()(const char* name, std::uint8_t& bits) const {
     const auto given = json.value(name, std::int32_t{0});
     if (given < 0 || given > 15)
-      throw InputError(std::string(name) + ": " + std::to_string(given) + " are not bits of four vertices; use 0 to 15");
+      throw InputError(std::string(name) + ": " + std::to_string(given) +
+                       " are not bits of four vertices; use 0 to 15");
     bits = static_cast<std::uint8_t>(given);
   }
   template <Named Enum>
@@ -74,7 +76,8 @@ Case read(const Json& data) {
 }
 
 void check_own(const ContactForceCase& c) {
-  if (c.own >= vertex_count(c.sides)) throw InputError("own: " + std::to_string(c.own) + " is not a vertex of these sides");
+  if (c.own >= vertex_count(c.sides))
+    throw InputError("own: " + std::to_string(c.own) + " is not a vertex of these sides");
 }
 ContactForceCase checked(ContactForceCase c) {
   check_own(c);
@@ -82,7 +85,8 @@ ContactForceCase checked(ContactForceCase c) {
 }
 SpringCase checked(SpringCase c) {
   if (!(c.ratio >= 0 && c.ratio <= 1)) throw InputError("ratio: give a number from 0 to 1");
-  if (c.own < 0 || c.own > (c.ratio > 0 ? 2 : 1)) throw InputError("own: " + std::to_string(c.own) + " is not a vertex of the spring");
+  if (c.own < 0 || c.own > (c.ratio > 0 ? 2 : 1))
+    throw InputError("own: " + std::to_string(c.own) + " is not a vertex of the spring");
   return c;
 }
 FrictionForceCase checked(FrictionForceCase c) {

@@ -18,17 +18,21 @@ constexpr std::array<std::string_view, 3> face_kinds{"vertex", "edge", "triangle
 template <class Names>
 int number_of(const Json& name, const Names& names) {
   const auto found = std::find(names.begin(), names.end(), name.get<std::string>());
-  if (found == names.end()) throw InputError("'" + name.get<std::string>() + "' is none of the names that may stand there");
+  if (found == names.end())
+    throw InputError("'" + name.get<std::string>() + "' is none of the names that may stand there");
   return static_cast<int>(found - names.begin());
 }
 
 Json question_to_json(const BlockQuestion& question) {
-  return {{"kind", question_kinds[static_cast<std::size_t>(question.kind)]}, {"of", question.of},
-          {"face", face_kinds[static_cast<std::size_t>(question.face.kind)]}, {"index", question.face.index}};
+  return {{"kind", question_kinds[static_cast<std::size_t>(question.kind)]},
+          {"of", question.of},
+          {"face", face_kinds[static_cast<std::size_t>(question.face.kind)]},
+          {"index", question.face.index}};
 }
 
 BlockQuestion to_question(const Json& json) {
-  return {static_cast<BlockQuestion::Kind>(number_of(json.at("kind"), question_kinds)), json.at("of").get<Index>(),
+  return {static_cast<BlockQuestion::Kind>(number_of(json.at("kind"), question_kinds)),
+          json.at("of").get<Index>(),
           {static_cast<FaceKind>(number_of(json.at("face"), face_kinds)), json.at("index").get<Index>()}};
 }
 
@@ -37,9 +41,11 @@ void check_question(const BlockQuestion& question, const Topology& topology) {
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   const bool is_edge = question.kind == BlockQuestion::Kind::edge_in_edges;
   const std::array<std::size_t, 3> counts{vertices, topology.edges.size(), topology.triangles.size()};
-  if (!names(question.of, is_edge ? topology.edges.size() : vertices) || !names(question.face.index, counts[static_cast<std::size_t>(question.face.kind)]) ||
+  if (!names(question.of, is_edge ? topology.edges.size() : vertices) ||
+      !names(question.face.index, counts[static_cast<std::size_t>(question.face.kind)]) ||
       (is_edge && question.face.kind == FaceKind::triangle))
-    throw InputError("a question names a face that does not exist: of " + std::to_string(question.of) + ", index " + std::to_string(question.face.index));
+    throw InputError("a question names a face that does not exist: of " + std::to_string(question.of) + ", index " +
+                     std::to_string(question.face.index));
 }
 
 Json wide_points_to_json(const std::vector<Vec3>& points) { return points_to_json(to_single(points)); }
@@ -51,9 +57,14 @@ std::vector<Vec3> to_wide_points(const Json& json) {
 }
 
 Json body_to_json(const Body& body) {
-  Json json{{"name", body.name}, {"vertices", body.vertex_count}, {"triangles", body.triangle_count}, {"fixed", body.fixed},
-            {"membrane", name_of(body.material.membrane)}, {"bending", name_of(body.material.bending)}};
-  for (const MaterialInfo& info : material_table()) json[std::string(info.name)] = hexadecimal(static_cast<float>(body.material.*info.field));
+  Json json{{"name", body.name},
+            {"vertices", body.vertex_count},
+            {"triangles", body.triangle_count},
+            {"fixed", body.fixed},
+            {"membrane", name_of(body.material.membrane)},
+            {"bending", name_of(body.material.bending)}};
+  for (const MaterialInfo& info : material_table())
+    json[std::string(info.name)] = hexadecimal(static_cast<float>(body.material.*info.field));
   return json;
 }
 
@@ -79,13 +90,15 @@ Body to_body(const Json& json, const Scene& scene) {
 Json case_to_json(const BlockCase& c) {
   Json questions = Json::array();
   for (const BlockQuestion& question : c.questions) questions.push_back(question_to_json(question));
-  return {{"mesh", topology_to_json(*c.topology)}, {"positions", points_to_json(c.positions)}, {"questions", questions}};
+  return {
+      {"mesh", topology_to_json(*c.topology)}, {"positions", points_to_json(c.positions)}, {"questions", questions}};
 }
 
 BlockCase to_block_case(const Json& data) {
   BlockCase c{to_topology(data.at("mesh")), {}, {}};
   for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
-  if (c.positions.size() != static_cast<std::size_t>(c.topology->vertex_count)) throw InputError("positions need one entry a vertex");
+  if (c.positions.size() != static_cast<std::size_t>(c.topology->vertex_count))
+    throw InputError("positions need one entry a vertex");
   for (const Json& question : data.at("questions")) {
     c.questions.push_back(to_question(question));
     check_question(c.questions.back(), *c.topology);
@@ -97,9 +110,14 @@ Json case_to_json(const RestStateCase& c) {
   const Scene& scene = *c.scene;
   Json bodies = Json::array(), held = Json::array();
   for (const Body& body : scene.bodies) bodies.push_back(body_to_json(body));
-  for (const PrescribedMotion& motion : scene.motions) held.push_back({{"name", motion.name}, {"vertices", motion.vertices}});
-  return {{"rest_positions", wide_points_to_json(scene.rest_positions)}, {"positions", wide_points_to_json(scene.mesh.positions)},
-          {"triangles", scene.mesh.triangles}, {"loose_edges", scene.mesh.loose_edges}, {"bodies", bodies}, {"motions", held}};
+  for (const PrescribedMotion& motion : scene.motions)
+    held.push_back({{"name", motion.name}, {"vertices", motion.vertices}});
+  return {{"rest_positions", wide_points_to_json(scene.rest_positions)},
+          {"positions", wide_points_to_json(scene.mesh.positions)},
+          {"triangles", scene.mesh.triangles},
+          {"loose_edges", scene.mesh.loose_edges},
+          {"bodies", bodies},
+          {"motions", held}};
 }
 
 RestStateCase to_rest_state_case(const Json& data) {
@@ -126,13 +144,19 @@ RestStateCase to_rest_state_case(const Json& data) {
 }
 
 Json case_to_json(const InitialGuessCase& c) {
-  return {{"start", to_json(c.start)}, {"velocity", to_json(c.velocity)}, {"acceleration", to_json(c.acceleration)}, {"time_step", hexadecimal(c.time_step)},
-          {"previous", to_json(c.previous)}, {"bound", hexadecimal(c.bound)}, {"held", c.held != 0}};
+  return {{"start", to_json(c.start)},
+          {"velocity", to_json(c.velocity)},
+          {"acceleration", to_json(c.acceleration)},
+          {"time_step", hexadecimal(c.time_step)},
+          {"previous", to_json(c.previous)},
+          {"bound", hexadecimal(c.bound)},
+          {"held", c.held != 0}};
 }
 
 InitialGuessCase to_initial_guess_case(const Json& data) {
-  return {to_point(data.at("start")), to_point(data.at("velocity")), to_point(data.at("acceleration")), number(data.at("time_step")),
-          to_point(data.at("previous")), number(data.at("bound")), data.at("held").get<bool>()};
+  return {to_point(data.at("start")),   to_point(data.at("velocity")), to_point(data.at("acceleration")),
+          number(data.at("time_step")), to_point(data.at("previous")), number(data.at("bound")),
+          data.at("held").get<bool>()};
 }
 
 }  // namespace ogc::compare

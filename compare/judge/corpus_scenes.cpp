@@ -1,4 +1,5 @@
-// Doubles are written as JSON numbers, whose shortest text comes back to the same bits; settings as typed, which rounding to single precision makes exact.
+// Doubles are written as JSON numbers, whose shortest text comes back to the same bits; settings as typed, which
+// rounding to single precision makes exact.
 #include "compare/judge/corpus_scenes.hpp"
 
 #include <algorithm>
@@ -12,7 +13,9 @@ namespace ogc::compare {
 namespace {
 
 Json to_json(const Vec3& p) { return {p.x, p.y, p.z}; }
-Vec3 to_vector(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()}; }
+Vec3 to_vector(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 Json vectors_to_json(const std::vector<Vec3>& vectors) {
   Json json = Json::array();
@@ -37,8 +40,11 @@ Model to_model(const Json& json, std::span<const std::string_view> names) {
 Json body_to_json(const Body& body) {
   Json material{{"membrane", name_of(body.material.membrane)}, {"bending", name_of(body.material.bending)}};
   for (const MaterialInfo& info : material_table()) material[std::string(info.name)] = body.material.*info.field;
-  return {{"name", body.name}, {"vertices", {body.first_vertex, body.vertex_count}}, {"triangles", {body.first_triangle, body.triangle_count}},
-          {"fixed", body.fixed}, {"material", material}};
+  return {{"name", body.name},
+          {"vertices", {body.first_vertex, body.vertex_count}},
+          {"triangles", {body.first_triangle, body.triangle_count}},
+          {"fixed", body.fixed},
+          {"material", material}};
 }
 
 Body to_body(const Json& json) {
@@ -52,21 +58,35 @@ Body to_body(const Json& json) {
   const Json& material = json.at("material");
   body.material.membrane = to_model<MembraneModel>(material.at("membrane"), membrane_model_names());
   body.material.bending = to_model<BendingModel>(material.at("bending"), bending_model_names());
-  for (const MaterialInfo& info : material_table()) body.material.*info.field = material.at(std::string(info.name)).get<double>();
+  for (const MaterialInfo& info : material_table())
+    body.material.*info.field = material.at(std::string(info.name)).get<double>();
   return body;
 }
 
 Json motion_to_json(const PrescribedMotion& motion) {
-  Json json{{"name", motion.name}, {"vertices", motion.vertices}, {"centre", to_json(motion.centre)}, {"axis", to_json(motion.axis)},
-            {"angular_velocity", motion.angular_velocity}, {"velocity", to_json(motion.velocity)}, {"start", motion.start}, {"end", motion.end}};
-  if (!motion.keyframes.empty()) json["keyframes"] = {{"times", motion.keyframes.times}, {"positions", points_to_json(motion.keyframes.positions)}};
+  Json json{{"name", motion.name},
+            {"vertices", motion.vertices},
+            {"centre", to_json(motion.centre)},
+            {"axis", to_json(motion.axis)},
+            {"angular_velocity", motion.angular_velocity},
+            {"velocity", to_json(motion.velocity)},
+            {"start", motion.start},
+            {"end", motion.end}};
+  if (!motion.keyframes.empty())
+    json["keyframes"] = {{"times", motion.keyframes.times}, {"positions", points_to_json(motion.keyframes.positions)}};
   return json;
 }
 
 PrescribedMotion to_motion(const Json& json) {
-  PrescribedMotion motion{json.at("name").get<std::string>(), json.at("vertices").get<std::vector<Index>>(), to_vector(json.at("centre")),
-                          to_vector(json.at("axis")), json.at("angular_velocity").get<double>(), to_vector(json.at("velocity")), json.at("start").get<double>(),
-                          json.at("end").get<double>(), {}};
+  PrescribedMotion motion{json.at("name").get<std::string>(),
+                          json.at("vertices").get<std::vector<Index>>(),
+                          to_vector(json.at("centre")),
+                          to_vector(json.at("axis")),
+                          json.at("angular_velocity").get<double>(),
+                          to_vector(json.at("velocity")),
+                          json.at("start").get<double>(),
+                          json.at("end").get<double>(),
+                          {}};
   if (!json.contains("keyframes")) return motion;
   motion.keyframes.times = json.at("keyframes").at("times").get<std::vector<double>>();
   for (const Json& p : json.at("keyframes").at("positions")) motion.keyframes.positions.push_back(to_point(p));
@@ -80,7 +100,8 @@ Json spring_to_json(const Spring& s) {
 }
 
 Spring to_spring(const Json& json) {
-  Spring spring{json.at(0).get<Index>(), json.at(1).get<Index>(), json.at(2).get<double>(), json.at(3).get<double>(), json.at(4).get<double>()};
+  Spring spring{json.at(0).get<Index>(), json.at(1).get<Index>(), json.at(2).get<double>(), json.at(3).get<double>(),
+                json.at(4).get<double>()};
   if (json.size() > 5) spring.third = json.at(5).get<Index>(), spring.ratio = json.at(6).get<double>();
   return spring;
 }
@@ -95,36 +116,52 @@ std::vector<Vec3f> to_vertices(const Json& json, std::size_t count) {
 }  // namespace
 
 Json scene_to_json(const Scene& scene) {
-  Json json{{"name", scene.name}, {"triangles", scene.mesh.triangles}, {"loose_edges", scene.mesh.loose_edges},
-            {"positions", vectors_to_json(scene.mesh.positions)}, {"rest_positions", vectors_to_json(scene.rest_positions)},
-            {"velocities", vectors_to_json(scene.velocities)}, {"bodies", Json::array()}, {"motions", Json::array()}, {"springs", Json::array()}, {"gravity", to_json(scene.gravity)}};
+  Json json{{"name", scene.name},
+            {"triangles", scene.mesh.triangles},
+            {"loose_edges", scene.mesh.loose_edges},
+            {"positions", vectors_to_json(scene.mesh.positions)},
+            {"rest_positions", vectors_to_json(scene.rest_positions)},
+            {"velocities", vectors_to_json(scene.velocities)},
+            {"bodies", Json::array()},
+            {"motions", Json::array()},
+            {"springs", Json::array()},
+            {"gravity", to_json(scene.gravity)}};
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_to_json(body));
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_to_json(motion));
   for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
   if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = scene.excluded_pairs;
-  for (const SettingInfo& info : setting_table()) json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
+  for (const SettingInfo& info : setting_table())
+    json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
   return json;
 }
 
 Scene to_scene(const Json& json) {
   Scene scene;
   scene.name = json.at("name").get<std::string>();
-  scene.mesh = {to_vectors(json.at("positions")), json.at("triangles").get<std::vector<Triangle>>(), json.at("loose_edges").get<std::vector<Edge>>()};
+  scene.mesh = {to_vectors(json.at("positions")), json.at("triangles").get<std::vector<Triangle>>(),
+                json.at("loose_edges").get<std::vector<Edge>>()};
   scene.rest_positions = to_vectors(json.at("rest_positions"));
   scene.velocities = to_vectors(json.at("velocities"));
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));
   for (const Json& motion : json.at("motions")) scene.motions.push_back(to_motion(motion));
   for (const Json& spring : json.at("springs")) scene.springs.push_back(to_spring(spring));
-  if (json.contains("excluded_pairs")) scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
+  if (json.contains("excluded_pairs"))
+    scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
   scene.gravity = to_vector(json.at("gravity"));
-  for (const auto& [name, value] : json.at("settings").items()) set_setting(scene.settings, name, value.get<std::string>());
+  for (const auto& [name, value] : json.at("settings").items())
+    set_setting(scene.settings, name, value.get<std::string>());
   round_to_single(scene);
   return scene;
 }
 
 Json sweep_case_to_json(const SweepCase& c) {
-  return {{"scene", scene_to_json(*c.scene)}, {"colour", c.colour}, {"old", points_to_json(c.old)}, {"start", points_to_json(c.start)},
-          {"target", points_to_json(c.target)}, {"previous", points_to_json(c.previous)}, {"largest_bound", numbers_to_json(c.largest_bound)},
+  return {{"scene", scene_to_json(*c.scene)},
+          {"colour", c.colour},
+          {"old", points_to_json(c.old)},
+          {"start", points_to_json(c.start)},
+          {"target", points_to_json(c.target)},
+          {"previous", points_to_json(c.previous)},
+          {"largest_bound", numbers_to_json(c.largest_bound)},
           {"query_radius", hexadecimal(c.query_radius)}};
 }
 
@@ -140,7 +177,8 @@ SweepCase to_sweep_case(const Json& json) {
   c.previous = to_vertices(json.at("previous"), count);
   c.largest_bound = to_numbers(json.at("largest_bound"));
   c.query_radius = number(json.at("query_radius"));
-  if (c.colour.size() != count || c.largest_bound.size() != count) throw InputError("colour and largest_bound need one entry a vertex");
+  if (c.colour.size() != count || c.largest_bound.size() != count)
+    throw InputError("colour and largest_bound need one entry a vertex");
   return c;
 }
 

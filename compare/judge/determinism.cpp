@@ -111,7 +111,8 @@ std::vector<std::string> pair_bits(Stage stage, Cases cases, const Contestant& c
     }
     case Stage::closest_points: {
       const ClosestPointsOut out = contestant.closest_points(points_question(cases));
-      return by_case(n, out.first_feature, out.second_feature, out.nearly_parallel, out.parameters, out.contact_distance, out.distance_below);
+      return by_case(n, out.first_feature, out.second_feature, out.nearly_parallel, out.parameters,
+                     out.contact_distance, out.distance_below);
     }
     case Stage::initial_guess: {
       const InitialGuessOut out = contestant.initial_guess(case_question(cases, &InitialGuessIn::cases));
@@ -122,7 +123,8 @@ std::vector<std::string> pair_bits(Stage stage, Cases cases, const Contestant& c
       return by_case(n, out.energy, out.slope, out.curvature);
     }
     case Stage::contact_force: return of_force(contestant.contact_force(case_question(cases, &ContactForceIn::cases)));
-    case Stage::friction_force: return of_force(contestant.friction_force(case_question(cases, &FrictionForceIn::cases)));
+    case Stage::friction_force:
+      return of_force(contestant.friction_force(case_question(cases, &FrictionForceIn::cases)));
     case Stage::membrane: return of_force(contestant.membrane(case_question(cases, &MembraneIn::cases)));
     case Stage::spring: return of_force(contestant.spring(case_question(cases, &SpringIn::cases)));
     case Stage::bending: return of_force(contestant.bending(case_question(cases, &BendingIn::cases)));
@@ -152,10 +154,12 @@ std::string mesh_bits(Stage stage, const TestCase& test, const Contestant& conte
 }
 
 /// In batches of that size.
-std::vector<std::string> in_batches(Stage stage, Cases cases, std::size_t size, const Contestant& contestant, const Authority& authority) {
+std::vector<std::string> in_batches(Stage stage, Cases cases, std::size_t size, const Contestant& contestant,
+                                    const Authority& authority) {
   std::vector<std::string> all;
   for (std::size_t first = 0; first < cases.size(); first += size) {
-    const auto part = answer_bits(stage, cases.subspan(first, std::min(size, cases.size() - first)), contestant, authority);
+    const auto part = answer_bits(stage, cases.subspan(first, std::min(size, cases.size() - first)), contestant,
+                                  authority);
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -184,14 +188,16 @@ std::vector<TestCase> cases_of(Stage stage, std::uint64_t count, std::uint64_t s
   for (const Generator& row : generators(stage)) {
     if (row.least > 0) continue;
     const auto wanted = static_cast<std::uint64_t>(static_cast<double>(count) * row.share / shares) + 1;
-    for (std::uint64_t i = 0; i < wanted; ++i) cases.push_back(generate({stage, std::string(row.name), seed, i, "", {}}));
+    for (std::uint64_t i = 0; i < wanted; ++i)
+      cases.push_back(generate({stage, std::string(row.name), seed, i, "", {}}));
   }
   return cases;
 }
 
 }  // namespace
 
-std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant, const Authority& authority) {
+std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant,
+                                     const Authority& authority) {
   if (cases.empty()) return {};
   if (!is_mesh_stage(stage)) return pair_bits(stage, cases, contestant);
   std::vector<std::string> bits;
@@ -199,8 +205,8 @@ std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> case
   return bits;
 }
 
-DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant, const Authority& authority,
-                                    std::span<const Surrounding> surroundings) {
+DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant,
+                                    const Authority& authority, std::span<const Surrounding> surroundings) {
   DeterminismReport report;
   report.stage = stage;
   if (!can_judge(stage, contestant, authority)) {
@@ -218,7 +224,9 @@ DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint6
         ++count;
         first = i;
       }
-    if (count > 0) report.changed.push_back(way + ": " + std::to_string(count) + " cases, the first " + print_problem(all[first].name));
+    if (count > 0)
+      report.changed.push_back(way + ": " + std::to_string(count) + " cases, the first " +
+                               print_problem(all[first].name));
   };
   compare_with("again", answer_bits(stage, all, contestant, authority));
   for (const Surrounding& surrounding : surroundings)
@@ -232,11 +240,14 @@ DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint6
   compare_with("shuffled", sorted);
   if (is_free_of_order(stage)) {
     std::vector<TestCase> generic;
-    const auto is_generic = [](const TestCase& test) { return find_generator(test.name.stage, test.name.generator).generic; };
+    const auto is_generic = [](const TestCase& test) {
+      return find_generator(test.name.stage, test.name.generator).generic;
+    };
     std::copy_if(all.begin(), all.end(), std::back_inserter(generic), is_generic);
     const std::vector<bool> same = same_when_renumbered(stage, generic, contestant);
     if (const auto wrong = std::find(same.begin(), same.end(), false); wrong != same.end())
-      report.changed.push_back("renumbered: " + std::to_string(std::count(same.begin(), same.end(), false)) + " cases, the first " +
+      report.changed.push_back("renumbered: " + std::to_string(std::count(same.begin(), same.end(), false)) +
+                               " cases, the first " +
                                print_problem(generic[static_cast<std::size_t>(wrong - same.begin())].name));
   }
   if (!is_mesh_stage(stage))
@@ -250,8 +261,11 @@ std::string determinism_table(std::span<const DeterminismReport> reports) {
   for (const DeterminismReport& report : reports) {
     char line[160];
     std::snprintf(line, sizeof line, "%-20s %-12s %8llu  %016llx  %s\n", std::string(stage_name(report.stage)).c_str(),
-                  std::string(determinism_name(stage_info(report.stage).determinism)).c_str(), static_cast<unsigned long long>(report.cases),
-                  static_cast<unsigned long long>(report.digest), report.skipped ? "skipped" : report.changed.empty() ? "the same bits" : "CHANGES:");
+                  std::string(determinism_name(stage_info(report.stage).determinism)).c_str(),
+                  static_cast<unsigned long long>(report.cases), static_cast<unsigned long long>(report.digest),
+                  report.skipped           ? "skipped"
+                  : report.changed.empty() ? "the same bits"
+                                           : "CHANGES:");
     text += line;
     for (const std::string& change : report.changed) text += "  " + change + "\n";
   }

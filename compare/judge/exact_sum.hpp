@@ -1,5 +1,6 @@
-// The sign of a sum of doubles, with no rounding: Shewchuk's growing expansion (1997). The judge asks the one exact question of its own with it,
-// whether a stored position obeys its bound, so that no contestant's arithmetic is trusted for it.
+// The sign of a sum of doubles, with no rounding: Shewchuk's growing expansion (1997). The judge asks the one exact
+// question of its own with it, whether a stored position obeys its bound, so that no contestant's arithmetic is trusted
+// for it.
 #pragma once
 
 #include <array>

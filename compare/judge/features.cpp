@@ -34,8 +34,7 @@ std::string face_name(const Face& face, const Topology& topology) {
   const auto i = static_cast<std::size_t>(face.index);
   const std::string number = std::to_string(face.index);
   switch (face.kind) {
-    case FaceKind::vertex:
-      return "vertex " + number;
+    case FaceKind::vertex: return "vertex " + number;
     case FaceKind::edge:
       return i < topology.edges.size() ? with_vertices("edge " + number, topology.edges[i]) : "edge " + number;
     case FaceKind::triangle:

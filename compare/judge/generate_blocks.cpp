@@ -1,5 +1,5 @@
-// Cases of block: the meshes of the detections, each with questions about faces that lie near each other. In the regular families nearly every answer is
-// decided by a point on, or a rung beside, the end of a block.
+// Cases of block: the meshes of the detections, each with questions about faces that lie near each other. In the
+// regular families nearly every answer is decided by a point on, or a rung beside, the end of a block.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -21,7 +21,8 @@ double squared_distance(const Vec3f& a, const Vec3f& b) {
   return x * x + y * y + z * z;
 }
 
-/// Whether the rule for nearly parallel edges might hold; a thousandth more than that is left out, so that rounding does not matter.
+/// Whether the rule for nearly parallel edges might hold; a thousandth more than that is left out, so that rounding
+/// does not matter.
 bool might_be_parallel(const std::vector<Vec3f>& x, const Edge& e, const Edge& f) {
   const auto along = [&](const Edge& edge) {
     const Vec3f &a = x[at(edge[0])], &b = x[at(edge[1])];
@@ -30,19 +31,23 @@ bool might_be_parallel(const std::vector<Vec3f>& x, const Edge& e, const Edge& f
   const auto squared = [](const std::array<double, 3>& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
   const auto u = along(e), v = along(f);
   const double both = squared(u) * squared(v);
-  return both > 0 && squared({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}) < 1.001e-6 * both;
+  return both > 0 &&
+         squared({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}) < 1.001e-6 * both;
 }
 
 class Asker {
  public:
-  Asker(Random& random, const Topology& topology, const std::vector<Vec3f>& positions) : random_(random), topology_(topology), positions_(positions) {}
+  Asker(Random& random, const Topology& topology, const std::vector<Vec3f>& positions)
+      : random_(random), topology_(topology), positions_(positions) {}
 
   /// Appends a question, or none where what was drawn makes none.
   void ask(std::vector<BlockQuestion>& questions) {
     const Index corner = random_.below(topology_.vertex_count), v = near(corner);
     const Face a = face_at(corner);
-    if (random_.one_in(3)) ask_edge(questions, edge_at(v), a);
-    else if (!std::ranges::count(vertices(a), v)) questions.push_back({BlockQuestion::Kind::vertex_in_surface, v, a});
+    if (random_.one_in(3))
+      ask_edge(questions, edge_at(v), a);
+    else if (!std::ranges::count(vertices(a), v))
+      questions.push_back({BlockQuestion::Kind::vertex_in_surface, v, a});
   }
 
  private:
@@ -113,8 +118,9 @@ CaseData about(Random& random) {
   return block;
 }
 
-constexpr std::string_view soup = "soup", cloth = "cloth", few = "few", bits = "bits", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold",
-                           stack = "ladder.stack", fan = "ladder.fan", above = "ladder.above", book = "ladder.book", strands = "ladder.strands",
+constexpr std::string_view soup = "soup", cloth = "cloth", few = "few", bits = "bits", lattice = "lattice",
+                           sheets = "ladder.sheets", fold = "ladder.fold", stack = "ladder.stack", fan = "ladder.fan",
+                           above = "ladder.above", book = "ladder.book", strands = "ladder.strands",
                            boundary = "ladder.boundary", field = "ladder.field";
 
 constexpr std::array<Generator, 15> table{{{soup, 16, true, about<soup>},
@@ -135,7 +141,8 @@ constexpr std::array<Generator, 15> table{{{soup, 16, true, about<soup>},
 
 }  // namespace
 
-std::vector<BlockQuestion> block_questions(Random& random, const Topology& topology, const std::vector<Vec3f>& positions, int count) {
+std::vector<BlockQuestion> block_questions(Random& random, const Topology& topology,
+                                           const std::vector<Vec3f>& positions, int count) {
   std::vector<BlockQuestion> questions;
   if (topology.vertex_count == 0) return questions;
   Asker asker(random, topology, positions);

@@ -1,5 +1,6 @@
-// Cases of closest_face. Canonical frame of the ladders: a = 0, b on the x axis, c in the xy plane, so that the planes which separate the features of
-// a and of the edge ab are coordinate planes and the point can approach them by any power of ten.
+// Cases of closest_face. Canonical frame of the ladders: a = 0, b on the x axis, c in the xy plane, so that the planes
+// which separate the features of a and of the edge ab are coordinate planes and the point can approach them by any
+// power of ten.
 #include <array>
 
 #include "compare/judge/generators.hpp"
@@ -11,13 +12,16 @@ namespace {
 
 using namespace placement;
 
-CaseData finish(const std::array<Vec3, 4>& points) { return ClosestFaceCase{single(points[0]), {single(points[1]), single(points[2]), single(points[3])}}; }
+CaseData finish(const std::array<Vec3, 4>& points) {
+  return ClosestFaceCase{single(points[0]), {single(points[1]), single(points[2]), single(points[3])}};
+}
 
 /// Relabels the corners, then places.
 CaseData placed(Random& random, const Vec3& p, std::array<Vec3, 3> corners) {
   const int first = random.below(3);
   const bool turned = random.one_in(2);
-  std::array<Vec3, 4> points{p, corners[first], corners[(first + (turned ? 2 : 1)) % 3], corners[(first + (turned ? 1 : 2)) % 3]};
+  std::array<Vec3, 4> points{p, corners[first], corners[(first + (turned ? 2 : 1)) % 3],
+                             corners[(first + (turned ? 1 : 2)) % 3]};
   place(random, points);
   return finish(points);
 }
@@ -33,18 +37,21 @@ CaseData lattice(Random& random) { return finish(points_on_lattice(random, 3)); 
 
 /// Between the blocks of corner a and of edge ab.
 CaseData corner_plane(Random& random) {
-  return placed(random, {random.rung(), -random.magnitude(-3, 0), random.sign() * random.magnitude(-3, 0)}, canonical(random));
+  return placed(random, {random.rung(), -random.magnitude(-3, 0), random.sign() * random.magnitude(-3, 0)},
+                canonical(random));
 }
 
 /// Between the edge ab and the interior.
 CaseData edge_plane(Random& random) {
   const auto corners = canonical(random);
-  return placed(random, {random.between(0, 1) * corners[1].x, random.rung(), random.sign() * random.magnitude(-4, 0)}, corners);
+  return placed(random, {random.between(0, 1) * corners[1].x, random.rung(), random.sign() * random.magnitude(-4, 0)},
+                corners);
 }
 
 /// Near the corner a on both planes at once.
 CaseData corner_edge(Random& random) {
-  return placed(random, {random.rung(), random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1)}, canonical(random));
+  return placed(random, {random.rung(), random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1)},
+                canonical(random));
 }
 
 /// d → 0 over the interior, an edge and a corner.
@@ -58,7 +65,8 @@ CaseData near(Random& random) {
 CaseData needle(Random& random) {
   auto corners = canonical(random);
   corners[2].y = random.rung();
-  const double y = random.one_in(2) ? random.rung() : random.between(-1, 1), z = random.one_in(2) ? random.rung() : random.between(-1, 1);
+  const double y = random.one_in(2) ? random.rung() : random.between(-1, 1),
+               z = random.one_in(2) ? random.rung() : random.between(-1, 1);
   return placed(random, {random.between(-0.3, 1.3) * corners[1].x, y, z}, corners);
 }
 
@@ -66,10 +74,14 @@ CaseData needle(Random& random) {
 CaseData sliver(Random& random) {
   auto corners = canonical(random);
   corners[2] = sum(corners[random.below(2)], {random.rung(), random.rung(), 0});
-  return placed(random, {random.between(-0.3, 1.3) * corners[1].x, random.one_in(2) ? random.rung() : random.between(-1, 1), random.between(-1, 1)}, corners);
+  return placed(random,
+                {random.between(-0.3, 1.3) * corners[1].x, random.one_in(2) ? random.rung() : random.between(-1, 1),
+                 random.between(-1, 1)},
+                corners);
 }
 
-/// Close to the short side of a triangle that is 10⁰ … 10⁶ times as long: there the weight of the far corner is least certain.
+/// Close to the short side of a triangle that is 10⁰ … 10⁶ times as long: there the weight of the far corner is least
+/// certain.
 CaseData base(Random& random) {
   const double side = random.magnitude(-3, 0), height = side * random.magnitude(0, 6);
   const Vec3 p{side * random.rung(), random.between(-0.2, 1.2) * side, side * random.rung()};

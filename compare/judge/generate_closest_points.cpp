@@ -1,5 +1,5 @@
-// Cases of closest_points. Canonical frame of the ladders: the first edge on the x axis, so that the planes through its ends are coordinate planes,
-// the second above it.
+// Cases of closest_points. Canonical frame of the ladders: the first edge on the x axis, so that the planes through its
+// ends are coordinate planes, the second above it.
 #include <array>
 
 #include "compare/judge/generators.hpp"
@@ -37,25 +37,30 @@ CaseData lattice(Random& random) { return finish(points_on_lattice(random, 2)); 
 std::array<Vec3, 4> crossing(Random& random, double sine, double z) {
   const double length = random.magnitude(-1, 1), s = random.between(0.05, 0.95), t = random.between(0.05, 0.95);
   const double cosine = std::sqrt(1 - sine * sine);
-  return {Vec3{-s, 0, 0}, Vec3{1 - s, 0, 0}, Vec3{-t * length * cosine, -t * length * sine, z}, Vec3{(1 - t) * length * cosine, (1 - t) * length * sine, z}};
+  return {Vec3{-s, 0, 0}, Vec3{1 - s, 0, 0}, Vec3{-t * length * cosine, -t * length * sine, z},
+          Vec3{(1 - t) * length * cosine, (1 - t) * length * sine, z}};
 }
 
 /// Angle → 0 with crossing interiors.
 CaseData parallel(Random& random) { return placed(random, crossing(random, std::abs(random.rung()), height(random))); }
 
 /// Angle → the threshold of the rule for nearly parallel edges, sine² = 10⁻⁶, from both sides.
-CaseData threshold(Random& random) { return placed(random, crossing(random, 1e-3 * (1 + random.rung()), height(random))); }
+CaseData threshold(Random& random) {
+  return placed(random, crossing(random, 1e-3 * (1 + random.rung()), height(random)));
+}
 
 /// Parallel edges whose projections overlap by a rung, from far apart to one inside the other.
 CaseData overlap(Random& random) {
-  const double length = random.magnitude(-1, 1), shift = random.one_in(2) ? 1 : -length, tilt = random.one_in(2) ? 0 : random.rung();
+  const double length = random.magnitude(-1, 1), shift = random.one_in(2) ? 1 : -length,
+               tilt = random.one_in(2) ? 0 : random.rung();
   const double x = shift + random.rung(), y = random.one_in(2) ? 0 : random.between(-1, 1), z = height(random);
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x, y, z}, Vec3{x + length, y, z + tilt * length}});
 }
 
 /// Parallel edges in general position.
 CaseData exact_parallel(Random& random) {
-  const double x = random.between(-2, 2), length = random.magnitude(-1, 1), y = random.one_in(2) ? 0 : random.between(-1, 1), z = height(random);
+  const double x = random.between(-2, 2), length = random.magnitude(-1, 1),
+               y = random.one_in(2) ? 0 : random.between(-1, 1), z = height(random);
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x, y, z}, Vec3{x + length, y, z}});
 }
 
@@ -70,7 +75,8 @@ CaseData end(Random& random) {
 CaseData zero_length(Random& random) {
   const Vec3 a = on_lattice(random, 2);
   const Vec3 short_side{random.rung(), random.one_in(2) ? 0 : random.rung(), 0};
-  const Vec3 p = random.one_in(3) ? Vec3{} : in_box(random, -1, 1), q = random.one_in(4) ? sum(p, {0, random.rung(), 0}) : in_box(random, -1, 1);
+  const Vec3 p = random.one_in(3) ? Vec3{} : in_box(random, -1, 1),
+             q = random.one_in(4) ? sum(p, {0, random.rung(), 0}) : in_box(random, -1, 1);
   std::array<Vec3, 4> points{Vec3{}, short_side, p, q};
   if (random.one_in(2))
     for (Vec3& x : points) x = sum(x, a);
@@ -82,7 +88,9 @@ CaseData near(Random& random) {
   const double z = random.rung();
   switch (random.below(5)) {
     case 0: return placed(random, crossing(random, random.between(0.1, 1), z));
-    case 1: return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{random.unit(), 0, z}, Vec3{random.unit(), random.between(-1, 1), 1}});
+    case 1:
+      return placed(random,
+                    {Vec3{}, Vec3{1, 0, 0}, Vec3{random.unit(), 0, z}, Vec3{random.unit(), random.between(-1, 1), 1}});
     case 2: return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 0, z}, in_box(random, -1, 1)});
     case 3: return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 0, z}, Vec3{1, 0, z}});
     default: return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{1 + z, 0, 0}, Vec3{2 + z, 0, 0}});
@@ -97,7 +105,8 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Next to a boundary: one of the ladders towards ends, overlaps and the rule for nearly parallel edges, on its lower rungs.
+/// Next to a boundary: one of the ladders towards ends, overlaps and the rule for nearly parallel edges, on its lower
+/// rungs.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{threshold, overlap, end};
   random.be_fine();

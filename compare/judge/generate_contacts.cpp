@@ -1,6 +1,7 @@
-// Cases of contact_force and friction_force. Canonical frame: the contact point of the second side near the origin, the normal about z, so that distance and
-// slip along the normal are single coordinates. Ladders lead to the boundaries of the closest features, to collapse as far as the question is legal, to
-// parallel edges and the rule for them, to r, τ and 0, and of friction to a slip of 0 and of ε_v h, and to a motion along the normal.
+// Cases of contact_force and friction_force. Canonical frame: the contact point of the second side near the origin, the
+// normal about z, so that distance and slip along the normal are single coordinates. Ladders lead to the boundaries of
+// the closest features, to collapse as far as the question is legal, to parallel edges and the rule for them, to r, τ
+// and 0, and of friction to a slip of 0 and of ε_v h, and to a motion along the normal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +15,8 @@ namespace {
 
 using namespace placement;
 
-constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, ContactSides::point_edge, ContactSides::edge_edge, ContactSides::point_triangle};
+constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, ContactSides::point_edge,
+                                                ContactSides::edge_edge, ContactSides::point_triangle};
 
 /// What a contact is before it is placed: its points, now and at the last detection.
 struct Shape {
@@ -50,7 +52,8 @@ void put_triangle(Shape& shape, const Vec3& second, const Vec3& third, double b,
 /// Edges of the lengths `shape.size` and `length` that cross, seen from above, at the parameters s and t.
 std::array<Vec3, 4> crossing(const Shape& shape, double length, double sine, double s, double t) {
   const double x = length * std::sqrt(std::max(0.0, 1 - sine * sine)), y = length * sine, a = shape.size;
-  return {Vec3{-s * a, 0, shape.distance}, Vec3{(1 - s) * a, 0, shape.distance}, Vec3{-t * x, -t * y, 0}, Vec3{(1 - t) * x, (1 - t) * y, 0}};
+  return {Vec3{-s * a, 0, shape.distance}, Vec3{(1 - s) * a, 0, shape.distance}, Vec3{-t * x, -t * y, 0},
+          Vec3{(1 - t) * x, (1 - t) * y, 0}};
 }
 
 double other_length(Random& random, const Shape& shape) { return shape.size * random.magnitude(-0.5, 0.5); }
@@ -109,7 +112,8 @@ Shape near_feature(Random& random) {
 
 /// Triangles and edges that are thin or short.
 Shape thin_by(Random& random, double thinness) {
-  Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle, random.between(0.05, 1));
+  Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
+                      random.between(0.05, 1));
   shape.turned = thinness > 0;
   const double b = random.between(-0.2, 1.2), c = random.one_in(2) ? random.between(-0.2, 1.2) : random.rung();
   if (shape.sides == ContactSides::edge_edge) {
@@ -118,8 +122,9 @@ Shape thin_by(Random& random, double thinness) {
     return shape;
   }
   const double length = shape.size, width = length * thinness, lean = random.between(-0.3, 1.3);
-  const std::array<Base, 3> bases{
-      {{{length, 0, 0}, {lean * length, width, 0}}, {{0, width, 0}, {length, lean * width, 0}}, {{length, 0, 0}, {length, width, 0}}}};
+  const std::array<Base, 3> bases{{{{length, 0, 0}, {lean * length, width, 0}},
+                                   {{0, width, 0}, {length, lean * width, 0}},
+                                   {{length, 0, 0}, {length, width, 0}}}};
   const Base& base = bases[random.below(3)];
   put_triangle(shape, base.second, base.third, b, c);
   return shape;
@@ -139,7 +144,8 @@ Shape nearly_parallel(Random& random) {
     return shape;
   }
   // One behind the other: a share of the first overlaps, or none, or the ends meet.
-  const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(), aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.radius;
+  const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(),
+               aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.radius;
   shape.x = crossing(shape, length, sine, 1 - overlap, 0);
   const double tilt = random.one_in(2) ? 0.0 : sine * length;
   shape.x[2].y += aside;
@@ -193,8 +199,9 @@ FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Ve
   contact.stiffness = static_cast<float>(random.magnitude(-1, 4));
   if (shape.sides == ContactSides::edge_edge && !random.one_in(4)) {
     const double stretch = random.one_in(2) ? 1 : random.magnitude(-0.5, 0.5);
-    contact.rest_squared = {std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[0], contact.vertex[1])),
-                            std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[2], contact.vertex[3]))};
+    contact.rest_squared = {
+        std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[0], contact.vertex[1])),
+        std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[2], contact.vertex[3]))};
     if (random.one_in(8)) contact.rest_squared[static_cast<std::size_t>(random.below(2))] = 0;
   }
   return question;
@@ -212,9 +219,12 @@ Shape near_radius(Random& random) { return inside(random, any_sides(random), 1 +
 /// d → τ = r/2.
 Shape near_switch(Random& random) { return inside(random, any_sides(random), 0.5 * (1 + random.rung())); }
 /// d → 0, through 2⁻²³ r.
-Shape near_touching(Random& random) { return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1)); }
+Shape near_touching(Random& random) {
+  return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1));
+}
 
-/// Points, edges and radii of any bits; a pair that the contract leaves out by its shape, of two edges or with a triangle, is not among them.
+/// Points, edges and radii of any bits; a pair that the contract leaves out by its shape, of two edges or with a
+/// triangle, is not among them.
 Shape of_bits(Random& random) {
   Shape shape;
   shape.sides = random.one_in(2) ? ContactSides::point_point : ContactSides::point_edge;
@@ -228,7 +238,9 @@ Shape of_bits(Random& random) {
 
 CaseData contact_bits(Random& random) { return placed(random, of_bits(random), {}).contact; }
 
-CaseData contact_uniform(Random& random) { return contact_case(random, inside(random, any_sides(random), any_share(random))); }
+CaseData contact_uniform(Random& random) {
+  return contact_case(random, inside(random, any_sides(random), any_share(random)));
+}
 CaseData contact_lattice(Random& random) { return contact_case(random, on_grid(random)); }
 CaseData contact_feature(Random& random) { return contact_case(random, near_feature(random)); }
 CaseData contact_thin(Random& random) { return contact_case(random, thin(random)); }
@@ -252,7 +264,9 @@ Shape any_shape(Random& random) {
     default: return inside(random, any_sides(random), any_share(random));
   }
 }
-ContactActivation any_activation(Random& random) { return static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size()))); }
+ContactActivation any_activation(Random& random) {
+  return static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
+}
 
 /// Next to a boundary: of a feature, of the radius, between the stages.
 Shape near_boundary(Random& random) {
@@ -286,7 +300,8 @@ CaseData contact_mollifier(Random& random) {
   return placed(random, shape, {}).contact;
 }
 
-/// The first side moves by `along` in the tangent plane and `lift` along the normal against the second; all by a common motion. ε_v h is the unit.
+/// The first side moves by `along` in the tangent plane and `lift` along the normal against the second; all by a common
+/// motion. ε_v h is the unit.
 CaseData friction_case(Random& random, Shape shape, double along, double lift) {
   detect(random, shape);
   const double limit = shape.size * random.magnitude(-5, -1), angle = random.between(0, 6.283185307179586);
@@ -305,14 +320,22 @@ CaseData friction_case(Random& random, Shape shape, double along, double lift) {
   return question;
 }
 
-CaseData friction_of(Random& random, const Shape& shape) { return friction_case(random, shape, random.between(0, 3), random.between(-1, 1)); }
+CaseData friction_of(Random& random, const Shape& shape) {
+  return friction_case(random, shape, random.between(0, 3), random.between(-1, 1));
+}
 
-CaseData friction_uniform(Random& random) { return friction_of(random, inside(random, any_sides(random), any_share(random))); }
-CaseData friction_feature(Random& random) { return friction_of(random, random.one_in(4) ? thin(random) : near_feature(random)); }
+CaseData friction_uniform(Random& random) {
+  return friction_of(random, inside(random, any_sides(random), any_share(random)));
+}
+CaseData friction_feature(Random& random) {
+  return friction_of(random, random.one_in(4) ? thin(random) : near_feature(random));
+}
 CaseData friction_needle(Random& random) { return friction_of(random, needle(random)); }
 CaseData friction_parallel(Random& random) { return friction_of(random, nearly_parallel(random)); }
 CaseData friction_distance(Random& random) {
-  return friction_of(random, random.one_in(3) ? near_touching(random) : random.one_in(2) ? near_switch(random) : near_radius(random));
+  return friction_of(random, random.one_in(3)   ? near_touching(random)
+                             : random.one_in(2) ? near_switch(random)
+                                                : near_radius(random));
 }
 
 /// Nothing has moved, or by a grid step.
@@ -337,62 +360,66 @@ CaseData friction_bits(Random& random) {
 
 /// ‖u‖ → 0.
 CaseData friction_still(Random& random) {
-  return friction_case(random, inside(random, any_sides(random), any_share(random)), random.rung(), random.one_in(2) ? 0 : random.between(-1, 1));
+  return friction_case(random, inside(random, any_sides(random), any_share(random)), random.rung(),
+                       random.one_in(2) ? 0 : random.between(-1, 1));
 }
 
 /// ‖u‖ → ε_v h.
 CaseData friction_limit(Random& random) {
-  return friction_case(random, inside(random, any_sides(random), any_share(random)), 1 + random.rung(), random.between(-1, 1));
+  return friction_case(random, inside(random, any_sides(random), any_share(random)), 1 + random.rung(),
+                       random.between(-1, 1));
 }
 
 /// A motion along the normal, up to many times the slip and ε_v h.
 CaseData friction_lift(Random& random) {
-  return friction_case(random, inside(random, any_sides(random), any_share(random)), random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));
+  return friction_case(random, inside(random, any_sides(random), any_share(random)),
+                       random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));
 }
 
 CaseData friction_boundary(Random& random) { return friction_of(random, near_boundary(random)); }
 
 CaseData friction_variants(Random& random) {
-  auto question = std::get<FrictionForceCase>(friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
+  auto question = std::get<FrictionForceCase>(
+      friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
   question.contact.activation = any_activation(random);
   return question;
 }
 
 CaseData friction_together(Random& random) {
-  auto question =
-      std::get<FrictionForceCase>(friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
+  auto question = std::get<FrictionForceCase>(
+      friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
   question.contact.together = static_cast<std::uint8_t>(1 + random.below(15));
   return question;
 }
 
 constexpr std::array<Generator, 15> contact_table{{{"uniform", 30, true, contact_uniform},
-                                                  {"bits", 10, false, contact_bits},
-                                                  {"dust", 8, false, contact_uniform},
-                                                  {"lattice", 15, false, contact_lattice},
-                                                  {"ladder.feature", 14, false, contact_feature},
-                                                  {"ladder.thin", 8, false, contact_thin},
-                                                  {"ladder.needle", 8, false, contact_needle},
-                                                  {"ladder.parallel", 10, false, contact_parallel},
-                                                  {"ladder.radius", 6, false, contact_radius},
-                                                  {"ladder.switch", 5, false, contact_switch},
-                                                  {"ladder.touching", 7, false, contact_touching},
-                                                  {"ladder.mollifier", 5, false, contact_mollifier},
-                                                  {"ladder.variants", 25, false, contact_variants},
-                                                  {"ladder.together", 12, false, contact_together},
-                                                  {"ladder.boundary", 150, false, contact_boundary}}};
+                                                   {"bits", 10, false, contact_bits},
+                                                   {"dust", 8, false, contact_uniform},
+                                                   {"lattice", 15, false, contact_lattice},
+                                                   {"ladder.feature", 14, false, contact_feature},
+                                                   {"ladder.thin", 8, false, contact_thin},
+                                                   {"ladder.needle", 8, false, contact_needle},
+                                                   {"ladder.parallel", 10, false, contact_parallel},
+                                                   {"ladder.radius", 6, false, contact_radius},
+                                                   {"ladder.switch", 5, false, contact_switch},
+                                                   {"ladder.touching", 7, false, contact_touching},
+                                                   {"ladder.mollifier", 5, false, contact_mollifier},
+                                                   {"ladder.variants", 25, false, contact_variants},
+                                                   {"ladder.together", 12, false, contact_together},
+                                                   {"ladder.boundary", 150, false, contact_boundary}}};
 constexpr std::array<Generator, 13> friction_table{{{"uniform", 30, true, friction_uniform},
-                                                   {"bits", 10, false, friction_bits},
-                                                   {"lattice", 12, false, friction_lattice},
-                                                   {"ladder.feature", 14, false, friction_feature},
-                                                   {"ladder.needle", 8, false, friction_needle},
-                                                   {"ladder.parallel", 8, false, friction_parallel},
-                                                   {"ladder.distance", 10, false, friction_distance},
-                                                   {"ladder.still", 10, false, friction_still},
-                                                   {"ladder.limit", 8, false, friction_limit},
-                                                   {"ladder.lift", 8, false, friction_lift},
-                                                   {"ladder.variants", 20, false, friction_variants},
-                                                   {"ladder.together", 12, false, friction_together},
-                                                   {"ladder.boundary", 140, false, friction_boundary}}};
+                                                    {"bits", 10, false, friction_bits},
+                                                    {"lattice", 12, false, friction_lattice},
+                                                    {"ladder.feature", 14, false, friction_feature},
+                                                    {"ladder.needle", 8, false, friction_needle},
+                                                    {"ladder.parallel", 8, false, friction_parallel},
+                                                    {"ladder.distance", 10, false, friction_distance},
+                                                    {"ladder.still", 10, false, friction_still},
+                                                    {"ladder.limit", 8, false, friction_limit},
+                                                    {"ladder.lift", 8, false, friction_lift},
+                                                    {"ladder.variants", 20, false, friction_variants},
+                                                    {"ladder.together", 12, false, friction_together},
+                                                    {"ladder.boundary", 140, false, friction_boundary}}};
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Cases of membrane and bending: a rest shape, a deformation of it, a material. Ladders lead to the rest shape (where strains cancel), to collapse, to the sign
-// of the stress along the corner's gradient, and to the fold by ±π.
+// Cases of membrane and bending: a rest shape, a deformation of it, a material. Ladders lead to the rest shape (where
+// strains cancel), to collapse, to the sign of the stress along the corner's gradient, and to the fold by ±π.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,8 @@ struct RestCorners {
 RestCorners rest_corners(Random& random, bool lattice) {
   const double size = lattice ? std::ldexp(1.0, random.below(9) - 8) : random.magnitude(-3, 0);
   if (lattice) return {{{{0, 0, 0}, {size, 0, 0}, {0, size, 0}}}, size};
-  const Vec3 b{size * random.between(0.5, 1.5), 0, 0}, c{size * random.between(-0.5, 1.5), size * random.between(0.3, 1.5), 0};
+  const Vec3 b{size * random.between(0.5, 1.5), 0, 0},
+      c{size * random.between(-0.5, 1.5), size * random.between(0.3, 1.5), 0};
   return {{{{0, 0, 0}, b, c}}, size};
 }
 
@@ -42,7 +43,8 @@ void set_material(Random& random, MembraneCase& question) {
   question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
 }
 
-/// `deform` moves the corners of the rest shape; the start lies near the result in half of the cases, at rest otherwise. The same placement for both.
+/// `deform` moves the corners of the rest shape; the start lies near the result in half of the cases, at rest
+/// otherwise. The same placement for both.
 template <class Deform>
 CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
   MembraneCase question;
@@ -53,7 +55,8 @@ CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
   for (std::size_t k = 0; k < 3; ++k) points[k] = deform(rest.corner[k]);
   const bool near = random.one_in(2);
   const double step = rest.size * random.magnitude(-5, -1);
-  for (std::size_t k = 0; k < 3; ++k) points[3 + k] = near ? sum(points[k], scaled(in_box(random, -1, 1), step)) : rest.corner[k];
+  for (std::size_t k = 0; k < 3; ++k)
+    points[3 + k] = near ? sum(points[k], scaled(in_box(random, -1, 1), step)) : rest.corner[k];
   permute(random, points);
   if (!lattice) rotate(random, points);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -72,7 +75,8 @@ CaseData membrane_uniform(Random& random) {
 
 CaseData membrane_lattice(Random& random) {
   const double xx = 0.25 * (1 + random.below(8)), xy = 0.25 * (random.below(5) - 2), yy = 0.25 * random.below(9);
-  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
+  return membrane_case(
+      random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
 }
 
 /// Points of any bits, and as many others or the same for the start.
@@ -103,9 +107,11 @@ CaseData membrane_rest(Random& random) {
 
 /// A deformed triangle without area, down to a point.
 CaseData membrane_collapse(Random& random) {
-  const double xx = random.one_in(2) ? random.between(0.3, 2) : random.rung(), xy = random.one_in(4) ? 0.0 : random.between(-1, 1), yy = random.rung();
+  const double xx = random.one_in(2) ? random.between(0.3, 2) : random.rung(),
+               xy = random.one_in(4) ? 0.0 : random.between(-1, 1), yy = random.rung();
   const bool lattice = random.one_in(2);
-  return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, lattice);
+  return membrane_case(
+      random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, lattice);
 }
 
 /// The stress along the corner's gradient goes through 0: a stretch one way against a compression the other way.
@@ -143,23 +149,25 @@ CaseData membrane_by_vertex(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 15> membrane_table{{{"uniform", 40, true, membrane_uniform},
-                                                   {"corner", 20, true, membrane_corner},
-                                                   {"bits", 10, false, membrane_bits},
-                                                   {"dust", 8, false, membrane_corner},
-                                                   {"neo_hookean_bits", 10, false, neo_hookean<membrane_bits>},
-                                                   {"lattice", 15, false, membrane_lattice},
-                                                   {"ladder.rest", 29, false, membrane_rest},
-                                                   {"ladder.collapse", 19, false, membrane_collapse},
-                                                   {"ladder.sign", 20, false, membrane_sign},
-                                                   {"neo_hookean", 30, true, neo_hookean<membrane_corner>},
-                                                   {"lattice.neo_hookean", 10, false, neo_hookean<membrane_lattice>},
-                                                   {"ladder.neo_hookean_rest", 25, false, neo_hookean<membrane_rest>},
-                                                   {"ladder.neo_hookean_collapse", 20, false, neo_hookean<membrane_collapse>},
-                                                   {"per_vertex", 15, true, membrane_by_vertex<membrane_corner>},
-                                                   {"ladder.per_vertex", 15, false, membrane_by_vertex<membrane_collapse>}}};
+constexpr std::array<Generator, 15> membrane_table{
+    {{"uniform", 40, true, membrane_uniform},
+     {"corner", 20, true, membrane_corner},
+     {"bits", 10, false, membrane_bits},
+     {"dust", 8, false, membrane_corner},
+     {"neo_hookean_bits", 10, false, neo_hookean<membrane_bits>},
+     {"lattice", 15, false, membrane_lattice},
+     {"ladder.rest", 29, false, membrane_rest},
+     {"ladder.collapse", 19, false, membrane_collapse},
+     {"ladder.sign", 20, false, membrane_sign},
+     {"neo_hookean", 30, true, neo_hookean<membrane_corner>},
+     {"lattice.neo_hookean", 10, false, neo_hookean<membrane_lattice>},
+     {"ladder.neo_hookean_rest", 25, false, neo_hookean<membrane_rest>},
+     {"ladder.neo_hookean_collapse", 20, false, neo_hookean<membrane_collapse>},
+     {"per_vertex", 15, true, membrane_by_vertex<membrane_corner>},
+     {"ladder.per_vertex", 15, false, membrane_by_vertex<membrane_collapse>}}};
 
-/// x0, x1, o0, o1 with the edge along x: o0 in the upper half of the xy plane, o1 in the lower one turned by `angle` about the edge.
+/// x0, x1, o0, o1 with the edge along x: o0 in the upper half of the xy plane, o1 in the lower one turned by `angle`
+/// about the edge.
 struct HingeShape {
   double size = 1, foot_a = 0.5, foot_b = 0.5, height_a = 1, height_b = 1, angle = 0;
   std::array<Vec3, 4> points() const {
@@ -207,7 +215,8 @@ HingeShape with_angle(HingeShape shape, double angle) {
 CaseData bending_uniform(Random& random) {
   const HingeShape shape = hinge_shape(random);
   const double angle = random.between(-3, 3);
-  return bending_case(random, with_angle(shape, angle), with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
+  return bending_case(random, with_angle(shape, angle),
+                      with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
 /// Vertices of any bits: needles of up to 10¹² to 1, and hinges of every angle.
@@ -229,7 +238,9 @@ CaseData bending_lattice(Random& random) {
   const int quarter = random.below(4);
   const float h = single(shape.height_b * shape.size);
   constexpr std::array<std::array<float, 2>, 4> turns{{{-1, 0}, {0, 1}, {0, -1}, {1, 0}}};
-  question.vertex = {{{0, 0, 0}, {single(shape.size), 0, 0}, {single(shape.foot_a * shape.size), single(shape.height_a * shape.size), 0},
+  question.vertex = {{{0, 0, 0},
+                      {single(shape.size), 0, 0},
+                      {single(shape.foot_a * shape.size), single(shape.height_a * shape.size), 0},
                       {single(shape.foot_b * shape.size), turns[quarter][0] * h, turns[quarter][1] * h}}};
   return question;
 }
@@ -263,15 +274,16 @@ CaseData isometric_case(Random& random, const HingeShape& now, const HingeShape&
   HingeShape rest = random.one_in(2) && now.height_a > 0.1 && now.height_b > 0.1 ? now : hinge_shape(random);
   rest.size = now.size;
   question.model = BendingModel::isometric_quadratic;
-  question.weight = {single((rest.foot_a / rest.height_a + rest.foot_b / rest.height_b) / rest.size), single(-1 / (rest.height_a * rest.size)),
-                     single(-1 / (rest.height_b * rest.size))};
+  question.weight = {single((rest.foot_a / rest.height_a + rest.foot_b / rest.height_b) / rest.size),
+                     single(-1 / (rest.height_a * rest.size)), single(-1 / (rest.height_b * rest.size))};
   return question;
 }
 
 CaseData bending_isometric(Random& random) {
   const HingeShape shape = hinge_shape(random);
   const double angle = random.between(-3, 3);
-  return isometric_case(random, with_angle(shape, angle), with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
+  return isometric_case(random, with_angle(shape, angle),
+                        with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
 /// ℓ → 0.
@@ -285,7 +297,8 @@ CaseData isometric_damping(Random& random) {
   HingeShape shape = hinge_shape(random);
   if (random.one_in(2)) shape.height_a = random.one_in(4) ? 0.0 : random.rung();
   const double angle = std::numbers::pi + random.rung();
-  BendingCase question = std::get<BendingCase>(isometric_case(random, with_angle(shape, angle), with_angle(shape, random.one_in(2) ? angle : random.between(-3, 3))));
+  BendingCase question = std::get<BendingCase>(isometric_case(
+      random, with_angle(shape, angle), with_angle(shape, random.one_in(2) ? angle : random.between(-3, 3))));
   question.damping = single(random.magnitude(-3, 1));
   return question;
 }
@@ -298,19 +311,20 @@ CaseData bending_by_vertex(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 13> bending_table{{{"uniform", 40, true, bending_uniform},
-                                                  {"bits", 10, false, bending_bits},
-                                                  {"dust", 8, false, bending_uniform},
-                                                  {"lattice", 15, false, bending_lattice},
-                                                  {"ladder.flat", 20, false, bending_flat},
-                                                  {"ladder.fold", 15, false, bending_fold},
-                                                  {"ladder.needle", 10, false, bending_needle},
-                                                   {"isometric", 25, true, bending_isometric},
-                                                   {"ladder.isometric_flat", 20, false, isometric_flat},
-                                                   {"ladder.isometric_damping", 15, false, isometric_damping},
-                                                   {"per_vertex", 10, true, bending_by_vertex<bending_uniform>},
-                                                   {"isometric.per_vertex", 5, true, bending_by_vertex<bending_isometric>},
-                                                   {"ladder.per_vertex", 10, false, bending_by_vertex<bending_needle>}}};
+constexpr std::array<Generator, 13> bending_table{
+    {{"uniform", 40, true, bending_uniform},
+     {"bits", 10, false, bending_bits},
+     {"dust", 8, false, bending_uniform},
+     {"lattice", 15, false, bending_lattice},
+     {"ladder.flat", 20, false, bending_flat},
+     {"ladder.fold", 15, false, bending_fold},
+     {"ladder.needle", 10, false, bending_needle},
+     {"isometric", 25, true, bending_isometric},
+     {"ladder.isometric_flat", 20, false, isometric_flat},
+     {"ladder.isometric_damping", 15, false, isometric_damping},
+     {"per_vertex", 10, true, bending_by_vertex<bending_uniform>},
+     {"isometric.per_vertex", 5, true, bending_by_vertex<bending_isometric>},
+     {"ladder.per_vertex", 10, false, bending_by_vertex<bending_needle>}}};
 
 }  // namespace
 

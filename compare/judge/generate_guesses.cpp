@@ -1,4 +1,5 @@
-// Cases of initial_guess. Where a bound is to be just reached or just missed, it is set from y in double, which is within a few u of every answer's own y.
+// Cases of initial_guess. Where a bound is to be just reached or just missed, it is set from y in double, which is
+// within a few u of every answer's own y.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -45,9 +46,13 @@ CaseData uniform(Random& random) {
 }
 
 CaseData bits(Random& random) {
-  const auto vector = [&] { return Vec3f{static_cast<float>(random.sign()) * random.pattern(), static_cast<float>(random.sign()) * random.pattern(),
-                                         static_cast<float>(random.sign()) * random.pattern()}; };
-  InitialGuessCase c{vector(), vector(), vector(), 0, vector(), random.pattern(), static_cast<std::uint8_t>(random.one_in(6))};
+  const auto vector = [&] {
+    return Vec3f{static_cast<float>(random.sign()) * random.pattern(),
+                 static_cast<float>(random.sign()) * random.pattern(),
+                 static_cast<float>(random.sign()) * random.pattern()};
+  };
+  InitialGuessCase c{
+      vector(), vector(), vector(), 0, vector(), random.pattern(), static_cast<std::uint8_t>(random.one_in(6))};
   c.time_step = static_cast<float>(std::ldexp(random.between(0.5, 1), -random.below(20)));
   return c;
 }
@@ -66,7 +71,8 @@ CaseData lattice(Random& random) {
   c.time_step = h;
   const bool is_speed = !(c.velocity == Vec3f{});
   const float moved = lengths[static_cast<std::size_t>(k)] * h * (is_speed ? 1 : h);
-  const std::array<float, 4> bounds{moved, std::nextafter(moved, 0.0f), std::nextafter(moved, std::numeric_limits<float>::infinity()), 2 * moved};
+  const std::array<float, 4> bounds{moved, std::nextafter(moved, 0.0f),
+                                    std::nextafter(moved, std::numeric_limits<float>::infinity()), 2 * moved};
   c.bound = random.pick(std::span<const float>(bounds));
   c.held = random.one_in(8);
   return c;
@@ -105,7 +111,9 @@ CaseData far(Random& random) {
 /// At rest or almost: no velocity, no acceleration, no bound, or a rung of one.
 CaseData still(Random& random) {
   InitialGuessCase c = falling(random, 1);
-  const auto little = [&] { return random.one_in(2) ? Vec3f{} : single(scaled(in_box(random, -1, 1), std::abs(random.rung()))); };
+  const auto little = [&] {
+    return random.one_in(2) ? Vec3f{} : single(scaled(in_box(random, -1, 1), std::abs(random.rung())));
+  };
   c.velocity = little();
   c.acceleration = little();
   if (random.one_in(2)) c.previous = c.start;

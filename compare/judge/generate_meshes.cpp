@@ -1,5 +1,5 @@
-// Meshes for detection and bounds, in units of one edge length. The families that seek a degeneracy are regular arrangements (every tie is exact)
-// with a jitter that climbs a ladder from 0 to a tenth of an edge.
+// Meshes for detection and bounds, in units of one edge length. The families that seek a degeneracy are regular
+// arrangements (every tie is exact) with a jitter that climbs a ladder from 0 to a tenth of an edge.
 #include <array>
 
 #include "compare/judge/generators.hpp"
@@ -11,16 +11,22 @@ namespace {
 
 using namespace placement;
 
-/// From so many cases on the rows whose meshes have thousands of vertices take nearly all of them: a device answers these a hundred times as fast.
+/// From so many cases on the rows whose meshes have thousands of vertices take nearly all of them: a device answers
+/// these a hundred times as fast.
 constexpr std::uint64_t large_run = 1000000;
 
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
 
-/// 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge (single precision holds no less at coordinates of one edge).
-double jitter_rung(Random& random) { return random.one_in(2) ? 0 : std::pow(10.0, random.is_fine() ? -5 - random.below(3) : -1 - random.below(7)); }
+/// 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge (single precision holds no less at coordinates of one
+/// edge).
+double jitter_rung(Random& random) {
+  return random.one_in(2) ? 0 : std::pow(10.0, random.is_fine() ? -5 - random.below(3) : -1 - random.below(7));
+}
 
 /// h (1 + rung): the radius that just reaches, or just misses, what lies at height h.
-double radius_at(Random& random, double h) { return !random.is_fine() && random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung()); }
+double radius_at(Random& random, double h) {
+  return !random.is_fine() && random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung());
+}
 
 /// Strips of triangles and a few loose edges, thrown into a box of about one vertex in a unit cube.
 MeshBuilder soup_of(Random& random, int size) {
@@ -31,8 +37,10 @@ MeshBuilder soup_of(Random& random, int size) {
     const Vec3 near = n > 0 && !random.one_in(3) ? builder.points.back() : in_box(random, 0, side);
     builder.add(sum(near, in_box(random, -0.7, 0.7)));
     if (n < 2 || random.one_in(5)) continue;
-    if (random.one_in(8)) builder.loose_edges.push_back({n - 1, n});
-    else builder.triangles.push_back({n - 2, n - 1, n});
+    if (random.one_in(8))
+      builder.loose_edges.push_back({n - 1, n});
+    else
+      builder.triangles.push_back({n - 2, n - 1, n});
   }
   return builder;
 }
@@ -42,7 +50,9 @@ CaseData soup(Random& random) {
   return finish(random, soup_of(random, random.pick(std::span<const int>(sizes))), {});
 }
 
-CaseData few(Random& random) { return finish(random, soup_of(random, random.pick(std::span<const int>(small_sizes))), {}); }
+CaseData few(Random& random) {
+  return finish(random, soup_of(random, random.pick(std::span<const int>(small_sizes))), {});
+}
 
 /// Two wavy sheets, one above the other, every vertex displaced: like cloth on cloth.
 CaseData cloth(Random& random) {
@@ -50,7 +60,8 @@ CaseData cloth(Random& random) {
   const double gap = random.magnitude(-1.5, 0.3), wave = random.between(0, 0.5);
   for (int layer = 0; layer < 2; ++layer) {
     const Index first = static_cast<Index>(builder.points.size());
-    builder.grid(2 + random.below(8), 2 + random.below(8), {random.unit(), random.unit(), layer * gap}, {1, 0, 0}, {0, 1, 0});
+    builder.grid(2 + random.below(8), 2 + random.below(8), {random.unit(), random.unit(), layer * gap}, {1, 0, 0},
+                 {0, 1, 0});
     for (std::size_t i = first; i < builder.points.size(); ++i) {
       Vec3& p = builder.points[i];
       p.z += wave * std::sin(1.3 * p.x) * std::cos(0.7 * p.y);
@@ -64,7 +75,8 @@ CaseData large(Random& random) {
   MeshBuilder builder;
   const int layers = 3 + random.below(3), side = 30 + random.below(31);
   const double gap = random.magnitude(-1, 0.2);
-  for (int layer = 0; layer < layers; ++layer) builder.grid(side - 1, side - 1, {random.unit(), random.unit(), layer * gap}, {1, 0, 0}, {0, 1, 0});
+  for (int layer = 0; layer < layers; ++layer)
+    builder.grid(side - 1, side - 1, {random.unit(), random.unit(), layer * gap}, {1, 0, 0}, {0, 1, 0});
   for (Vec3& p : builder.points) p.z += 0.4 * std::sin(0.6 * p.x) * std::cos(0.4 * p.y);
   return finish(random, builder, {random.between(0.05, 0.3), random.between(0.2, 1)});
 }
@@ -80,7 +92,8 @@ CaseData lattice(Random& random) {
 CaseData bits(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(8));
   MeshCase mesh;
-  mesh.topology = std::make_shared<Topology>(build_topology(static_cast<Index>(builder.points.size()), builder.triangles, builder.loose_edges));
+  mesh.topology = std::make_shared<Topology>(
+      build_topology(static_cast<Index>(builder.points.size()), builder.triangles, builder.loose_edges));
   mesh.rigid_groups.assign(builder.points.size(), -1);
   const auto number = [&] { return static_cast<float>(random.sign()) * random.pattern(); };
   for (std::size_t i = 0; i < builder.points.size(); ++i) {
@@ -88,7 +101,8 @@ CaseData bits(Random& random) {
     mesh.positions.push_back({x, y, number()});
   }
   mesh.contact_radius = random.pattern();
-  mesh.query_radius = random.one_in(4) ? mesh.contact_radius : mesh.contact_radius * static_cast<float>(random.between(1, 4));
+  mesh.query_radius = random.one_in(4) ? mesh.contact_radius
+                                       : mesh.contact_radius * static_cast<float>(random.between(1, 4));
   return mesh;
 }
 
@@ -98,7 +112,8 @@ CaseData sheets(Random& random) {
   const double gap = random.magnitude(-2, 0);
   const double shift = random.one_in(2) ? 0 : 0.5;
   builder.grid(1 + random.below(5), 1 + random.below(5), {}, {1, 0, 0}, {0, 1, 0});
-  builder.grid(1 + random.below(5), 1 + random.below(5), {shift, shift, gap}, random.one_in(3) ? Vec3{0.8, 0.6, 0} : Vec3{1, 0, 0},
+  builder.grid(1 + random.below(5), 1 + random.below(5), {shift, shift, gap},
+               random.one_in(3) ? Vec3{0.8, 0.6, 0} : Vec3{1, 0, 0},
                random.one_in(3) ? Vec3{-0.6, 0.8, 0} : Vec3{0, 1, 0});
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
@@ -120,8 +135,10 @@ CaseData fold(Random& random) {
 /// Identical meshes, vertex exactly above vertex.
 MeshBuilder stack_of(Random& random, double gap) {
   MeshBuilder builder;
-  if (random.one_in(2)) builder.fan(3 + random.below(6), {}, true, random.one_in(2) ? 0 : random.between(-1, 1));
-  else builder.grid(1 + random.below(3), 1 + random.below(3), {}, {1, 0, 0}, {0, 1, 0});
+  if (random.one_in(2))
+    builder.fan(3 + random.below(6), {}, true, random.one_in(2) ? 0 : random.between(-1, 1));
+  else
+    builder.grid(1 + random.below(3), 1 + random.below(3), {}, {1, 0, 0}, {0, 1, 0});
   builder.repeat({0, 0, gap});
   if (random.one_in(2)) builder.repeat({0, 0, 2 * gap});
   return builder;
@@ -145,14 +162,16 @@ CaseData fan(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
 }
 
-/// A triangle whose corners stand above a vertex, an edge and an interior of a patch, on the block boundary or a rung beside it.
+/// A triangle whose corners stand above a vertex, an edge and an interior of a patch, on the block boundary or a rung
+/// beside it.
 CaseData above(Random& random) {
   MeshBuilder builder;
   const double height = random.magnitude(-2, 0);
   builder.grid(2, 2, {-1, -1, 0}, {1, 0, 0}, {0, 1, 0});
   if (random.one_in(2)) builder.points[4].z = random.one_in(2) ? random.rung() : random.between(-1, 1);
   const double ridge = builder.points[4].z;
-  const Index a = builder.add({random.rung(), random.rung(), ridge + height}), b = builder.add({0.5, random.rung(), 0.5 * ridge + height});
+  const Index a = builder.add({random.rung(), random.rung(), ridge + height}),
+              b = builder.add({0.5, random.rung(), 0.5 * ridge + height});
   const Index c = builder.add({random.between(-1, 1), random.between(-1, 1), ridge + height + random.unit()});
   builder.triangles.push_back({a, b, c});
   return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
@@ -165,10 +184,13 @@ CaseData book(Random& random) {
   const Index a = builder.add({0, 0, 0}), b = builder.add({0, 0, 1});
   for (int k = 0; k < pages; ++k) {
     const double angle = random.one_in(3) ? 1.5707963267948966 * random.below(4) : random.between(0, 6.283185307179586);
-    builder.triangles.push_back({a, b, builder.add({std::round(1e9 * std::cos(angle)) * 1e-9, std::round(1e9 * std::sin(angle)) * 1e-9, random.unit()})});
+    builder.triangles.push_back({a, b,
+                                 builder.add({std::round(1e9 * std::cos(angle)) * 1e-9,
+                                              std::round(1e9 * std::sin(angle)) * 1e-9, random.unit()})});
   }
   for (int k = 0; k < 3; ++k) {
-    const Index n = builder.add({random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1), random.between(-0.5, 1.5)});
+    const Index n = builder.add(
+        {random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1), random.between(-0.5, 1.5)});
     builder.add(sum(builder.points[n], in_box(random, -0.5, 0.5)));
     builder.add(sum(builder.points[n], in_box(random, -0.5, 0.5)));
     builder.triangles.push_back({n, n + 1, n + 2});
@@ -184,7 +206,8 @@ CaseData strands(Random& random) {
   for (int k = 0; k < count; ++k) {
     const double sine = random.one_in(3) ? 0 : random.one_in(2) ? random.rung() : random.between(-1, 1);
     const double shift = random.one_in(2) ? 0.5 * random.below(3) : random.between(-1, 1);
-    builder.strand(1 + random.below(6), {shift, -sine * random.below(3), k * gap}, {random.one_in(4) ? 0.0 : 1.0, sine, random.one_in(4) ? 0.5 : 0.0});
+    builder.strand(1 + random.below(6), {shift, -sine * random.below(3), k * gap},
+                   {random.one_in(4) ? 0.0 : 1.0, sine, random.one_in(4) ? 0.5 : 0.0});
   }
   if (random.one_in(3)) builder.grid(2, 1, {0, 0, -gap}, {1, 0, 0}, {0, 1, 0});
   // A strand that stands still has edges without length.
@@ -249,11 +272,14 @@ CaseData groups(Random& random) {
     builder.grid(1 + random.below(3), 1 + random.below(3), {0.25 * k, 0, k * gap}, {1, 0, 0}, {0, 1, 0});
     builder.group(first, random.below(4) - 1);
   }
-  if (random.one_in(2)) builder.groups[static_cast<std::size_t>(random.below(static_cast<int>(builder.points.size())))] = random.below(3) - 1;
+  if (random.one_in(2))
+    builder.groups[static_cast<std::size_t>(random.below(static_cast<int>(builder.points.size())))] = random.below(3) -
+                                                                                                      1;
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Two or three sheets whose borders are stitched, vertex to vertex or to an edge: beside a seam pairs are left out, at its ends and behind it they are not.
+/// Two or three sheets whose borders are stitched, vertex to vertex or to an edge: beside a seam pairs are left out, at
+/// its ends and behind it they are not.
 CaseData seams(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
@@ -267,7 +293,8 @@ CaseData seams(Random& random) {
     builder.grid(columns, 2, origin, {1, 0, 0}, {0, 1, 0});
   }
   for (int k = 0; k + 1 < sheets; ++k) {
-    const Index own = first[static_cast<std::size_t>(k)] + (beside ? 2 * (columns + 1) : 0), other = first[static_cast<std::size_t>(k) + 1];
+    const Index own = first[static_cast<std::size_t>(k)] + (beside ? 2 * (columns + 1) : 0),
+                other = first[static_cast<std::size_t>(k) + 1];
     for (int i = 0; i <= columns; ++i) {
       if (random.one_in(6)) continue;  // a hole in the seam
       builder.excluded.push_back({own + i, other + i});
@@ -277,15 +304,17 @@ CaseData seams(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Next to a boundary: arrangements whose radius just reaches, jittered by their last digits at most. In a stack that is so for nearly every vertex and edge.
+/// Next to a boundary: arrangements whose radius just reaches, jittered by their last digits at most. In a stack that
+/// is so for nearly every vertex and edge.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-/// 64 stacks side by side in one mesh, each with a rung of its own beside the radius: a device takes as long over twenty vertices as over a thousand. They
-/// stand on a lattice about the origin, no farther from it than a few of their sizes, so that single precision still tells the lower rungs apart.
+/// 64 stacks side by side in one mesh, each with a rung of its own beside the radius: a device takes as long over
+/// twenty vertices as over a thousand. They stand on a lattice about the origin, no farther from it than a few of their
+/// sizes, so that single precision still tells the lower rungs apart.
 CaseData field(Random& random) {
   constexpr int side = 4;
   constexpr double spacing = 5;  // a stack is 3 wide at most, and r below 1.5
@@ -294,16 +323,20 @@ CaseData field(Random& random) {
   const double gap = random.magnitude(-1.5, 0);
   const auto place = [](int i) { return spacing * (i - 0.5 * (side - 1)); };
   for (int i = 0; i < side * side * side; ++i)
-    builder.append(stack_of(random, gap * (1 + 0.5 * random.rung())), {place(i % side), place(i / side % side), place(i / (side * side))});
+    builder.append(stack_of(random, gap * (1 + 0.5 * random.rung())),
+                   {place(i % side), place(i / side % side), place(i / (side * side))});
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Triangles of which a height or a side tends to 0, about one another and with a point beside each: smallest distances are least certain there.
+/// Triangles of which a height or a side tends to 0, about one another and with a point beside each: smallest distances
+/// are least certain there.
 CaseData needles(Random& random) {
   MeshBuilder builder;
   for (int i = 4 + random.below(8); i > 0; --i) {
-    const double side = random.magnitude(-3, 0), height = side * random.magnitude(0, 6), lean = random.between(-1, 1), along = random.between(-0.2, 1.2);
-    std::array<Vec3, 4> points{Vec3{side * random.rung(), along * side, side * random.rung()}, Vec3{}, Vec3{0, side, 0}, Vec3{height, lean * height, 0}};
+    const double side = random.magnitude(-3, 0), height = side * random.magnitude(0, 6), lean = random.between(-1, 1),
+                 along = random.between(-0.2, 1.2);
+    std::array<Vec3, 4> points{Vec3{side * random.rung(), along * side, side * random.rung()}, Vec3{}, Vec3{0, side, 0},
+                               Vec3{height, lean * height, 0}};
     rotate(random, points);
     Index first = 0;
     for (const Vec3& point : points) first = builder.add(scaled(point, 1 / std::max(1.0, height))) - 3;
@@ -346,7 +379,12 @@ float smallest(Random& random, int kind) {
 
 CaseData bound_case(Random& random, MeshCase mesh) {
   constexpr std::array<float, 5> relaxations{0.45f, 0.45f, 0.25f, 0.5f, 1.0f / 3};
-  BoundCase c{mesh.topology, {}, {}, {}, random.one_in(2) ? random.pick(std::span<const float>(relaxations)) : static_cast<float>(random.between(0.01, 0.5))};
+  BoundCase c{mesh.topology,
+              {},
+              {},
+              {},
+              random.one_in(2) ? random.pick(std::span<const float>(relaxations))
+                               : static_cast<float>(random.between(0.01, 0.5))};
   const int kind = random.below(4);
   const auto fill = [&](std::vector<float>& values, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) values.push_back(smallest(random, kind));

@@ -1,5 +1,6 @@
-// Cases of rest_state: one to three bodies of random materials, each a mesh of the detections' families without what `validate` refuses, or a few hinges.
-// The start is the rest shape at twice the size: what is computed of the wrong one shows.
+// Cases of rest_state: one to three bodies of random materials, each a mesh of the detections' families without what
+// `validate` refuses, or a few hinges. The start is the rest shape at twice the size: what is computed of the wrong one
+// shows.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,8 +24,9 @@ using namespace placement;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The legal part of a mesh, of a tiny one 2¹⁰ times as large, of a vast one (edges up to 2²⁰ m at twice the size) an eighth of it: coordinates that are too
-/// small become 0; faces that are too short, flat or repeated go, and vertices without a face with them.
+/// The legal part of a mesh, of a tiny one 2¹⁰ times as large, of a vast one (edges up to 2²⁰ m at twice the size) an
+/// eighth of it: coordinates that are too small become 0; faces that are too short, flat or repeated go, and vertices
+/// without a face with them.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
@@ -129,8 +131,9 @@ CaseData finished(Scene scene) {
   return c;
 }
 
-constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", lattice = "lattice", sheets = "ladder.sheets", fold = "ladder.fold",
-                           fan = "ladder.fan", book = "ladder.book", strands = "ladder.strands";
+constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", lattice = "lattice",
+                           sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan", book = "ladder.book",
+                           strands = "ladder.strands";
 
 /// Bodies of what the detections' generator of this name makes.
 template <const auto& family>
@@ -148,7 +151,8 @@ CaseData bits(Random& random) {
   Scene scene = *test.scene;
   for (Body& body : scene.bodies) {
     body.material.friction = random.pattern(0x1p-20f, 0x1p10f);
-    for (double Material::*number : {&Material::density, &Material::bending_stiffness, &Material::contact_stiffness}) body.material.*number = random.pattern();
+    for (double Material::*number : {&Material::density, &Material::bending_stiffness, &Material::contact_stiffness})
+      body.material.*number = random.pattern();
   }
   test.scene = std::make_shared<Scene>(std::move(scene));
   return test;
@@ -169,7 +173,8 @@ CaseData hinges(Random& random, Shape shape_of) {
     const Index a = builder.add({}), b = builder.add({length, 0, 0});
     const Index c = builder.add({random.between(-0.3, 1.3) * length, shape.height_a * length, 0});
     const double height = shape.height_b * length;
-    const Index d = builder.add({random.between(-0.3, 1.3) * length, -height * std::cos(shape.angle), height * std::sin(shape.angle)});
+    const Index d = builder.add(
+        {random.between(-0.3, 1.3) * length, -height * std::cos(shape.angle), height * std::sin(shape.angle)});
     builder.triangles.push_back({a, b, c});
     builder.triangles.push_back({b, a, d});
   }
@@ -186,25 +191,33 @@ CaseData flat(Random& random) {
 
 /// Angles that tend to ±π, where the sign jumps.
 CaseData crease(Random& random) {
-  return hinges(random, [&] { return HingeShape{random.between(0.1, 1.5), random.between(0.1, 1.5), std::numbers::pi + random.rung()}; });
+  return hinges(random, [&] {
+    return HingeShape{random.between(0.1, 1.5), random.between(0.1, 1.5), std::numbers::pi + random.rung()};
+  });
 }
 
 /// Triangles that tend to a line, as far as single precision and the shortest legal coordinate let them.
 CaseData needle(Random& random) {
-  const auto height = [&] { return random.one_in(3) ? random.between(0.1, 1.5) : std::pow(10.0, -1 - random.below(10)); };
-  return hinges(random, [&] { return HingeShape{height(), height(), random.one_in(3) ? random.rung() : random.between(-3, 3)}; });
+  const auto height = [&] {
+    return random.one_in(3) ? random.between(0.1, 1.5) : std::pow(10.0, -1 - random.below(10));
+  };
+  return hinges(random, [&] {
+    return HingeShape{height(), height(), random.one_in(3) ? random.rung() : random.between(-3, 3)};
+  });
 }
 
 /// Equal, extreme and zero stiffnesses and frictions of five small bodies.
 CaseData meetings(Random& random) {
-  constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40}, frictions{0, 0, 0.2f, 0.2f, 0x1p10, 0x1p-20};
+  constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40},
+      frictions{0, 0, 0.2f, 0.2f, 0x1p10, 0x1p-20};
   Scene scene;
   for (int b = 0; b < 5; ++b) {
     MeshBuilder builder;
     builder.grid(1, 1, {}, {1, 0, 0}, {0, 1, 0});
     add_body(random, scene, finish(random, builder, {}));
     Material& material = scene.bodies.back().material;
-    material.contact_stiffness = random.one_in(3) ? double{random.pattern()} : random.pick(std::span<const double>(stiffnesses));
+    material.contact_stiffness = random.one_in(3) ? double{random.pattern()}
+                                                  : random.pick(std::span<const double>(stiffnesses));
     material.friction = random.one_in(3) ? random.unit() : random.pick(std::span<const double>(frictions));
   }
   return finished(std::move(scene));
@@ -251,7 +264,8 @@ std::string problems_of(const RestStateCase& c) {
     for (const Index v : motion.vertices) held[at(v)] = true;
   for (const Body& body : scene.bodies)
     for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v)
-      if (!body.fixed && !held[at(v)] && c.topology->vertex_triangles[at(v)].empty()) return "vertex " + std::to_string(v) + " moves and has no triangle";
+      if (!body.fixed && !held[at(v)] && c.topology->vertex_triangles[at(v)].empty())
+        return "vertex " + std::to_string(v) + " moves and has no triangle";
   return {};
 }
 

@@ -13,10 +13,13 @@ using namespace placement;
 
 CaseData activation_uniform(Random& random) {
   const float r = static_cast<float>(random.magnitude(-4, 1));
-  return ActivationCase{up(static_cast<float>(random.unit() * 1.2 * r)), r, static_cast<float>(random.magnitude(-1, 6))};
+  return ActivationCase{up(static_cast<float>(random.unit() * 1.2 * r)), r,
+                        static_cast<float>(random.magnitude(-1, 6))};
 }
 
-CaseData activation_bits(Random& random) { return ActivationCase{random.pattern(), random.pattern(), random.pattern()}; }
+CaseData activation_bits(Random& random) {
+  return ActivationCase{random.pattern(), random.pattern(), random.pattern()};
+}
 
 CaseData activation_lattice(Random& random) {
   const float d = std::ldexp(static_cast<float>(1 + random.below(64)), random.below(9) - 10);
@@ -39,7 +42,8 @@ CaseData activation_switch(Random& random) {
 /// d → 0, where the logarithm grows.
 CaseData activation_touching(Random& random) {
   const float r = static_cast<float>(random.magnitude(-3, 0));
-  return ActivationCase{static_cast<float>(r * std::pow(10.0, -1 - random.below(12))), r, static_cast<float>(random.magnitude(-1, 6))};
+  return ActivationCase{static_cast<float>(r * std::pow(10.0, -1 - random.below(12))), r,
+                        static_cast<float>(random.magnitude(-1, 6))};
 }
 
 ActivationCase with_any_activation(Random& random, const CaseData& data) {
@@ -89,26 +93,31 @@ CaseData truncate_lattice(Random& random) {
   const double scale = std::ldexp(1.0, random.below(21) - 10);
   std::array<Vec3, 1> step{scaled(steps[k], scale)};
   permute(random, step);
-  return moved(scaled(on_lattice(random, 3), random.one_in(2) ? scale : 1), step[0], beside(random, static_cast<float>(lengths[k] * scale)));
+  return moved(scaled(on_lattice(random, 3), random.one_in(2) ? scale : 1), step[0],
+               beside(random, static_cast<float>(lengths[k] * scale)));
 }
 
 /// ‖x − x_prev‖ → b.
 CaseData truncate_bound(Random& random) {
-  const TruncateCase c = std::get<TruncateCase>(moved(in_box(random, -1, 1), scaled(in_box(random, -1, 1), random.magnitude(-6, 0)), 0));
-  const Vec3 step{double{c.position.x} - c.previous.x, double{c.position.y} - c.previous.y, double{c.position.z} - c.previous.z};
+  const TruncateCase c = std::get<TruncateCase>(
+      moved(in_box(random, -1, 1), scaled(in_box(random, -1, 1), random.magnitude(-6, 0)), 0));
+  const Vec3 step{double{c.position.x} - c.previous.x, double{c.position.y} - c.previous.y,
+                  double{c.position.z} - c.previous.z};
   return TruncateCase{c.previous, c.position, beside(random, static_cast<float>(length(step)))};
 }
 
 /// A bound that tends to the spacing of the coordinates and below.
 CaseData truncate_far(Random& random) {
   const Vec3 step = scaled(in_box(random, -1, 1), random.magnitude(-3, 0));
-  return moved(scaled(in_box(random, -1, 1), random.magnitude(0, 6)), step, static_cast<float>(length(step) * random.magnitude(-5, 0.5)));
+  return moved(scaled(in_box(random, -1, 1), random.magnitude(0, 6)), step,
+               static_cast<float>(length(step) * random.magnitude(-5, 0.5)));
 }
 
 /// Bound or step zero or almost.
 CaseData truncate_zero(Random& random) {
   const Vec3 step = random.one_in(3) ? Vec3{} : scaled(in_box(random, -1, 1), std::abs(random.rung()));
-  return moved(random.one_in(2) ? Vec3{} : in_box(random, -1, 1), step, static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
+  return moved(random.one_in(2) ? Vec3{} : in_box(random, -1, 1), step,
+               static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
 }
 
 constexpr std::array<Generator, 8> activation_table{{{"uniform", 20, true, activation_uniform},

@@ -1,5 +1,6 @@
-// Cases of spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the spring, which damping does not see; seams, to
-// those between a vertex and a point of an edge, with the point at its ends too, and closed.
+// Cases of spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the
+// spring, which damping does not see; seams, to those between a vertex and a point of an edge, with the point at its
+// ends too, and closed.
 #include <array>
 #include <cmath>
 
@@ -37,7 +38,8 @@ CaseData spring_case(Random& random, double length, double before, double rest_l
 }
 
 /// An edge along y whose point at `ratio` is the origin, and a vertex at `length` from there.
-CaseData seam_case(Random& random, double edge, double ratio, double length, double before, double rest_length, bool turned) {
+CaseData seam_case(Random& random, double edge, double ratio, double length, double before, double rest_length,
+                   bool turned) {
   std::array<Vec3, 6> points{Vec3{length, 0, 0}, Vec3{0, -ratio * edge, 0}, Vec3{0, (1 - ratio) * edge, 0}, {}, {}, {}};
   for (std::size_t k = 0; k < 3; ++k) points[3 + k] = points[k];
   points[3].x = before;
@@ -89,7 +91,8 @@ CaseData at_rest(Random& random) {
 /// l → 0.
 CaseData at_zero(Random& random) {
   const double size = some_length(random);
-  return spring_case(random, size * random.rung(), random.one_in(2) ? size : size * random.rung(), size, random.one_in(2));
+  return spring_case(random, size * random.rung(), random.one_in(2) ? size : size * random.rung(), size,
+                     random.one_in(2));
 }
 
 /// Stitches: l₀ = 0.
@@ -100,8 +103,10 @@ CaseData stitch(Random& random) {
 
 /// Of any shape, open or nearly closed.
 CaseData seam(Random& random) {
-  const double edge = some_length(random), length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : std::abs(random.rung()));
-  return seam_case(random, edge, random.unit(), length, length * random.between(0.5, 2), random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
+  const double edge = some_length(random),
+               length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : std::abs(random.rung()));
+  return seam_case(random, edge, random.unit(), length, length * random.between(0.5, 2),
+                   random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
 }
 
 /// The point at an end of the edge or in its middle, without a rounding, closed or not.
@@ -114,27 +119,30 @@ CaseData seam_lattice(Random& random) {
 /// s → 0 and s → 1.
 CaseData seam_end(Random& random) {
   const double edge = some_length(random), rung = std::abs(random.rung());
-  return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0), edge, 0, random.one_in(2));
+  return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0),
+                   edge, 0, random.one_in(2));
 }
 
-/// Stitches closed down to the roundings of their point and beyond, beside rest lengths of any size: l and l₀ → 0, each by itself.
+/// Stitches closed down to the roundings of their point and beyond, beside rest lengths of any size: l and l₀ → 0, each
+/// by itself.
 CaseData closed(Random& random) {
-  const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()), before = edge * std::abs(random.rung());
+  const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()),
+               before = edge * std::abs(random.rung());
   const double rest_length = edge * random.magnitude(-10, 0);
   return seam_case(random, edge, ratio, length, before, rest_length, true);
 }
 
 constexpr std::array<Generator, 11> table{{{"uniform", 40, true, uniform},
-                                          {"bits", 15, false, bits},
-                                          {"dust", 8, false, uniform},
-                                          {"lattice", 15, false, lattice},
-                                          {"ladder.rest", 20, false, at_rest},
-                                          {"ladder.zero", 15, false, at_zero},
-                                          {"ladder.stitch", 10, false, stitch},
-                                          {"seam", 20, true, seam},
-                                          {"ladder.seam_lattice", 10, false, seam_lattice},
-                                          {"ladder.seam", 15, false, seam_end},
-                                          {"ladder.closed", 10, false, closed}}};
+                                           {"bits", 15, false, bits},
+                                           {"dust", 8, false, uniform},
+                                           {"lattice", 15, false, lattice},
+                                           {"ladder.rest", 20, false, at_rest},
+                                           {"ladder.zero", 15, false, at_zero},
+                                           {"ladder.stitch", 10, false, stitch},
+                                           {"seam", 20, true, seam},
+                                           {"ladder.seam_lattice", 10, false, seam_lattice},
+                                           {"ladder.seam", 15, false, seam_end},
+                                           {"ladder.closed", 10, false, closed}}};
 
 }  // namespace
 

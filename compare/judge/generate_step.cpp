@@ -1,5 +1,6 @@
-// Scenes of one step, small enough for the exact detections of every event. Sheets lie in planes z = const before one symmetry of the cube turns all of
-// it. Ladders lead to what decides the order of events: the count of cut vertices at its threshold, the cap of r_q, contacts at the radius.
+// Scenes of one step, small enough for the exact detections of every event. Sheets lie in planes z = const before one
+// symmetry of the cube turns all of it. Ladders lead to what decides the order of events: the count of cut vertices at
+// its threshold, the cap of r_q, contacts at the radius.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +41,8 @@ struct StepBuilder {
     scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
   }
 
-  /// Stiffer than inertia by up to a thousand times: beyond, a sweep's single-precision solve says little, and what it says is stage sweep's affair.
+  /// Stiffer than inertia by up to a thousand times: beyond, a sweep's single-precision solve says little, and what it
+  /// says is stage sweep's affair.
   Material material() {
     Material m;
     m.density = 0.2 * random.magnitude(-0.5, 0.5);
@@ -55,7 +57,8 @@ struct StepBuilder {
     return m;
   }
 
-  /// nx × ny vertices at `origin` (in spacings, and two more: no jitter brings a coordinate next to 0), diagonals alternating, with one velocity [m/s].
+  /// nx × ny vertices at `origin` (in spacings, and two more: no jitter brings a coordinate next to 0), diagonals
+  /// alternating, with one velocity [m/s].
   void sheet(int nx, int ny, const Vec3& origin, const Vec3& velocity, bool fixed = false) {
     Mesh mesh;
     for (int j = 0; j < ny; ++j)
@@ -63,8 +66,10 @@ struct StepBuilder {
     for (int j = 0; j + 1 < ny; ++j)
       for (int i = 0; i + 1 < nx; ++i) {
         const Index a = j * nx + i, b = a + 1, c = a + nx, d = c + 1;
-        if ((i + j) % 2 == 0) mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
-        else mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
+        if ((i + j) % 2 == 0)
+          mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+        else
+          mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
       }
     add(mesh, velocity, fixed);
   }
@@ -145,7 +150,9 @@ CaseData onto(Random& random) {
 CaseData collide(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.7));
-  builder.sheet(side(random), side(random), {random.between(-0.5, 0.5), random.between(-0.5, 0.5), random.between(0.2, 1.5)}, {0, 0.3 * speed, -speed});
+  builder.sheet(side(random), side(random),
+                {random.between(-0.5, 0.5), random.between(-0.5, 0.5), random.between(0.2, 1.5)},
+                {0, 0.3 * speed, -speed});
   builder.sheet(side(random), side(random), {}, {0, 0, 0.5 * speed});
   builder.jitter(random.between(0.01, 0.09));
   return builder.finish();
@@ -163,7 +170,8 @@ PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const Pre
   const double apart = builder.spacing * random.magnitude(-2, 0);
   for (std::size_t frame = 0; frame < motion.keyframes.times.size(); ++frame)
     for (const Index v : motion.vertices)
-      motion.keyframes.positions.push_back(single(sum(builder.scene.mesh.positions[static_cast<std::size_t>(v)], in_box(random, -apart, apart))));
+      motion.keyframes.positions.push_back(
+          single(sum(builder.scene.mesh.positions[static_cast<std::size_t>(v)], in_box(random, -apart, apart))));
   return motion;
 }
 
@@ -187,8 +195,8 @@ CaseData handle(Random& random) {
   return builder.finish();
 }
 
-/// A sheet at rest of which as many vertices are flung out of their bounds as the threshold of a re-detection says, one more or one less; γ_e K a rung beside a
-/// whole number.
+/// A sheet at rest of which as many vertices are flung out of their bounds as the threshold of a re-detection says, one
+/// more or one less; γ_e K a rung beside a whole number.
 CaseData count_at_threshold(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random), count = nx * ny;
@@ -196,7 +204,8 @@ CaseData count_at_threshold(Random& random) {
   builder.scene.gravity = {};
   Settings& s = builder.scene.settings;
   s.redetect_fraction = std::min(1.0, (1 + random.below(count / 2 + 1)) * (1 + 0.4 * random.rung()) / count);
-  const int threshold = std::max(1, static_cast<int>(std::ceil(static_cast<float>(s.redetect_fraction) * static_cast<double>(count))));
+  const int threshold = std::max(
+      1, static_cast<int>(std::ceil(static_cast<float>(s.redetect_fraction) * static_cast<double>(count))));
   s.guess_rounds = random.one_in(4) ? 1 : 2 + random.below(4);
   const int flung = std::clamp(threshold + (random.one_in(3) ? random.below(2) : -1), 0, count);
   for (int k = 0, first = random.below(count); k < flung; ++k)
@@ -226,7 +235,8 @@ CaseData at_rest(Random& random) {
   builder.sheet(side(random), side(random), {shift, shift, random.between(0.1, 0.6)}, {});
   builder.sheet(side(random), side(random), {}, {}, random.one_in(2));
   const auto height = [&](std::size_t v) { return double{static_cast<float>(builder.scene.mesh.positions[v].z)}; };
-  builder.scene.settings.contact_radius = (height(0) - height(builder.scene.mesh.positions.size() - 1)) * (1 + 0.5 * random.rung());
+  builder.scene.settings.contact_radius = (height(0) - height(builder.scene.mesh.positions.size() - 1)) *
+                                          (1 + 0.5 * random.rung());
   if (random.one_in(3)) builder.jitter(0.05);
   return builder.finish();
 }
@@ -245,7 +255,8 @@ CaseData lattice(Random& random) {
   if (kind == 1 || kind == 2) {
     PrescribedMotion motion;
     motion.name = "held";
-    for (Index v = 0; v < (kind == 1 ? static_cast<Index>(mesh.positions.size()) : 1); ++v) motion.vertices.push_back(v);
+    for (Index v = 0; v < (kind == 1 ? static_cast<Index>(mesh.positions.size()) : 1); ++v)
+      motion.vertices.push_back(v);
     motion.velocity = velocity;
     builder.scene.motions.push_back(motion);
   }
@@ -267,8 +278,8 @@ CaseData few(Random& random) {
   return builder.finish();
 }
 
-/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight and more powers of two (of the
-/// latter within what inertia allows), coordinates in their last bits.
+/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight
+/// and more powers of two (of the latter within what inertia allows), coordinates in their last bits.
 CaseData bits(Random& random) {
   StepBuilder builder(random);
   const auto single = [](double x) { return static_cast<float>(x); };
@@ -288,7 +299,9 @@ CaseData bits(Random& random) {
     m.contact_stiffness = random.pattern(single(inertia / 8), single(512 * inertia));
     m.friction = random.pattern(0x1p-6f, 1);
   }
-  const auto number = [&] { return random.sign() * random.pattern(single(builder.speed(0x1p-8)), single(builder.speed(4))); };
+  const auto number = [&] {
+    return random.sign() * random.pattern(single(builder.speed(0x1p-8)), single(builder.speed(4)));
+  };
   for (Vec3& v : builder.scene.velocities) v = {number(), 0, 0}, v.y = number(), v.z = number();
   for (auto* points : {&builder.scene.mesh.positions, &builder.scene.rest_positions})
     for (Vec3& p : *points)
@@ -306,16 +319,16 @@ CaseData models(Random& random) {
 }
 
 constexpr std::array<Generator, 11> table{{{"fall", 12, true, fall},
-                                          {"onto", 13, true, onto},
-                                          {"collide", 13, true, collide},
-                                          {"handle", 12, true, handle},
-                                          {"few", 5, true, few},
-                                          {"ladder.count", 28, false, count_at_threshold},
-                                          {"ladder.cap", 10, false, radius_at_cap},
-                                          {"ladder.rest", 18, false, at_rest},
-                                          {"bits", 6, false, bits},
-                                          {"lattice", 10, false, lattice},
-                                          {"models", 5, false, models}}};
+                                           {"onto", 13, true, onto},
+                                           {"collide", 13, true, collide},
+                                           {"handle", 12, true, handle},
+                                           {"few", 5, true, few},
+                                           {"ladder.count", 28, false, count_at_threshold},
+                                           {"ladder.cap", 10, false, radius_at_cap},
+                                           {"ladder.rest", 18, false, at_rest},
+                                           {"bits", 6, false, bits},
+                                           {"lattice", 10, false, lattice},
+                                           {"models", 5, false, models}}};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
-// Cases of the sweep: one or two small cloths, perhaps with a fixed body or prescribed rows, deformed and on their way from xᵗ to y. Ladders lead to where a
-// part of the update decides: rest, collapse, the contact radius, stiff contacts, the slip limit, crossing at a small angle, the bound.
+// Cases of the sweep: one or two small cloths, perhaps with a fixed body or prescribed rows, deformed and on their way
+// from xᵗ to y. Ladders lead to where a part of the update decides: rest, collapse, the contact radius, stiff contacts,
+// the slip limit, crossing at a small angle, the bound.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,12 +28,12 @@ struct Cloth {
 
 /// What a family asks of `finish`. Lengths are in units of r.
 struct Motion {
-  double jitter = 0;                   ///< of X_prev
-  Vec3 slip;                           ///< of the last body's vertices since xᵗ, beside `wander`
-  double wander = 0, step = 0.3;       ///< how far xᵗ, and x, y, may lie from X_prev
-  double bound = 0;                    ///< largest bound; 0: random, or the largest legal one
-  double bound_rung = 0;               ///< with `bound`: y lies at 1 + rung times the bound
-  bool exact = false;                  ///< scales and symmetries that keep every bit
+  double jitter = 0;              ///< of X_prev
+  Vec3 slip;                      ///< of the last body's vertices since xᵗ, beside `wander`
+  double wander = 0, step = 0.3;  ///< how far xᵗ, and x, y, may lie from X_prev
+  double bound = 0;               ///< largest bound; 0: random, or the largest legal one
+  double bound_rung = 0;          ///< with `bound`: y lies at 1 + rung times the bound
+  bool exact = false;             ///< scales and symmetries that keep every bit
 };
 
 Material material(Random& random) {
@@ -101,7 +102,8 @@ void move(Random& random, const Cloth& cloth, const Motion& plan, double scale, 
     const Vec3f p = single(scaled(cloth.shape[v], scale));
     const bool slips = static_cast<Index>(v) >= cloth.scene.bodies[last].first_vertex;
     const Vec3 back = sum(scaled(in_box(random, -1, 1), plan.wander), slips ? scaled(plan.slip, -1) : Vec3{});
-    const Vec3 now = scaled(in_box(random, -1, 1), random.one_in(4) ? 0 : plan.step), ahead = scaled(in_box(random, -1, 1), plan.step);
+    const Vec3 now = scaled(in_box(random, -1, 1), random.one_in(4) ? 0 : plan.step),
+               ahead = scaled(in_box(random, -1, 1), plan.step);
     const bool moves = groups[v] != 0;
     test.previous.push_back(p);
     test.start.push_back(moves ? shifted(p, back) : p);
@@ -110,7 +112,8 @@ void move(Random& random, const Cloth& cloth, const Motion& plan, double scale, 
     float bound = some_bound ? static_cast<float>(r * random.magnitude(-3, 0)) : std::numeric_limits<float>::max();
     if (plan.bound > 0) {
       const Vec3f& y = test.target.back();
-      bound = static_cast<float>(std::hypot(double{y.x} - p.x, double{y.y} - p.y, double{y.z} - p.z) / (1 + plan.bound_rung));
+      bound = static_cast<float>(std::hypot(double{y.x} - p.x, double{y.y} - p.y, double{y.z} - p.z) /
+                                 (1 + plan.bound_rung));
     }
     test.largest_bound.push_back(some_bound && random.one_in(8) ? 0 : bound);
   }
@@ -130,7 +133,8 @@ CaseData finish(Random& random, Cloth cloth, const Motion& plan) {
   SweepCase test;
   test.scene = std::make_shared<Scene>(cloth.scene);
   test.colour = random_colours(random, *test.scene, build_topology(*test.scene));
-  test.query_radius = static_cast<float>(cloth.scene.settings.contact_radius * (random.one_in(4) ? 1 : random.between(1, 4)));
+  test.query_radius = static_cast<float>(cloth.scene.settings.contact_radius *
+                                         (random.one_in(4) ? 1 : random.between(1, 4)));
   move(random, cloth, plan, scale, test);
   return test;
 }
@@ -145,7 +149,9 @@ Cloth two_sheets(Random& random, bool fixed_below) {
   cloth.radius = random.between(0.2, 0.9);
   const double gap = cloth.radius * random.between(0.5, 1.2), height = cloth.radius * random.between(0, 0.4);
   const double dx = random.between(-0.5, 0.5), dy = random.between(-0.5, 0.5);
-  add_sheet(cloth, body(random, fixed_below), cells(random), cells(random), [=](const Vec3& p) { return Vec3{p.x, p.y, wave(p, height)}; });
+  add_sheet(cloth, body(random, fixed_below), cells(random), cells(random), [=](const Vec3& p) {
+    return Vec3{p.x, p.y, wave(p, height)};
+  });
   add_sheet(cloth, body(random), cells(random), cells(random), [=](const Vec3& p) {
     const Vec3 q{p.x + dx, p.y + dy, 0};
     return Vec3{q.x, q.y, wave(q, height) + gap};
@@ -201,18 +207,23 @@ CaseData alone(Random& random) {
   Cloth cloth;
   cloth.radius = random.between(0.01, 0.1);
   const double height = random.between(0, 0.4);
-  add_sheet(cloth, body(random), cells(random), cells(random), [=](const Vec3& p) { return Vec3{p.x, p.y, wave(p, height)}; });
+  add_sheet(cloth, body(random), cells(random), cells(random), [=](const Vec3& p) {
+    return Vec3{p.x, p.y, wave(p, height)};
+  });
   return finish(random, std::move(cloth), generic(random));
 }
 
-/// Flat sheets, parallel and in register or shifted by halves and quarters: closest points tie, distances are r, τ = r/2 and what lies between.
+/// Flat sheets, parallel and in register or shifted by halves and quarters: closest points tie, distances are r, τ =
+/// r/2 and what lies between.
 Cloth flat_sheets(Random& random, double gap, double turn = 0) {
   Cloth cloth;
   cloth.radius = 0.5;
   const double dx = 0.25 * random.below(4), dy = 0.25 * random.below(4), c = std::cos(turn), s = std::sin(turn);
-  add_sheet(cloth, body(random, random.one_in(3)), 1 + random.below(3), 1 + random.below(3), [](const Vec3& p) { return p; });
-  add_sheet(cloth, body(random), 1 + random.below(3), 1 + random.below(3),
-            [=](const Vec3& p) { return Vec3{c * p.x - s * p.y + dx, s * p.x + c * p.y + dy, gap * 0.5}; });
+  add_sheet(cloth, body(random, random.one_in(3)), 1 + random.below(3), 1 + random.below(3),
+            [](const Vec3& p) { return p; });
+  add_sheet(cloth, body(random), 1 + random.below(3), 1 + random.below(3), [=](const Vec3& p) {
+    return Vec3{c * p.x - s * p.y + dx, s * p.x + c * p.y + dy, gap * 0.5};
+  });
   return cloth;
 }
 
@@ -223,7 +234,9 @@ CaseData few(Random& random) {
   const double gap = cloth.radius * random.between(0.5, 1.2);
   const int layers = 1 + random.below(2);
   for (int layer = 0; layer < layers; ++layer)
-    add_body(cloth, body(random), triangle_strip(1 + random.below(3)), [=](const Vec3& p) { return sum(p, {0, 0, layer * gap}); });
+    add_body(cloth, body(random), triangle_strip(1 + random.below(3)), [=](const Vec3& p) {
+      return sum(p, {0, 0, layer * gap});
+    });
   return finish(random, std::move(cloth), generic(random));
 }
 
@@ -277,7 +290,8 @@ CaseData slip(Random& random) {
 
 /// Edges that cross at a small angle.
 CaseData crossing(Random& random) {
-  Cloth cloth = flat_sheets(random, random.between(0.2, 0.9), 0.03 * random.rung() + (random.one_in(2) ? 0.0316 * random.between(0.5, 1.5) : 0));
+  Cloth cloth = flat_sheets(random, random.between(0.2, 0.9),
+                            0.03 * random.rung() + (random.one_in(2) ? 0.0316 * random.between(0.5, 1.5) : 0));
   Motion motion;
   motion.step = random.one_in(2) ? 0 : std::abs(random.rung());
   return finish(random, std::move(cloth), motion);
@@ -290,7 +304,8 @@ CaseData strands(Random& random) {
   for (int k = 0, count = 2 + random.below(2); k < count; ++k) {
     const double length = random.between(0.5, 2), end = 1 + length;
     const Mesh mesh{{{0, 0.5, 0}, {0, -0.5, 0}, {1, 0, 0}, {end, 0, 0}, {end + 1, -0.5, 0}, {end + 1, 0.5, 0}},
-                    {{0, 1, 2}, {3, 4, 5}}, {{2, 3}}};
+                    {{0, 1, 2}, {3, 4, 5}},
+                    {{2, 3}}};
     const double shift = random.between(-0.5, 0.5), tilt = random.one_in(2) ? 0 : 0.01 * random.rung();
     add_body(cloth, body(random), mesh, [=](const Vec3& p) { return Vec3{p.x + shift, p.y + tilt * p.x, k * gap}; });
   }
@@ -333,16 +348,18 @@ CaseData at_bound(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Numbers of any bits, as far as a sweep can be held to an answer: materials and time step over twelve powers of two, coordinates and bounds in their last
-/// bits, as vertices must be near their places for stencils to have a shape and for contacts to be.
+/// Numbers of any bits, as far as a sweep can be held to an answer: materials and time step over twelve powers of two,
+/// coordinates and bounds in their last bits, as vertices must be near their places for stencils to have a shape and
+/// for contacts to be.
 CaseData bits(Random& random) {
   constexpr int last = 17;
   SweepCase test = std::get<SweepCase>(few(random));
   Scene scene = *test.scene;
   for (Body& b : scene.bodies)
-    for (double Material::*number :
-         {&Material::density, &Material::lame_mu, &Material::lame_lambda, &Material::bending_stiffness, &Material::contact_stiffness})
-      b.material.*number = random.last_bits(static_cast<float>(b.material.*number), 23) * random.pattern(0x1p-6f, 0x1p6f);
+    for (double Material::*number : {&Material::density, &Material::lame_mu, &Material::lame_lambda,
+                                     &Material::bending_stiffness, &Material::contact_stiffness})
+      b.material.*number = random.last_bits(static_cast<float>(b.material.*number), 23) *
+                           random.pattern(0x1p-6f, 0x1p6f);
   scene.settings.time_step = random.pattern(0x1p-12f, 0x1p-4f);
   scene.settings.friction_velocity = random.pattern(0x1p-12f, 1);
   const auto replaced = [&](float x) { return x == 0 ? x : random.last_bits(x, last); };
@@ -352,7 +369,8 @@ CaseData bits(Random& random) {
   };
   for (auto* points : {&test.previous, &test.start, &test.old, &test.target})
     for (Vec3f& p : *points) p = replace(p);
-  for (std::size_t v = 0; v < scene.rest_positions.size(); ++v) scene.rest_positions[v] = to_double({replace(to_single({scene.rest_positions[v]})[0])})[0];
+  for (std::size_t v = 0; v < scene.rest_positions.size(); ++v)
+    scene.rest_positions[v] = to_double({replace(to_single({scene.rest_positions[v]})[0])})[0];
   for (float& bound : test.largest_bound) bound = bound < 1 ? replaced(bound) : bound;
   round_to_single(scene);
   test.scene = std::make_shared<Scene>(std::move(scene));

@@ -11,8 +11,8 @@ namespace ogc::compare {
 
 namespace {
 
-// In a regular sheet every vertex lies on the planes of its neighbours, and parallel edges meet on the borders of blocks:
-// grey decisions about frames say nothing of the kernel, so that no limit holds for them.
+// In a regular sheet every vertex lies on the planes of its neighbours, and parallel edges meet on the borders of
+// blocks: grey decisions about frames say nothing of the kernel, so that no limit holds for them.
 constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace
@@ -46,14 +46,18 @@ const Generator& find_generator(Stage stage, std::string_view name) {
     if (generator.name == name) return generator;
     known += std::string(generator.name) + ", ";
   }
-  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) + "'; known: " + known + "states, mutated");
+  throw InputError("stage " + std::string(stage_name(stage)) + " has no generator '" + std::string(name) +
+                   "'; known: " + known + "states, mutated");
 }
 
-TestCase generate(const CaseName& name, const States* states) { return generate(find_generator(name.stage, name.generator), name, states); }
+TestCase generate(const CaseName& name, const States* states) {
+  return generate(find_generator(name.stage, name.generator), name, states);
+}
 
 TestCase generate(const Generator& generator, CaseName name, const States* states) {
   Random random(stage_name(name.stage), name.generator, name.seed, name.index);
-  if (!generator.make && !states) throw InputError("'" + print_problem(name) + "' asks for real states: name the run folder, states=RUN");
+  if (!generator.make && !states)
+    throw InputError("'" + print_problem(name) + "' asks for real states: name the run folder, states=RUN");
   CaseData data = generator.make ? generator.make(random) : states->make(name.stage, name.index, random);
   TestCase test{std::move(name), std::move(data)};
   if (generator.name == mutated_states.name) {

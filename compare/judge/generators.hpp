@@ -1,5 +1,5 @@
-// Where cases come from. Each stage has a table of generators; a case is a pure function of (stage, generator, seed, index). At least half of all
-// cases lie close to a decision boundary (lattice, ladder.*).
+// Where cases come from. Each stage has a table of generators; a case is a pure function of (stage, generator, seed,
+// index). At least half of all cases lie close to a decision boundary (lattice, ladder.*).
 #pragma once
 
 #include <span>
@@ -15,19 +15,22 @@ class States;
 /// One row of a stage's table.
 struct Generator {
   std::string_view name;
-  double share;   ///< of a stage's cases, relative to the other rows
-  bool generic;   ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
+  double share;  ///< of a stage's cases, relative to the other rows
+  bool generic;  ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
   CaseData (*make)(Random&);
-  std::uint64_t least = 0;  ///< left out of a run of fewer cases than this, of which one of its meshes would be too large a part
+  /// left out of a run of fewer cases than this, of which one of its meshes would be too large a part
+  std::uint64_t least = 0;
 };
 
-/// The generators of a stage, without those that take real states: `states` as they are, `mutated` (compare/judge/mutate.hpp).
+/// The generators of a stage, without those that take real states: `states` as they are, `mutated`
+/// (compare/judge/mutate.hpp).
 std::span<const Generator> generators(Stage stage);
 
 /// The row of a generator, `states` and `mutated` included. Throws InputError that lists the known names.
 const Generator& find_generator(Stage stage, std::string_view name);
 
-/// Makes a case. `states` is needed (and throws InputError where it is null) for the generators `states` and `mutated` alone.
+/// Makes a case. `states` is needed (and throws InputError where it is null) for the generators `states` and `mutated`
+/// alone.
 TestCase generate(const CaseName& name, const States* states = nullptr);
 /// The same where the row of `name.generator` is at hand.
 TestCase generate(const Generator& generator, CaseName name, const States* states = nullptr);

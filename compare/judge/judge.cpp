@@ -1,7 +1,8 @@
-// Batches are handed out by number and merged by number, so threads can change neither a case nor a sum. A mesh stage does not know beforehand how
-// many batches it needs: it stops merging where the wanted number of cases is reached and throws away what was begun beyond. So that this is little, no batch is
-// begun far ahead of the merged ones: a contestant that answers one thread at a time would otherwise be kept busy with what nobody wants, while the batch that
-// all wait for stands in the queue.
+// Batches are handed out by number and merged by number, so threads can change neither a case nor a sum. A mesh stage
+// does not know beforehand how many batches it needs: it stops merging where the wanted number of cases is reached and
+// throws away what was begun beyond. So that this is little, no batch is begun far ahead of the merged ones: a
+// contestant that answers one thread at a time would otherwise be kept busy with what nobody wants, while the batch
+// that all wait for stands in the queue.
 #include "compare/judge/judge.hpp"
 
 #include <algorithm>
@@ -28,9 +29,15 @@ constexpr std::uint64_t mesh_batch = 4;
 /// The run of one generator: batches of consecutive indices until `cases` are counted.
 class GeneratorRun {
  public:
-  GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant, const Authority& authority,
-               const JudgeOptions& options)
-      : stage_(stage), generator_(generator), wanted_(cases), contestant_(contestant), authority_(authority), options_(options), merged_(stage) {
+  GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant,
+               const Authority& authority, const JudgeOptions& options)
+      : stage_(stage),
+        generator_(generator),
+        wanted_(cases),
+        contestant_(contestant),
+        authority_(authority),
+        options_(options),
+        merged_(stage) {
     if (!is_mesh_stage(stage)) batches_ = (cases + options.batch - 1) / options.batch;
   }
 
@@ -48,12 +55,14 @@ class GeneratorRun {
  private:
   std::vector<TestCase> batch(std::uint64_t number) const {
     const std::uint64_t size = !is_mesh_stage(stage_) ? options_.batch : generator_.least > 0 ? 1 : mesh_batch;
-    const std::uint64_t first = number * size, last = is_mesh_stage(stage_) ? first + size : std::min(first + size, wanted_);
+    const std::uint64_t first = number * size,
+                        last = is_mesh_stage(stage_) ? first + size : std::min(first + size, wanted_);
     std::vector<TestCase> cases;
     cases.reserve(first < last ? last - first : 0);
     const std::string states = generator_.make ? "" : options_.states->folder();
     for (std::uint64_t i = first; i < last; ++i)
-      cases.push_back(generate(generator_, {stage_, std::string(generator_.name), options_.seed, i, states, {}}, options_.states));
+      cases.push_back(
+          generate(generator_, {stage_, std::string(generator_.name), options_.seed, i, states, {}}, options_.states));
     return cases;
   }
 
@@ -83,8 +92,8 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// How many batches may be begun beyond the merged ones: where their number is known a few a thread; of a mesh stage one a thread, and no more than are missing
-  /// by the cases of a batch so far.
+  /// How many batches may be begun beyond the merged ones: where their number is known a few a thread; of a mesh stage
+  /// one a thread, and no more than are missing by the cases of a batch so far.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;
@@ -104,7 +113,8 @@ class GeneratorRun {
       stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_ || merged_.failures >= failures_allowed;
     }
     may_go_on_.notify_all();
-    if (options_.progress) options_.progress(cases_before_ + merged_.total().cases, mismatches_before_ + merged_.mismatched);
+    if (options_.progress)
+      options_.progress(cases_before_ + merged_.total().cases, mismatches_before_ + merged_.mismatched);
   }
 
   Stage stage_;
@@ -136,7 +146,9 @@ std::vector<Generator> chosen(Stage stage, const JudgeOptions& options) {
 
 }  // namespace
 
-bool StageReport::passed() const { return !skipped && tally.mismatched == 0 && tally.total().cases > 0 && tally.grey_within_limit(); }
+bool StageReport::passed() const {
+  return !skipped && tally.mismatched == 0 && tally.total().cases > 0 && tally.grey_within_limit();
+}
 
 bool can_judge(Stage stage, const Contestant& contestant, const Authority& authority) {
   switch (stage) {
@@ -155,22 +167,26 @@ bool can_judge(Stage stage, const Contestant& contestant, const Authority& autho
     case Stage::bending: return contestant.bending && authority.bending;
     case Stage::spring: return contestant.spring && authority.spring;
     case Stage::step:
-      return contestant.step && authority.step && authority.rest_state && authority.detect_vertex_facet && authority.detect_edge_edge && authority.bound &&
-             authority.initial_guess && authority.truncate && authority.sweep;
+      return contestant.step && authority.step && authority.rest_state && authority.detect_vertex_facet &&
+             authority.detect_edge_edge && authority.bound && authority.initial_guess && authority.truncate &&
+             authority.sweep;
     case Stage::sweep:
-      return contestant.sweep && authority.sweep && authority.rest_state && authority.detect_vertex_facet && authority.detect_edge_edge && authority.bound;
+      return contestant.sweep && authority.sweep && authority.rest_state && authority.detect_vertex_facet &&
+             authority.detect_edge_edge && authority.bound;
     default: return contestant.truncate && authority.truncate;
   }
 }
 
-StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority, const JudgeOptions& options) {
+StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority,
+                        const JudgeOptions& options) {
   StageReport report{Tally(stage)};
   if (!can_judge(stage, contestant, authority)) {
     report.skipped = true;
     return report;
   }
   if (options.states)
-    if (const std::string why = options.states->missing(stage); !why.empty()) report.note = "no states of " + options.states->folder() + ": " + why;
+    if (const std::string why = options.states->missing(stage); !why.empty())
+      report.note = "no states of " + options.states->folder() + ": " + why;
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Generator> rows = chosen(stage, options);
   double shares = 0;
@@ -185,12 +201,14 @@ StageReport judge_stage(Stage stage, const Contestant& contestant, const Authori
   return report;
 }
 
-std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Contestant& contestant, const Authority& authority) {
+std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Contestant& contestant,
+                                     const Authority& authority) {
   std::vector<StageReport> reports;
   std::mutex turn;
   for (const Stage stage : all_stages) {
     std::vector<TestCase> mine;
-    std::copy_if(cases.begin(), cases.end(), std::back_inserter(mine), [&](const TestCase& test) { return test.name.stage == stage; });
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(mine),
+                 [&](const TestCase& test) { return test.name.stage == stage; });
     if (mine.empty()) continue;
     StageReport report{Tally(stage)};
     const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,5 @@
-// The judge: drives a contestant and an authority through the same cases, stage by stage, and never learns who they are.
+// The judge: drives a contestant and an authority through the same cases, stage by stage, and never learns who they
+// are.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,13 @@
 namespace ogc::compare {
 
 struct JudgeOptions {
-  std::uint64_t cases = 100000;            ///< a stage; a mesh stage ends with the mesh that reaches the number
+  std::uint64_t cases = 100000;  ///< a stage; a mesh stage ends with the mesh that reaches the number
   std::uint64_t seed = 1;
-  unsigned threads = 2;                    ///< generate, ask the authority and judge; the contestant is asked by one thread at a time
-  std::uint64_t batch = 1u << 14;          ///< cases put to a pair stage at once
-  std::string generator;                   ///< only this one; empty: all
-  const States* states = nullptr;          ///< real states as well
+  /// generate, ask the authority and judge; the contestant is asked by one thread at a time
+  unsigned threads = 2;
+  std::uint64_t batch = 1u << 14;  ///< cases put to a pair stage at once
+  std::string generator;           ///< only this one; empty: all
+  const States* states = nullptr;  ///< real states as well
   /// Called by one thread at a time, after each batch: cases judged so far, mismatches so far.
   std::function<void(std::uint64_t, std::uint64_t)> progress;
 };
@@ -29,9 +31,9 @@ struct JudgeOptions {
 struct StageReport {
   Tally tally;
   double seconds = 0;
-  bool skipped = false;                    ///< the contestant or the authority does not have the stage
-  std::optional<Diagnosis> diagnosis{};    ///< of its failures, where one was asked for (explain/diagnose.hpp)
-  std::string note{};                      ///< why the run given as real states has none for the stage; otherwise empty
+  bool skipped = false;                  ///< the contestant or the authority does not have the stage
+  std::optional<Diagnosis> diagnosis{};  ///< of its failures, where one was asked for (explain/diagnose.hpp)
+  std::string note{};                    ///< why the run given as real states has none for the stage; otherwise empty
   /// No mismatch, at least one case, and the generic generators' grey share within its limit.
   bool passed() const;
 };
@@ -42,11 +44,13 @@ bool can_judge(Stage stage, const Contestant& contestant, const Authority& autho
 /// A stage ends after so many failures of the contestant (ContestantFailure), with the cases judged so far.
 inline constexpr std::uint64_t failures_allowed = 3;
 
-/// Judges generated cases of one stage. The report depends on cases, seed, batch and generators, not on threads. A ContestantFailure becomes a mismatch of
-/// the case that provokes it; what else a contestant throws is passed on.
-StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority, const JudgeOptions& options);
+/// Judges generated cases of one stage. The report depends on cases, seed, batch and generators, not on threads. A
+/// ContestantFailure becomes a mismatch of the case that provokes it; what else a contestant throws is passed on.
+StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority,
+                        const JudgeOptions& options);
 
 /// Judges given cases (a batch file, a replay), grouped by stage in the order of `all_stages`.
-std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Contestant& contestant, const Authority& authority);
+std::vector<StageReport> judge_cases(std::span<const TestCase> cases, const Contestant& contestant,
+                                     const Authority& authority);
 
 }  // namespace ogc::compare

@@ -42,8 +42,8 @@ class FirstProblem {
 
 constexpr float none = 0, least = 0x1p-20f, most = 0x1p20f, vast = 0x1p40f, tiny = 0x1p-100f;
 
-/// Of the points of a stencil (compare/stages/force.hpp): none apart by less than `least_length`, but 0, nor all by less
-/// than `least_longest`.
+/// Of the points of a stencil (compare/stages/force.hpp): none apart by less than `least_length`, but 0, nor all by
+/// less than `least_longest`.
 void check_lengths(FirstProblem& problem, std::span<const Vec3f> points, float least_length,
                    float least_longest = 0x1p-30f) {
   float longest = 0;
@@ -93,12 +93,9 @@ bool has_vertex(const Topology& topology, const Face& face, Index v) {
   };
   const auto i = static_cast<std::size_t>(face.index);
   switch (face.kind) {
-    case FaceKind::vertex:
-      return face.index == v;
-    case FaceKind::edge:
-      return has(topology.edges[i]);
-    case FaceKind::triangle:
-      return has(topology.triangles[i]);
+    case FaceKind::vertex: return face.index == v;
+    case FaceKind::edge: return has(topology.edges[i]);
+    case FaceKind::triangle: return has(topology.triangles[i]);
   }
   return false;
 }

@@ -60,7 +60,8 @@ void relabel(Random& random, MeshBuilder& builder) {
   const std::size_t count = builder.points.size();
   std::vector<Index> to(count);
   for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<Index>(i);
-  for (std::size_t i = count; i > 1; --i) std::swap(to[i - 1], to[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(to[i - 1], to[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
   std::vector<Vec3> points(count);
   std::vector<Index> groups(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -79,7 +80,8 @@ void relabel(Random& random, MeshBuilder& builder) {
   builder.groups = std::move(groups);
 }
 
-/// Large scales shrink the mesh first and small ones use it as it is, so that coordinates stay within 2²⁰ and edges above 2⁻²⁰.
+/// Large scales shrink the mesh first and small ones use it as it is, so that coordinates stay within 2²⁰ and edges
+/// above 2⁻²⁰.
 double scale_of(Random& random) {
   constexpr std::array<double, 10> scales{1, 1, 1, 1, 1, 0x1p10, 0x1p-10, 0x1p14, 0x1p-18, 1000};
   return random.pick(std::span<const double>(scales));
@@ -97,19 +99,22 @@ MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan) {
   const double scale = scale_of(random);
   const double radius = plan.contact_radius > 0 ? plan.contact_radius : random.magnitude(-2, 0.4);
   MeshCase mesh;
-  mesh.topology = std::make_shared<Topology>(build_topology(static_cast<Index>(builder.points.size()), builder.triangles, builder.loose_edges));
+  mesh.topology = std::make_shared<Topology>(
+      build_topology(static_cast<Index>(builder.points.size()), builder.triangles, builder.loose_edges));
   mesh.rigid_groups = std::move(builder.groups);
   mesh.partners = partner_rows(builder.points.size(), builder.excluded);
   for (const Vec3& p : builder.points) mesh.positions.push_back(single(scaled(p, scale)));
   mesh.contact_radius = static_cast<float>(radius * scale);
-  mesh.query_radius = std::max(mesh.contact_radius, static_cast<float>(radius * scale * (random.one_in(4) ? 1 : random.between(1, 4))));
+  mesh.query_radius = std::max(mesh.contact_radius,
+                               static_cast<float>(radius * scale * (random.one_in(4) ? 1 : random.between(1, 4))));
   return mesh;
 }
 
 Mesh triangle_strip(int count) {
   Mesh mesh;
   for (int i = 0; i < count + 2; ++i) mesh.positions.push_back({0.5 * i, static_cast<double>(i % 2), 0});
-  for (Index i = 0; i < count; ++i) mesh.triangles.push_back(i % 2 == 0 ? Triangle{i, i + 2, i + 1} : Triangle{i, i + 1, i + 2});
+  for (Index i = 0; i < count; ++i)
+    mesh.triangles.push_back(i % 2 == 0 ? Triangle{i, i + 2, i + 1} : Triangle{i, i + 1, i + 2});
   return mesh;
 }
 

@@ -1,4 +1,5 @@
-// A small mesh under construction, in units of about one edge length, and its way to a case: jitter, symmetry, scale, radii.
+// A small mesh under construction, in units of about one edge length, and its way to a case: jitter, symmetry, scale,
+// radii.
 #pragma once
 
 #include <vector>
@@ -18,7 +19,8 @@ struct MeshBuilder {
   Index add(const Vec3& point);
   /// (nx + 1) × (ny + 1) vertices at origin + i u + j v, two triangles a cell.
   void grid(int nx, int ny, const Vec3& origin, const Vec3& u, const Vec3& v);
-  /// `count` triangles about a centre at `centre`, closed to a disk or open, rim at distance 1, raised by `rise` (a cone).
+  /// `count` triangles about a centre at `centre`, closed to a disk or open, rim at distance 1, raised by `rise` (a
+  /// cone).
   void fan(int count, const Vec3& centre, bool closed, double rise);
   /// A polyline of loose edges from `start`, in `count` steps.
   void strand(int count, const Vec3& start, const Vec3& step);
@@ -36,7 +38,8 @@ struct MeshPlan {
   double contact_radius = 0;  ///< r in edge lengths; 0: random, 10^−2 … 10^0.4
 };
 
-/// Jitter, one symmetry of the cube (with a rotation in half of the plans that have jitter, in all fine ones), a scale of 1, 2^±10, 2^±18 or 1000, and r_q = r × 1 … 4.
+/// Jitter, one symmetry of the cube (with a rotation in half of the plans that have jitter, in all fine ones), a scale
+/// of 1, 2^±10, 2^±18 or 1000, and r_q = r × 1 … 4.
 MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan);
 
 /// A zigzag strip of `count` triangles in the plane z = 0, count + 2 vertices, edges of about 1.

@@ -29,7 +29,9 @@ class Mutation {
     Vec3f& moved = any();
     switch (random_.below(6)) {
       case 0: return shift(moved, a, apart(a, b));
-      case 1: return shift(moved, point(0.5 * (double{a.x} + b.x), 0.5 * (double{a.y} + b.y), 0.5 * (double{a.z} + b.z)), apart(a, b));
+      case 1:
+        return shift(moved, point(0.5 * (double{a.x} + b.x), 0.5 * (double{a.y} + b.y), 0.5 * (double{a.z} + b.z)),
+                     apart(a, b));
       case 2: moved = a; return;
       case 3: return shift(moved, moved, apart(a, b));
       case 4: return take_coordinate(moved, a);
@@ -53,7 +55,9 @@ class Mutation {
   void coarsen(double size) {
     if (!(size > 0)) return;
     const double step = std::ldexp(1.0, std::ilogb(size) - 3 - random_.below(8));
-    for (Vec3f& p : points_) p = point(step * std::nearbyint(p.x / step), step * std::nearbyint(p.y / step), step * std::nearbyint(p.z / step));
+    for (Vec3f& p : points_)
+      p = point(step * std::nearbyint(p.x / step), step * std::nearbyint(p.y / step),
+                step * std::nearbyint(p.z / step));
   }
 
   Random& random_;
@@ -80,7 +84,9 @@ class Points {
   void operator()(MeshCase& c) const { mutate_points(random, c.positions); }
   void operator()(BlockCase& c) const {
     // Edges that become parallel would make their questions illegal.
-    std::erase_if(c.questions, [](const BlockQuestion& q) { return q.kind == BlockQuestion::Kind::edge_in_edges && q.face.kind == FaceKind::edge; });
+    std::erase_if(c.questions, [](const BlockQuestion& q) {
+      return q.kind == BlockQuestion::Kind::edge_in_edges && q.face.kind == FaceKind::edge;
+    });
     mutate_points(random, c.positions);
   }
   void operator()(TruncateCase& c) const {
@@ -95,7 +101,9 @@ class Points {
     c.previous = points[0];
     c.start = points[1];
   }
-  void operator()(ContactForceCase& c) const { mutate_points(random, std::span(c.vertex).first(static_cast<std::size_t>(vertex_count(c.sides)))); }
+  void operator()(ContactForceCase& c) const {
+    mutate_points(random, std::span(c.vertex).first(static_cast<std::size_t>(vertex_count(c.sides))));
+  }
   void operator()(FrictionForceCase& c) const { (*this)(c.contact); }
   void operator()(MembraneCase& c) const { both(c.corner, c.start); }
   void operator()(BendingCase& c) const { both(c.vertex, c.start); }
@@ -108,7 +116,8 @@ class Points {
     for (std::vector<float>* distances : {&c.d_min_vertex, &c.d_min_edge, &c.d_min_triangle}) {
       if (distances->empty()) continue;
       const auto any = [&]() -> float& { return (*distances)[random.bits() % distances->size()]; };
-      for (int count = 1 + random.below(4); count > 0; --count) any() = random.one_in(8) ? 0 : std::abs(placement::beside(random, any()));
+      for (int count = 1 + random.below(4); count > 0; --count)
+        any() = random.one_in(8) ? 0 : std::abs(placement::beside(random, any()));
     }
   }
   void operator()(SweepCase& c) const {

@@ -8,9 +8,10 @@
 
 namespace ogc::compare {
 
-/// Moves a few points, in one or more of these ways: next to another point, or halfway between two others, up to a rung of their distance; onto another
-/// point; by a rung; one coordinate taken over from another point; all points to few binary digits. Of a step its velocities, of a sweep xᵗ and the targets, of
-/// the rest shape as long as it stays legal. Distances go to, or a rung beside, another distance, the radius or its half.
+/// Moves a few points, in one or more of these ways: next to another point, or halfway between two others, up to a rung
+/// of their distance; onto another point; by a rung; one coordinate taken over from another point; all points to few
+/// binary digits. Of a step its velocities, of a sweep xᵗ and the targets, of the rest shape as long as it stays legal.
+/// Distances go to, or a rung beside, another distance, the radius or its half.
 void mutate(Random& random, CaseData& data);
 
 /// The same for points alone.

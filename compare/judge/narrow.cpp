@@ -68,8 +68,8 @@ class Narrowing {
 
 }  // namespace
 
-void ask_narrowing(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority, std::mutex& contestant_turn, std::uint64_t allowed,
-                   Tally& tally) {
+void ask_narrowing(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
+                   std::mutex& contestant_turn, std::uint64_t allowed, Tally& tally) {
   Narrowing narrowing(stage, contestant, authority, contestant_turn, tally);
   while (!cases.empty() && tally.failures < allowed) {
     const auto message = narrowing.judge(cases);

@@ -26,7 +26,8 @@ inline float number(const Json& json) {
   const std::string text = json.get<std::string>();
   char* end = nullptr;
   const float x = std::strtof(text.c_str(), &end);
-  if (text.empty() || *end != '\0') throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
+  if (text.empty() || *end != '\0')
+    throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
   return x;
 }
 

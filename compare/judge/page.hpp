@@ -8,7 +8,8 @@
 
 namespace ogc::compare {
 
-/// The table of report_table, a histogram of each metric, each generator's counts, the listed mismatches and the worst cases. `heading` says who was judged.
+/// The table of report_table, a histogram of each metric, each generator's counts, the listed mismatches and the worst
+/// cases. `heading` says who was judged.
 std::string report_page(std::span<const StageReport> reports, const std::string& heading);
 
 }  // namespace ogc::compare

@@ -13,26 +13,32 @@ namespace {
 
 constexpr float least = 0x1p-20f, most = 0x1p20f, tiny = 0x1p-100f;
 
-constexpr ParameterInfo radius{"r", "contact radius [m]", least, most}, stiffness{"k_c", "contact stiffness [N/m]", 0x1p-30f, 0x1p40f};
+constexpr ParameterInfo radius{"r", "contact radius [m]", least, most},
+    stiffness{"k_c", "contact stiffness [N/m]", 0x1p-30f, 0x1p40f};
 constexpr ParameterInfo time_step{"h", "time step [s]", least, 1}, bound_limit{"b", "bound [m]", 0, 0x1p40f};
-constexpr ParameterInfo relaxation{"gamma_p", "bound relaxation, Eq. 21", 0x1p-10f, 0.5f - 0x1p-10f}, friction{"mu", "friction coefficient", 0, 0x1p10f};
+constexpr ParameterInfo relaxation{"gamma_p", "bound relaxation, Eq. 21", 0x1p-10f, 0.5f - 0x1p-10f},
+    friction{"mu", "friction coefficient", 0, 0x1p10f};
 
 constexpr ParameterInfo larger_radius{"r_q", "query radius [m], at least r", least, most};
 constexpr std::array detect_parameters{radius, larger_radius};
 constexpr std::array bound_parameters{relaxation};
 constexpr std::array guess_parameters{time_step, bound_limit};
-constexpr std::array activation_parameters{ParameterInfo{"d", "distance [m]", std::numeric_limits<float>::min(), most}, radius, stiffness};
+constexpr std::array activation_parameters{ParameterInfo{"d", "distance [m]", std::numeric_limits<float>::min(), most},
+                                           radius, stiffness};
 constexpr std::array truncate_parameters{bound_limit};
 constexpr std::array contact_parameters{radius, stiffness};
-constexpr std::array friction_parameters{radius, stiffness, friction, ParameterInfo{"slip", "slip limit ε_v h [m]", tiny, most}};
-constexpr std::array membrane_parameters{ParameterInfo{"lambda", "first Lamé constant times thickness [N/m]", 0, 0x1p40f},
-                                         ParameterInfo{"G", "second Lamé constant times thickness [N/m]", 0x1p-30f, 0x1p40f},
-                                         ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
+constexpr std::array friction_parameters{radius, stiffness, friction,
+                                         ParameterInfo{"slip", "slip limit ε_v h [m]", tiny, most}};
+constexpr std::array membrane_parameters{
+    ParameterInfo{"lambda", "first Lamé constant times thickness [N/m]", 0, 0x1p40f},
+    ParameterInfo{"G", "second Lamé constant times thickness [N/m]", 0x1p-30f, 0x1p40f},
+    ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
 constexpr std::array bending_parameters{ParameterInfo{"c", "stiffness of the hinge [J]", 0x1p-60f, 0x1p40f},
                                         ParameterInfo{"theta_0", "rest angle [rad]", -3.1415925f, 3.1415925f},
                                         ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
 constexpr std::array spring_parameters{ParameterInfo{"k_s", "stiffness of the spring [N/m]", 0x1p-30f, 0x1p40f},
-                                       ParameterInfo{"l_0", "rest length [m]", 0, most}, ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
+                                       ParameterInfo{"l_0", "rest length [m]", 0, most},
+                                       ParameterInfo{"k", "damping k_d/h", 0, 0x1p20f}};
 constexpr std::array sweep_parameters{radius, larger_radius, time_step, relaxation, stiffness, friction};
 constexpr std::array step_parameters{radius, time_step, relaxation, stiffness, friction};
 
@@ -42,13 +48,23 @@ struct Place {
   float* operator()(MeshCase& c) const { return name == "r" ? &c.contact_radius : &c.query_radius; }
   float* operator()(BoundCase& c) const { return &c.bound_relaxation; }
   float* operator()(InitialGuessCase& c) const { return name == "h" ? &c.time_step : &c.bound; }
-  float* operator()(ActivationCase& c) const { return name == "d" ? &c.distance : name == "r" ? &c.contact_radius : &c.stiffness; }
+  float* operator()(ActivationCase& c) const {
+    return name == "d" ? &c.distance : name == "r" ? &c.contact_radius : &c.stiffness;
+  }
   float* operator()(TruncateCase& c) const { return &c.bound; }
   float* operator()(ContactForceCase& c) const { return name == "r" ? &c.contact_radius : &c.stiffness; }
-  float* operator()(FrictionForceCase& c) const { return name == "mu" ? &c.friction : name == "slip" ? &c.slip_limit : (*this)(c.contact); }
-  float* operator()(MembraneCase& c) const { return name == "lambda" ? &c.lame_lambda : name == "G" ? &c.lame_mu : &c.damping; }
-  float* operator()(BendingCase& c) const { return name == "c" ? &c.stiffness : name == "theta_0" ? &c.rest_angle : &c.damping; }
-  float* operator()(SpringCase& c) const { return name == "k_s" ? &c.stiffness : name == "l_0" ? &c.rest_length : &c.damping; }
+  float* operator()(FrictionForceCase& c) const {
+    return name == "mu" ? &c.friction : name == "slip" ? &c.slip_limit : (*this)(c.contact);
+  }
+  float* operator()(MembraneCase& c) const {
+    return name == "lambda" ? &c.lame_lambda : name == "G" ? &c.lame_mu : &c.damping;
+  }
+  float* operator()(BendingCase& c) const {
+    return name == "c" ? &c.stiffness : name == "theta_0" ? &c.rest_angle : &c.damping;
+  }
+  float* operator()(SpringCase& c) const {
+    return name == "k_s" ? &c.stiffness : name == "l_0" ? &c.rest_length : &c.damping;
+  }
   template <class Other>
   float* operator()(Other&) const {
     return nullptr;
@@ -74,7 +90,8 @@ std::shared_ptr<const Scene> with_parameters(const Scene& scene, const std::vect
 
 void check_radii(const TestCase& test, float contact_radius, float query_radius) {
   if (contact_radius > query_radius)
-    throw InputError("'" + print_problem(test.name) + "': the contact radius is above the query radius; give r_q too, at least as large as r");
+    throw InputError("'" + print_problem(test.name) +
+                     "': the contact radius is above the query radius; give r_q too, at least as large as r");
 }
 
 std::string names_of(Stage stage) {
@@ -113,14 +130,15 @@ void make_canonical(Stage stage, std::vector<Override>& overrides) {
     if (count > 1) throw InputError("problem string: '" + std::string(info.name) + "' is given twice");
     const Override& given = *std::find_if(overrides.begin(), overrides.end(), is_it);
     if (!(given.value >= info.minimum && given.value <= info.maximum))
-      throw InputError("problem string: " + std::string(info.name) + " (" + std::string(info.meaning) + ") lies between " + shortest(as_typed(info.minimum)) +
-                       " and " + shortest(as_typed(info.maximum)));
+      throw InputError("problem string: " + std::string(info.name) + " (" + std::string(info.meaning) +
+                       ") lies between " + shortest(as_typed(info.minimum)) + " and " +
+                       shortest(as_typed(info.maximum)));
     ordered.push_back(given);
   }
   for (const Override& given : overrides)
     if (std::none_of(ordered.begin(), ordered.end(), [&](const Override& known) { return known.name == given.name; }))
-      throw InputError("problem string: stage " + std::string(stage_name(stage)) + " has no parameter '" + given.name + "'; it has: " + names_of(stage) +
-                       "; other keys: stage, gen, seed, index, states");
+      throw InputError("problem string: stage " + std::string(stage_name(stage)) + " has no parameter '" + given.name +
+                       "'; it has: " + names_of(stage) + "; other keys: stage, gen, seed, index, states");
   overrides = std::move(ordered);
 }
 
@@ -138,7 +156,8 @@ void apply_overrides(TestCase& test) {
     return;
   }
   for (const Override& parameter : overrides)
-    if (float* place = std::visit([&](auto& c) { return Place{parameter.name}(c); }, test.data)) *place = parameter.value;
+    if (float* place = std::visit([&](auto& c) { return Place{parameter.name}(c); }, test.data))
+      *place = parameter.value;
   if (const auto* mesh = std::get_if<MeshCase>(&test.data)) check_radii(test, mesh->contact_radius, mesh->query_radius);
 }
 

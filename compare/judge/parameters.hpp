@@ -1,4 +1,5 @@
-// Parameters of a case that a problem string may set to another value after the case is made: `… index=1234 r=2e-3`. Each stage has its own few.
+// Parameters of a case that a problem string may set to another value after the case is made: `… index=1234 r=2e-3`.
+// Each stage has its own few.
 #pragma once
 
 #include <span>
@@ -16,11 +17,12 @@ struct ParameterInfo {
 /// Of a stage, in canonical order; none where a case has nothing but coordinates.
 std::span<const ParameterInfo> parameters(Stage stage);
 
-/// Puts values into canonical order. Throws InputError for a name that the stage does not have (listing those it has), a value out of range, or one name
-/// given twice.
+/// Puts values into canonical order. Throws InputError for a name that the stage does not have (listing those it has),
+/// a value out of range, or one name given twice.
 void make_canonical(Stage stage, std::vector<Override>& overrides);
 
-/// Puts the values of `test.name.overrides` into the case. Throws InputError where they leave no legal question (a query radius below the contact radius).
+/// Puts the values of `test.name.overrides` into the case. Throws InputError where they leave no legal question (a
+/// query radius below the contact radius).
 void apply_overrides(TestCase& test);
 
 }  // namespace ogc::compare

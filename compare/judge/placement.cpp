@@ -9,7 +9,8 @@ namespace {
 /// Rodrigues' rotation of p about the unit axis a.
 Vec3 turned(const Vec3& p, const Vec3& a, double cosine, double sine) {
   const double along = (a.x * p.x + a.y * p.y + a.z * p.z) * (1 - cosine);
-  return {p.x * cosine + (a.y * p.z - a.z * p.y) * sine + a.x * along, p.y * cosine + (a.z * p.x - a.x * p.z) * sine + a.y * along,
+  return {p.x * cosine + (a.y * p.z - a.z * p.y) * sine + a.x * along,
+          p.y * cosine + (a.z * p.x - a.x * p.z) * sine + a.y * along,
           p.z * cosine + (a.x * p.y - a.y * p.x) * sine + a.z * along};
 }
 
@@ -44,7 +45,8 @@ std::array<Vec3, 4> points_in_box(Random& random) {
 
 std::array<Vec3, 4> points_of_bits(Random& random) {
   std::array<Vec3, 4> points;
-  for (Vec3& p : points) p = {random.sign() * random.pattern(), random.sign() * random.pattern(), random.sign() * random.pattern()};
+  for (Vec3& p : points)
+    p = {random.sign() * random.pattern(), random.sign() * random.pattern(), random.sign() * random.pattern()};
   return points;
 }
 
@@ -68,7 +70,8 @@ void permute(Random& random, std::span<Vec3> points) {
 }
 
 void rotate(Random& random, std::span<Vec3> points) {
-  const double angle = random.between(0, 6.283185307179586), height = random.between(-1, 1), turn = random.between(0, 6.283185307179586);
+  const double angle = random.between(0, 6.283185307179586), height = random.between(-1, 1),
+               turn = random.between(0, 6.283185307179586);
   const double ring = std::sqrt(1 - height * height);
   const Vec3 axis{ring * std::cos(turn), ring * std::sin(turn), height}, shift = in_box(random, -1, 1);
   const double cosine = std::cos(angle), sine = std::sin(angle);

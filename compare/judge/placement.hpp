@@ -1,5 +1,6 @@
-// From a canonical frame, where a degeneracy can be approached by 10⁻¹² because the coordinate that carries it is near 0, to a case: exact
-// symmetries first (signed permutations and powers of two keep every bit), in half of the cases a rotation, whose rounding is one more rung.
+// From a canonical frame, where a degeneracy can be approached by 10⁻¹² because the coordinate that carries it is near
+// 0, to a case: exact symmetries first (signed permutations and powers of two keep every bit), in half of the cases a
+// rotation, whose rounding is one more rung.
 #pragma once
 
 #include <array>
@@ -14,7 +15,9 @@ namespace ogc::compare::placement {
 
 inline Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3 scaled(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
+inline Vec3f single(const Vec3& a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
 
 inline float up(float x) { return std::nextafter(x, std::numeric_limits<float>::infinity()); }
 /// x itself, one of its neighbours, or x (1 + rung).
@@ -23,7 +26,8 @@ float beside(Random& random, float x);
 Vec3 in_box(Random& random, double low, double high);
 /// Small integers, halves or quarters, so that exact ties are common.
 Vec3 on_lattice(Random& random, int extent);
-/// Four points, as both pair stages have them: in the unit box; of any bits; on a lattice that is scaled exactly or by 2^±10, 2^±18.
+/// Four points, as both pair stages have them: in the unit box; of any bits; on a lattice that is scaled exactly or by
+/// 2^±10, 2^±18.
 std::array<Vec3, 4> points_in_box(Random& random);
 std::array<Vec3, 4> points_of_bits(Random& random);
 std::array<Vec3, 4> points_on_lattice(Random& random, int extent);
@@ -31,7 +35,8 @@ std::array<Vec3, 4> points_on_lattice(Random& random, int extent);
 void permute(Random& random, std::span<Vec3> points);
 /// The same rotation by a random axis and angle, then a shift within the unit box.
 void rotate(Random& random, std::span<Vec3> points);
-/// permute; rotate in half of the cases (in all fine ones, as a coordinate near 0 has no error that could matter); then a scale of 1, 2^±10 or 1000.
+/// permute; rotate in half of the cases (in all fine ones, as a coordinate near 0 has no error that could matter); then
+/// a scale of 1, 2^±10 or 1000.
 void place(Random& random, std::span<Vec3> points);
 
 }  // namespace ogc::compare::placement

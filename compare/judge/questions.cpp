@@ -47,7 +47,11 @@ TruncateIn truncate_question(Cases cases) {
 
 DetectIn detect_question(const TestCase& test) {
   const auto& c = std::get<MeshCase>(test.data);
-  return {c.topology.get(), {c.rigid_groups, c.partners.rows() > 0 ? &c.partners : nullptr}, c.positions, c.contact_radius, c.query_radius};
+  return {c.topology.get(),
+          {c.rigid_groups, c.partners.rows() > 0 ? &c.partners : nullptr},
+          c.positions,
+          c.contact_radius,
+          c.query_radius};
 }
 
 BoundIn bound_question(const TestCase& test) {

@@ -1,6 +1,7 @@
-// Random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case is the same whatever was
-// generated before it, on however many threads, and a problem string alone brings it back. All but `magnitude` (a library's power) and
-// `between` (contraction) is the same to the bit in device code, too (tests/fast/cuda/random.cu).
+// Random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case is
+// the same whatever was generated before it, on however many threads, and a problem string alone brings it back. All
+// but `magnitude` (a library's power) and `between` (contraction) is the same to the bit in device code, too
+// (tests/fast/cuda/random.cu).
 #pragma once
 
 #include <bit>
@@ -11,7 +12,8 @@
 
 namespace ogc::compare {
 
-/// The stream of one case. Names, not numbers, key the stage and the generator: adding one leaves the others' cases as they were.
+/// The stream of one case. Names, not numbers, key the stage and the generator: adding one leaves the others' cases as
+/// they were.
 class Random {
  public:
   constexpr Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)
@@ -43,7 +45,8 @@ class Random {
   /// x, its last `count` bits replaced.
   constexpr float last_bits(float x, int count) {
     const std::uint32_t kept = ~0u << count;
-    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(x) & kept) | (static_cast<std::uint32_t>(bits()) & ~kept));
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(x) & kept) |
+                                (static_cast<std::uint32_t>(bits()) & ~kept));
   }
   /// A rung of a ladder towards a degeneracy: 0 in one of four, otherwise ±10⁻ᵏ with k = 1 … 12.
   constexpr double rung() {

@@ -23,11 +23,13 @@ std::vector<Index> shuffled(Random& random, std::size_t count) {
 class Renumbering {
  public:
   Renumbering(Random& random, const Topology& from)
-      : vertex_(shuffled(random, static_cast<std::size_t>(from.vertex_count))), triangle_(shuffled(random, from.triangles.size())) {
+      : vertex_(shuffled(random, static_cast<std::size_t>(from.vertex_count))),
+        triangle_(shuffled(random, from.triangles.size())) {
     std::vector<Triangle> triangles(from.triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto first = static_cast<std::size_t>(random.below(3));
-      for (std::size_t k = 0; k < 3; ++k) triangles[static_cast<std::size_t>(triangle_[t])][k] = vertex(from.triangles[t][(first + k) % 3]);
+      for (std::size_t k = 0; k < 3; ++k)
+        triangles[static_cast<std::size_t>(triangle_[t])][k] = vertex(from.triangles[t][(first + k) % 3]);
     }
     std::vector<Edge> loose;
     for (std::size_t e = 0; e < from.edges.size(); ++e)
@@ -39,11 +41,17 @@ class Renumbering {
   const std::shared_ptr<const Topology>& topology() const { return topology_; }
   /// One entry for each vertex, edge or triangle, in the new order.
   template <class T>
-  std::vector<T> by_vertex(const std::vector<T>& old) const { return renumbered(old, vertex_); }
+  std::vector<T> by_vertex(const std::vector<T>& old) const {
+    return renumbered(old, vertex_);
+  }
   template <class T>
-  std::vector<T> by_edge(const std::vector<T>& old) const { return renumbered(old, edge_); }
+  std::vector<T> by_edge(const std::vector<T>& old) const {
+    return renumbered(old, edge_);
+  }
   template <class T>
-  std::vector<T> by_triangle(const std::vector<T>& old) const { return renumbered(old, triangle_); }
+  std::vector<T> by_triangle(const std::vector<T>& old) const {
+    return renumbered(old, triangle_);
+  }
   Index vertex(Index v) const { return vertex_[static_cast<std::size_t>(v)]; }
   Face face(const Face& f) const {
     const std::vector<Index>& to = f.kind == FaceKind::vertex ? vertex_ : f.kind == FaceKind::edge ? edge_ : triangle_;
@@ -51,7 +59,9 @@ class Renumbering {
   }
 
  private:
-  Edge renamed(const Edge& e) const { return {std::min(vertex(e[0]), vertex(e[1])), std::max(vertex(e[0]), vertex(e[1]))}; }
+  Edge renamed(const Edge& e) const {
+    return {std::min(vertex(e[0]), vertex(e[1])), std::max(vertex(e[0]), vertex(e[1]))};
+  }
   template <class T>
   static std::vector<T> renumbered(const std::vector<T>& old, const std::vector<Index>& to) {
     std::vector<T> all(old.size());
@@ -97,7 +107,9 @@ bool is_same(const DetectEdgeEdgeOut& a, const DetectEdgeEdgeOut& b, const Renum
 }
 
 bool is_same(Stage stage, const TestCase& a, const TestCase& b, const Renumbering& to, const Contestant& contestant) {
-  const auto by = [&](const auto& detect) { return is_same(detect(detect_question(a)), detect(detect_question(b)), to); };
+  const auto by = [&](const auto& detect) {
+    return is_same(detect(detect_question(a)), detect(detect_question(b)), to);
+  };
   if (stage == Stage::detect_vertex_facet) return by(contestant.detect_vertex_facet);
   if (stage == Stage::detect_edge_edge) return by(contestant.detect_edge_edge);
   return to.by_vertex(contestant.bound(bound_question(a)).bound) == contestant.bound(bound_question(b)).bound;
@@ -105,7 +117,9 @@ bool is_same(Stage stage, const TestCase& a, const TestCase& b, const Renumberin
 
 }  // namespace
 
-bool is_free_of_order(Stage stage) { return stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge || stage == Stage::bound; }
+bool is_free_of_order(Stage stage) {
+  return stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge || stage == Stage::bound;
+}
 
 std::vector<bool> same_when_renumbered(Stage stage, std::span<const TestCase> cases, const Contestant& contestant) {
   std::vector<bool> same;

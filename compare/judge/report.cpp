@@ -22,7 +22,9 @@ std::string print(const char* format, double value) {
   return buffer;
 }
 
-double speed(const StageReport& report) { return report.seconds > 0 ? static_cast<double>(report.tally.total().cases) / report.seconds : 0; }
+double speed(const StageReport& report) {
+  return report.seconds > 0 ? static_cast<double>(report.tally.total().cases) / report.seconds : 0;
+}
 
 /// Width in characters of UTF-8 text: all bytes but continuations.
 std::size_t width(const std::string& text) {
@@ -53,7 +55,8 @@ std::string loose_metrics(const StageReport& report) {
   for (std::size_t i = 0; i < infos.size(); ++i)
     if (report.tally.metrics[i].is_loose(infos[i])) {
       const auto reason = reason_of_loose(report.tally.stage, infos[i].name);
-      names += (names.empty() ? "" : ", ") + std::string(infos[i].name) + (reason ? " (" + std::string(*reason) + ")" : "");
+      names += (names.empty() ? "" : ", ") + std::string(infos[i].name) +
+               (reason ? " (" + std::string(*reason) + ")" : "");
     }
   return names;
 }
@@ -67,7 +70,8 @@ std::string verdict(const StageReport& report) {
 }
 
 ReportRow report_columns() {
-  return {"stage", "cases", "mismatches", "grey share", "not exact", "near share", "error [unit]", "median", "99.9 %", "maximum", "accepted", "room", "cases/s"};
+  return {"stage",  "cases",  "mismatches", "grey share", "not exact", "near share", "error [unit]",
+          "median", "99.9 %", "maximum",    "accepted",   "room",      "cases/s"};
 }
 
 std::vector<ReportRow> report_rows(const StageReport& report) {
@@ -102,27 +106,48 @@ Json report_json(const StageReport& report) {
   const Tally& tally = report.tally;
   const GeneratorTally total = tally.total();
   const Json near_share = stage_info(tally.stage).has_boundary ? Json(tally.near_share()) : Json();
-  Json json{{"stage", stage_name(tally.stage)}, {"verdict", verdict(report)},           {"cases", total.cases}, {"questions", tally.questions},
-            {"mismatches", tally.mismatched},   {"grey", total.grey},                   {"decisions", total.decisions}, {"grey_not_exact", total.not_exact},
-            {"grey_share_generic", tally.grey_share()}, {"near", total.near}, {"near_share", near_share},
-            {"seconds", report.seconds}, {"cases_per_second", speed(report)},
-            {"contestant_seconds", tally.contestant_seconds}, {"authority_seconds", tally.authority_seconds}};
+  Json json{{"stage", stage_name(tally.stage)},
+            {"verdict", verdict(report)},
+            {"cases", total.cases},
+            {"questions", tally.questions},
+            {"mismatches", tally.mismatched},
+            {"grey", total.grey},
+            {"decisions", total.decisions},
+            {"grey_not_exact", total.not_exact},
+            {"grey_share_generic", tally.grey_share()},
+            {"near", total.near},
+            {"near_share", near_share},
+            {"seconds", report.seconds},
+            {"cases_per_second", speed(report)},
+            {"contestant_seconds", tally.contestant_seconds},
+            {"authority_seconds", tally.authority_seconds}};
   if (!report.note.empty()) json["note"] = report.note;
   if (report.diagnosis) json["diagnosis"] = diagnosis_json(*report.diagnosis);
   const auto infos = metrics(tally.stage);
   json["metrics"] = Json::array();
   for (std::size_t i = 0; i < infos.size(); ++i) {
     const MetricTally& metric = tally.metrics[i];
-    json["metrics"].push_back({{"name", infos[i].name}, {"unit", infos[i].unit}, {"tolerance", infos[i].tolerance}, {"median", metric.errors.quantile(0.5)},
-                               {"p999", metric.errors.quantile(0.999)}, {"maximum", metric.errors.maximum()},
-                               {"room", std::isfinite(metric.room(infos[i])) ? Json(metric.room(infos[i])) : Json()}, {"loose", metric.is_loose(infos[i])},
+    json["metrics"].push_back({{"name", infos[i].name},
+                               {"unit", infos[i].unit},
+                               {"tolerance", infos[i].tolerance},
+                               {"median", metric.errors.quantile(0.5)},
+                               {"p999", metric.errors.quantile(0.999)},
+                               {"maximum", metric.errors.maximum()},
+                               {"room", std::isfinite(metric.room(infos[i])) ? Json(metric.room(infos[i])) : Json()},
+                               {"loose", metric.is_loose(infos[i])},
                                {"worst", metric.errors.count() ? print_problem(metric.worst) : ""}});
   }
   for (const auto& [name, row] : tally.generators)
-    json["generators"].push_back({{"name", name}, {"cases", row.cases}, {"decisions", row.decisions}, {"grey", row.grey}, {"not_exact", row.not_exact}, {"near", row.near},
+    json["generators"].push_back({{"name", name},
+                                  {"cases", row.cases},
+                                  {"decisions", row.decisions},
+                                  {"grey", row.grey},
+                                  {"not_exact", row.not_exact},
+                                  {"near", row.near},
                                   {"mismatches", row.mismatches}});
   json["listed"] = Json::array();
-  for (const Mismatch& item : tally.mismatches) json["listed"].push_back({{"problem", print_problem(item.name)}, {"message", item.message}});
+  for (const Mismatch& item : tally.mismatches)
+    json["listed"].push_back({{"problem", print_problem(item.name)}, {"message", item.message}});
   return json;
 }
 
@@ -135,8 +160,8 @@ std::string report_total(std::span<const StageReport> reports) {
     sum.mismatches += report.tally.mismatched;
   }
   const double share = sum.cases > 0 ? static_cast<double>(sum.near) / static_cast<double>(sum.cases) : 0;
-  return "all stages: " + std::to_string(sum.cases) + " cases, " + std::to_string(sum.mismatches) + " mismatches, " + print("%.3g", 100 * share) +
-         " % of all cases within 2^10 ulp of a decision boundary";
+  return "all stages: " + std::to_string(sum.cases) + " cases, " + std::to_string(sum.mismatches) + " mismatches, " +
+         print("%.3g", 100 * share) + " % of all cases within 2^10 ulp of a decision boundary";
 }
 
 std::string report_table(std::span<const StageReport> reports) {
@@ -149,10 +174,12 @@ std::string report_table(std::span<const StageReport> reports) {
     text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
     if (!report.note.empty()) text += "  " + report.note + "\n";
     if (report.diagnosis) text += "  " + diagnosis_text(*report.diagnosis);
-    if (const std::string loose = loose_metrics(report); !loose.empty()) text += "  loose, never within a factor of 50 of what is accepted: " + loose + "\n";
+    if (const std::string loose = loose_metrics(report); !loose.empty())
+      text += "  loose, never within a factor of 50 of what is accepted: " + loose + "\n";
     const auto infos = metrics(report.tally.stage);
     for (std::size_t i = 0; i < infos.size(); ++i)
-      if (report.tally.metrics[i].errors.count()) text += "  " + std::string(infos[i].name) + ": " + print_problem(report.tally.metrics[i].worst) + "\n";
+      if (report.tally.metrics[i].errors.count())
+        text += "  " + std::string(infos[i].name) + ": " + print_problem(report.tally.metrics[i].worst) + "\n";
   }
   return text;
 }

@@ -12,13 +12,14 @@
 
 namespace ogc::compare {
 
-/// One stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th percentile, maximum, room below the tolerance, whether that is loose,
-/// worst problem string), speed, the listed mismatches, each
-/// generator's counts.
+/// One stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th percentile, maximum, room
+/// below the tolerance, whether that is loose, worst problem string), speed, the listed mismatches, each generator's
+/// counts.
 nlohmann::ordered_json report_json(const StageReport& report);
 
-/// The columns of report_table, and one row a metric: stage, cases, mismatches, grey share, grey decisions answered otherwise than exactly, share near a
-/// boundary, error and its unit, median, 99.9 %, maximum and tolerance in that unit, their ratio, cases per second. What belongs to a stage stands in its first row.
+/// The columns of report_table, and one row a metric: stage, cases, mismatches, grey share, grey decisions answered
+/// otherwise than exactly, share near a boundary, error and its unit, median, 99.9 %, maximum and tolerance in that
+/// unit, their ratio, cases per second. What belongs to a stage stands in its first row.
 using ReportRow = std::array<std::string, 13>;
 ReportRow report_columns();
 std::vector<ReportRow> report_rows(const StageReport& report);

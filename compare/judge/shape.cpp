@@ -234,7 +234,8 @@ struct Projection {
   }
   static double coordinate(const Vec3f& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
   std::array<double, 2> at(const Vec3f& p) const {
-    return {margin + scale * (coordinate(p, axis[0]) - low[0]), picture_size - margin - scale * (coordinate(p, axis[1]) - low[1])};
+    return {margin + scale * (coordinate(p, axis[0]) - low[0]),
+            picture_size - margin - scale * (coordinate(p, axis[1]) - low[1])};
   }
 };
 
@@ -254,8 +255,10 @@ std::string print_shape_obj(const Shape& shape) {
   for (std::size_t v = 0; v < legal.points.size(); ++v) {
     const Vec3& p = legal.mesh.positions[v];
     text += "v " + shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z);
-    if (legal.points[v] < 0) text += "  # no vertex of the case: it holds a point";
-    else if (slot(legal.points[v]) != v) text += "  # vertex " + std::to_string(legal.points[v]) + " of the case";
+    if (legal.points[v] < 0)
+      text += "  # no vertex of the case: it holds a point";
+    else if (slot(legal.points[v]) != v)
+      text += "  # vertex " + std::to_string(legal.points[v]) + " of the case";
     text += "\n";
   }
   for (const Triangle& t : legal.mesh.triangles) text += numbered("f", t);
@@ -269,7 +272,8 @@ std::string print_shape_svg(const Shape& shape, const std::string& title) {
   Svg svg(picture_size, picture_size);
   svg.title(title);
   const auto at = [&](Index i) { return projection.at(shape.points[static_cast<std::size_t>(i)]); };
-  for (const auto& t : shape.triangles) svg.polygon({at(t[0]), at(t[1]), at(t[2])}, "fill:#4477aa;fill-opacity:.25;stroke:#224466");
+  for (const auto& t : shape.triangles)
+    svg.polygon({at(t[0]), at(t[1]), at(t[2])}, "fill:#4477aa;fill-opacity:.25;stroke:#224466");
   for (const auto& l : shape.lines) svg.line(at(l[0]), at(l[1]), "stroke:#aa3377;stroke-width:2");
   for (const Index dot : shape.dots) svg.circle(at(dot), 5, "fill:#cc3311");
   for (std::size_t i = 0; i < shape.points.size() && shape.points.size() <= most_labels; ++i) {
@@ -278,7 +282,8 @@ std::string print_shape_svg(const Shape& shape, const std::string& title) {
     svg.text({x + 5, y - 5}, std::to_string(i), "font:12px sans-serif");
   }
   constexpr std::array axes{"x", "y", "z"};
-  const std::string legend = std::string(axes[projection.axis[0]]) + " to the right, " + axes[projection.axis[1]] + " upwards";
+  const std::string legend = std::string(axes[projection.axis[0]]) + " to the right, " + axes[projection.axis[1]] +
+                             " upwards";
   svg.text({margin, picture_size - 5}, legend, "font:11px sans-serif;fill:#666");
   return svg.finish();
 }

@@ -26,8 +26,8 @@ Shape shape_of(const CaseData& data);
 /// is left.
 std::string print_shape_obj(const Shape& shape);
 
-/// A static SVG picture: parallel projection along the direction in which the shape is least deep, to scale; vertices carry their numbers where they are few.
-/// Empty for an empty shape.
+/// A static SVG picture: parallel projection along the direction in which the shape is least deep, to scale; vertices
+/// carry their numbers where they are few. Empty for an empty shape.
 std::string print_shape_svg(const Shape& shape, const std::string& title);
 
 }  // namespace ogc::compare

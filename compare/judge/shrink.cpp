@@ -39,8 +39,10 @@ struct Primitives {
     kept.loose_edges.clear();
     for (std::size_t i = 0; i < size(); ++i) {
       if (first <= i && i < last) continue;
-      if (i < triangles.size()) kept.triangles.push_back(triangles[i]);
-      else kept.loose_edges.push_back(loose_edges[i - triangles.size()]);
+      if (i < triangles.size())
+        kept.triangles.push_back(triangles[i]);
+      else
+        kept.loose_edges.push_back(loose_edges[i - triangles.size()]);
     }
     return kept;
   }
@@ -49,9 +51,9 @@ struct Primitives {
 /// A mesh of some primitives of another one: its vertices are those that they hold, in order.
 struct Part {
   std::shared_ptr<const Topology> topology;
-  std::vector<Index> vertices;             ///< number in the other mesh
-  std::vector<std::size_t> edges;          ///< likewise
-  std::vector<std::size_t> triangles;      ///< likewise; empty where all are dropped
+  std::vector<Index> vertices;         ///< number in the other mesh
+  std::vector<std::size_t> edges;      ///< likewise
+  std::vector<std::size_t> triangles;  ///< likewise; empty where all are dropped
 
   Part(const Topology& whole, const Primitives& kept) {
     std::vector<Index> number(static_cast<std::size_t>(whole.vertex_count), -1);
@@ -69,9 +71,11 @@ struct Part {
     for (const Triangle& t : kept.triangles) corners.push_back({number[t[0]], number[t[1]], number[t[2]]});
     for (const Edge& e : kept.loose_edges) loose.push_back({number[e[0]], number[e[1]]});
     topology = std::make_shared<Topology>(build_topology(static_cast<Index>(vertices.size()), corners, loose));
-    for (const Edge& e : topology->edges) edges.push_back(static_cast<std::size_t>(find_edge(whole, vertices[e[0]], vertices[e[1]])));
+    for (const Edge& e : topology->edges)
+      edges.push_back(static_cast<std::size_t>(find_edge(whole, vertices[e[0]], vertices[e[1]])));
     for (const Triangle& t : kept.triangles)
-      triangles.push_back(static_cast<std::size_t>(std::find(whole.triangles.begin(), whole.triangles.end(), t) - whole.triangles.begin()));
+      triangles.push_back(static_cast<std::size_t>(std::find(whole.triangles.begin(), whole.triangles.end(), t) -
+                                                   whole.triangles.begin()));
   }
 };
 
@@ -96,14 +100,15 @@ CompressedRows partners_of(const CompressedRows& partners, const std::vector<Ind
 
 CaseData part_of(const MeshCase& c, const Primitives& kept) {
   const Part part(*c.topology, kept);
-  return MeshCase{part.topology, picked(c.rigid_groups, part.vertices), picked(c.positions, part.vertices), c.contact_radius, c.query_radius,
-                  partners_of(c.partners, part.vertices)};
+  return MeshCase{
+      part.topology,  picked(c.rigid_groups, part.vertices), picked(c.positions, part.vertices), c.contact_radius,
+      c.query_radius, partners_of(c.partners, part.vertices)};
 }
 
 CaseData part_of(const BoundCase& c, const Primitives& kept) {
   const Part part(*c.topology, kept);
-  return BoundCase{part.topology, picked(c.d_min_vertex, part.vertices), picked(c.d_min_edge, part.edges), picked(c.d_min_triangle, part.triangles),
-                   c.bound_relaxation};
+  return BoundCase{part.topology, picked(c.d_min_vertex, part.vertices), picked(c.d_min_edge, part.edges),
+                   picked(c.d_min_triangle, part.triangles), c.bound_relaxation};
 }
 
 /// The numbers of a case that may be simplified; where it has points, they come first, as x y z.
@@ -144,15 +149,15 @@ class Shrinker {
       : best_(test), fails_(fails), options_(options), was_legal_(problem_of(test.data).empty()) {}
 
   TestCase run() {
-    while (drop_primitives()) {
-    }
+    while (drop_primitives()) {}
     simplify_numbers();
     return best_;
   }
 
  private:
   bool out_of_budget() const {
-    return tries_ >= options_.tries || std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > options_.seconds;
+    return tries_ >= options_.tries ||
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > options_.seconds;
   }
 
   /// Keeps the candidate where it fails, too.
@@ -179,8 +184,10 @@ class Shrinker {
     for (std::size_t chunk = (before + 1) / 2; chunk > 0; chunk /= 2) {
       for (std::size_t first = 0; first < primitives.size() && primitives.size() > 1;) {
         const Primitives kept = primitives.without(first, first + chunk);
-        if (kept.size() > 0 && attempt(part_of(std::get<Case>(best_.data), kept))) primitives = Primitives(*std::get<Case>(best_.data).topology);
-        else first += chunk;
+        if (kept.size() > 0 && attempt(part_of(std::get<Case>(best_.data), kept)))
+          primitives = Primitives(*std::get<Case>(best_.data).topology);
+        else
+          first += chunk;
       }
     }
     return primitives.size() < before && !out_of_budget();
@@ -233,7 +240,8 @@ class Shrinker {
 
 namespace {
 
-/// What goes wrong, without the numbers that change with the case: what stands before the colon, and whether something is missing or too much.
+/// What goes wrong, without the numbers that change with the case: what stands before the colon, and whether something
+/// is missing or too much.
 std::string kind_of(const std::string& message) {
   std::string kind;
   for (const char c : message.substr(0, message.find(':')))
@@ -255,8 +263,8 @@ TestCase shrink(const TestCase& test, const std::function<bool(const TestCase&)>
   return Shrinker(test, fails, options).run();
 }
 
-TestCase shrink_failure(const TestCase& test, const std::string& message, const Contestant& contestant, const Authority& authority,
-                        const ShrinkOptions& options) {
+TestCase shrink_failure(const TestCase& test, const std::string& message, const Contestant& contestant,
+                        const Authority& authority, const ShrinkOptions& options) {
   const std::string kind = kind_of(message);
   const auto fails = [&](const TestCase& candidate) {
     for (const StageReport& report : judge_cases({&candidate, 1}, contestant, authority))

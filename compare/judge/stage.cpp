@@ -5,8 +5,10 @@ namespace ogc::compare {
 namespace {
 
 constexpr std::array<std::string_view, all_stages.size()> names{
-    "rest_state", "closest_face", "closest_points", "block", "detect_vertex_facet", "detect_edge_edge", "bound", "initial_guess",
-    "activation", "contact_force", "friction_force", "membrane", "bending", "spring", "sweep", "truncate", "step"};
+    "rest_state",       "closest_face", "closest_points", "block",      "detect_vertex_facet",
+    "detect_edge_edge", "bound",        "initial_guess",  "activation", "contact_force",
+    "friction_force",   "membrane",     "bending",        "spring",     "sweep",
+    "truncate",         "step"};
 
 }  // namespace
 

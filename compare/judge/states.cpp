@@ -28,14 +28,17 @@ double mean_edge_length(const Topology& topology, const std::vector<Vec3f>& posi
 
 }  // namespace
 
-States::States(const std::filesystem::path& folder, const Authority& authority) : folder_(folder.string()), authority_(authority) {
+States::States(const std::filesystem::path& folder, const Authority& authority)
+    : folder_(folder.string()), authority_(authority) {
   const RunReader run(folder);
-  if (run.frame_count() == 0) throw InputError(folder_ + ": the run holds no frame yet; give a run that has stored at least one");
+  if (run.frame_count() == 0)
+    throw InputError(folder_ + ": the run holds no frame yet; give a run that has stored at least one");
   const Scene& scene = run.scene();
   auto rounded = std::make_shared<Scene>(scene);
   round_to_single(*rounded);
   scene_ = std::move(rounded);
-  topology_ = std::make_shared<Topology>(build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges));
+  topology_ = std::make_shared<Topology>(
+      build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges));
   if (topology_->edges.empty()) throw InputError(folder_ + ": the run's mesh has no edge; give a run of a mesh");
   groups_ = rigid_groups(scene);
   partners_ = exclusions(scene).partners;
@@ -50,7 +53,8 @@ States::States(const std::filesystem::path& folder, const Authority& authority) 
     Frame frame = run.frame(count == 1 ? 0 : i * (run.frame_count() - 1) / (count - 1));
     if (i == 0) cell_size_ = mean_edge_length(*topology_, frame.positions);
     State state{std::move(frame.positions), std::move(frame.bounds), std::move(frame.velocities), frame.step, {}};
-    for (std::size_t v = 0; v < state.positions.size(); ++v) state.cells.emplace_back(cell(state.positions[v]), static_cast<Index>(v));
+    for (std::size_t v = 0; v < state.positions.size(); ++v)
+      state.cells.emplace_back(cell(state.positions[v]), static_cast<Index>(v));
     std::sort(state.cells.begin(), state.cells.end());
     states_.push_back(std::move(state));
   }
@@ -75,7 +79,9 @@ std::string States::missing(Stage stage) const {
 }
 
 std::uint64_t States::cell(const Vec3f& p) const {
-  const auto number = [&](float x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell_size_)) + (1 << 20)) & 0x1fffff; };
+  const auto number = [&](float x) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell_size_)) + (1 << 20)) & 0x1fffff;
+  };
   return number(p.x) << 42 | number(p.y) << 21 | number(p.z);
 }
 
@@ -106,17 +112,27 @@ CaseData States::moved_vertex(std::size_t frame, Random& random) const {
 CaseData States::guessed_vertex(const State& state, Random& random) const {
   const Index v = random.below(topology_->vertex_count);
   const float bound = state.bounds.empty() ? contact_radius_ : state.bounds[v];
-  return InitialGuessCase{state.positions[v], state.velocities[v], to_single({scene_->gravity})[0], static_cast<float>(scene_->settings.time_step),
-                          state.positions[v], bound, random.one_in(8)};
+  return InitialGuessCase{state.positions[v],
+                          state.velocities[v],
+                          to_single({scene_->gravity})[0],
+                          static_cast<float>(scene_->settings.time_step),
+                          state.positions[v],
+                          bound,
+                          random.one_in(8)};
 }
 
 CaseData States::bound(std::size_t frame) const {
   const std::lock_guard lock(filling_);
   std::optional<BoundCase>& c = smallest_distances_[frame];
   if (!c) {
-    const DetectIn in{topology_.get(), {groups_, partners_.rows() > 0 ? &partners_ : nullptr}, states_[frame].positions, contact_radius_, contact_radius_ * std::max(1.0f, query_radius_cap_)};
+    const DetectIn in{topology_.get(),
+                      {groups_, partners_.rows() > 0 ? &partners_ : nullptr},
+                      states_[frame].positions,
+                      contact_radius_,
+                      contact_radius_ * std::max(1.0f, query_radius_cap_)};
     DetectVertexFacetOut near = authority_.detect_vertex_facet(in).exact;
-    c = BoundCase{topology_, std::move(near.d_min_vertex), authority_.detect_edge_edge(in).exact.d_min_edge, std::move(near.d_min_triangle), bound_relaxation_};
+    c = BoundCase{topology_, std::move(near.d_min_vertex), authority_.detect_edge_edge(in).exact.d_min_edge,
+                  std::move(near.d_min_triangle), bound_relaxation_};
   }
   return *c;
 }
@@ -136,7 +152,8 @@ CaseData States::sweep(const State& state, Random& random) const {
   }
   for (const PrescribedMotion& motion : scene_->motions) {
     const std::vector<Vec3f> targets = prescribed_targets(*scene_, motion, static_cast<double>(state.step + 1) * h);
-    for (std::size_t i = 0; i < targets.size(); ++i) c.target[static_cast<std::size_t>(motion.vertices[i])] = targets[i];
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      c.target[static_cast<std::size_t>(motion.vertices[i])] = targets[i];
   }
   c.old = c.target;
   c.largest_bound.assign(c.previous.size(), std::numeric_limits<float>::max());
@@ -151,7 +168,8 @@ CaseData States::step(const State& state) const {
   const double now = static_cast<double>(state.step) * scene->settings.time_step;
   for (PrescribedMotion& motion : scene->motions) {
     const double elapsed = std::clamp(now, motion.start, motion.end) - motion.start;
-    motion.centre = {motion.centre.x + elapsed * motion.velocity.x, motion.centre.y + elapsed * motion.velocity.y, motion.centre.z + elapsed * motion.velocity.z};
+    motion.centre = {motion.centre.x + elapsed * motion.velocity.x, motion.centre.y + elapsed * motion.velocity.y,
+                     motion.centre.z + elapsed * motion.velocity.z};
     motion.start = std::max(0.0, motion.start - now);
     motion.end = std::max(0.0, motion.end - now);
     for (double& time : motion.keyframes.times) time -= now;
@@ -161,7 +179,8 @@ CaseData States::step(const State& state) const {
 
 CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
   if (const std::string why = missing(stage); !why.empty())
-    throw InputError(folder_ + ": the run has no states for the stage " + std::string(stage_name(stage)) + ": " + why + "; use its generators");
+    throw InputError(folder_ + ": the run has no states for the stage " + std::string(stage_name(stage)) + ": " + why +
+                     "; use its generators");
   const std::size_t frame = index % states_.size();
   const State& state = states_[frame];
   switch (stage) {
@@ -172,7 +191,8 @@ CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
     case Stage::truncate: return moved_vertex(frame, random);
     case Stage::rest_state: return RestStateCase{scene_, topology_};
     case Stage::initial_guess: return guessed_vertex(state, random);
-    case Stage::block: return BlockCase{topology_, state.positions, block_questions(random, *topology_, state.positions, questions)};
+    case Stage::block:
+      return BlockCase{topology_, state.positions, block_questions(random, *topology_, state.positions, questions)};
     case Stage::bound: return bound(frame);
     case Stage::activation: return contact_distance(*frame_with_contact(frame), random);
     case Stage::membrane: return triangle(state, random);
@@ -183,7 +203,9 @@ CaseData States::make(Stage stage, std::uint64_t index, Random& random) const {
     default: break;
   }
   const float factor = random.one_in(4) ? 1 : static_cast<float>(random.between(1, std::max(1.0f, query_radius_cap_)));
-  return MeshCase{topology_, groups_, state.positions, contact_radius_, std::max(contact_radius_, contact_radius_ * factor), partners_};
+  return MeshCase{
+      topology_, groups_, state.positions, contact_radius_, std::max(contact_radius_, contact_radius_ * factor),
+      partners_};
 }
 
 }  // namespace ogc::compare

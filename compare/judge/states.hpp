@@ -1,5 +1,6 @@
-// Cases from real states: the frames of a run folder, whole for detection, or stencils drawn from their lists for the other stages: of the elements of the rest
-// state, of the contacts of the frame. What a run folder does not hold, because it is computed (rest data, distances, contacts), is asked of an authority.
+// Cases from real states: the frames of a run folder, whole for detection, or stencils drawn from their lists for the
+// other stages: of the elements of the rest state, of the contacts of the frame. What a run folder does not hold,
+// because it is computed (rest data, distances, contacts), is asked of an authority.
 #pragma once
 
 #include <array>
@@ -16,15 +17,17 @@
 
 namespace ogc::compare {
 
-/// Up to 100 frames, of large meshes fewer (16 from 262,144 vertices on), evenly spread over the run (first and last included), with the scene's topology, groups, r and cap of r_q.
+/// Up to 100 frames, of large meshes fewer (16 from 262,144 vertices on), evenly spread over the run (first and last
+/// included), with the scene's topology, groups, r and cap of r_q.
 class States {
  public:
   /// Asks the authority for rest data. Throws InputError where the folder is no run or holds no frame.
   States(const std::filesystem::path& folder, const Authority& authority);
   /// Why the run has no cases for the stage; empty where it has.
   std::string missing(Stage stage) const;
-  /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError that says what is missing.
-  /// Of what comes of contacts (activation, contact_force, friction_force) frames without any are skipped.
+  /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError
+  /// that says what is missing. Of what comes of contacts (activation, contact_force, friction_force) frames without
+  /// any are skipped.
   CaseData make(Stage stage, std::uint64_t index, Random& random) const;
   const std::string& folder() const { return folder_; }
 
@@ -50,8 +53,8 @@ class States {
   std::uint64_t cell(const Vec3f& position) const;
   /// A vertex in the same cell or one of its neighbours; v itself where there is no other.
   Index neighbour(const State& state, Index v, Random& random) const;
-  /// A vertex and the corners of a triangle, the ends of two edges, the lower-numbered first: in half of the draws those of a contact, if the frame has any, else
-  /// near each other.
+  /// A vertex and the corners of a triangle, the ends of two edges, the lower-numbered first: in half of the draws
+  /// those of a contact, if the frame has any, else near each other.
   std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
   std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
   CaseData vertex_triangle(std::size_t frame, Random& random) const;

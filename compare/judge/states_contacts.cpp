@@ -13,12 +13,9 @@ namespace {
 std::array<Index, 3> vertices_of(const Topology& topology, const Face& face) {
   const auto i = static_cast<std::size_t>(face.index);
   switch (face.kind) {
-    case FaceKind::vertex:
-      return {face.index, -1, -1};
-    case FaceKind::edge:
-      return {topology.edges[i][0], topology.edges[i][1], -1};
-    case FaceKind::triangle:
-      return topology.triangles[i];
+    case FaceKind::vertex: return {face.index, -1, -1};
+    case FaceKind::edge: return {topology.edges[i][0], topology.edges[i][1], -1};
+    case FaceKind::triangle: return topology.triangles[i];
   }
   return {};
 }
@@ -73,8 +70,8 @@ std::array<Index, 4> States::vertex_and_triangle(std::size_t frame, Random& rand
   const State& state = states_[frame];
   Index v = random.below(topology_->vertex_count);
   const auto candidates = topology_->vertex_triangles[static_cast<std::size_t>(neighbour(state, v, random))];
-  auto t =
-      candidates.empty() ? static_cast<Index>(random.bits() % topology_->triangles.size()) : random.pick(candidates);
+  auto t = candidates.empty() ? static_cast<Index>(random.bits() % topology_->triangles.size())
+                              : random.pick(candidates);
   if (const Contacts& found = contacts(frame); random.one_in(2) && !found.vertex_facet.empty()) {
     const VertexFacetContact& contact = found.vertex_facet[random.bits() % found.vertex_facet.size()];
     v = contact.vertex;

@@ -1,4 +1,5 @@
-// Stencils and distances of real states. A frame keeps x at the end of a step; for x beside xᵗ every vertex goes on for one more step at its velocity.
+// Stencils and distances of real states. A frame keeps x at the end of a step; for x beside xᵗ every vertex goes on for
+// one more step at its velocity.
 #include <algorithm>
 #include <array>
 

@@ -1,5 +1,5 @@
-// A sweep case made a question: contacts and bounds are found at X_prev by the authority, so that every question is one that a step could ask, and a case
-// holds no more than positions.
+// A sweep case made a question: contacts and bounds are found at X_prev by the authority, so that every question is one
+// that a step could ask, and a case holds no more than positions.
 #pragma once
 
 #include "compare/judge/cases.hpp"
@@ -27,8 +27,8 @@ class SweepQuestion {
   std::vector<Vec3f> old_;
 };
 
-/// `wish` where it obeys the bound; otherwise the point of the segment to it at the bound, its rounded coordinates stepped towards `previous` until the
-/// stored point obeys. The step is finite in single precision.
+/// `wish` where it obeys the bound; otherwise the point of the segment to it at the bound, its rounded coordinates
+/// stepped towards `previous` until the stored point obeys. The step is finite in single precision.
 Vec3f within_bound(const Vec3f& wish, const Vec3f& previous, float bound);
 
 }  // namespace ogc::compare

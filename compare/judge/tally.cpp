@@ -33,25 +33,32 @@ void accumulate(GeneratorTally& sum, const GeneratorTally& row) {
 constexpr std::array<MetricInfo, 3> face_metrics{{{"distance", "u max(d, Σ|δ|)", closest_face_distance_tolerance},
                                                   {"weights", "u cond", closest_face_weight_tolerance},
                                                   {"distance_below", "u max(d, Σ|δ|)", closest_face_below_tolerance}}};
-constexpr std::array<MetricInfo, 3> points_metrics{{{"contact_distance", "u max(d, Σ|δ|)", closest_points_distance_tolerance},
-                                                    {"parameters", "u cond", closest_points_parameter_tolerance},
-                                                    {"distance_below", "u max(d, Σ|δ|)", closest_points_below_tolerance}}};
+constexpr std::array<MetricInfo, 3> points_metrics{
+    {{"contact_distance", "u max(d, Σ|δ|)", closest_points_distance_tolerance},
+     {"parameters", "u cond", closest_points_parameter_tolerance},
+     {"distance_below", "u max(d, Σ|δ|)", closest_points_below_tolerance}}};
 constexpr std::array<MetricInfo, 2> facet_metrics{{{"d_min_vertex", "u max(d, Σ|δ|)", detect_below_tolerance},
                                                    {"d_min_triangle", "u max(d, Σ|δ|)", detect_below_tolerance}}};
 constexpr std::array<MetricInfo, 1> edge_metrics{{{"d_min_edge", "u max(d, Σ|δ|)", detect_below_tolerance}}};
 constexpr std::array<MetricInfo, 1> bound_metrics{{{"bound", "u b", bound_below_tolerance}}};
-constexpr std::array<MetricInfo, 3> activation_metrics{
-    {{"energy", "u scale", activation_tolerance}, {"slope", "u scale", activation_tolerance}, {"curvature", "u scale", activation_tolerance}}};
+constexpr std::array<MetricInfo, 3> activation_metrics{{{"energy", "u scale", activation_tolerance},
+                                                        {"slope", "u scale", activation_tolerance},
+                                                        {"curvature", "u scale", activation_tolerance}}};
 constexpr std::array<MetricInfo, 1> truncate_metrics{{{"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
-constexpr std::array<MetricInfo, 2> contact_metrics{{{"force", "u cond", contact_force_tolerance}, {"block", "u cond", contact_block_tolerance}}};
-constexpr std::array<MetricInfo, 2> friction_metrics{{{"force", "u cond", friction_force_tolerance}, {"block", "u cond", friction_block_tolerance}}};
-constexpr std::array<MetricInfo, 2> membrane_metrics{{{"force", "u cond", membrane_force_tolerance}, {"block", "u cond", membrane_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> contact_metrics{
+    {{"force", "u cond", contact_force_tolerance}, {"block", "u cond", contact_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> friction_metrics{
+    {{"force", "u cond", friction_force_tolerance}, {"block", "u cond", friction_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> membrane_metrics{
+    {{"force", "u cond", membrane_force_tolerance}, {"block", "u cond", membrane_block_tolerance}}};
 constexpr std::array<MetricInfo, 3> step_metrics{{{"query_radius", "u r_q", step_query_radius_tolerance},
                                                   {"target", "u scale", initial_guess_target_tolerance},
                                                   {"velocity", "u |x − xᵗ|/h", step_velocity_tolerance}}};
 constexpr std::array<MetricInfo, 1> sweep_metrics{{{"position", "accepted error", 1}}};
-constexpr std::array<MetricInfo, 2> bending_metrics{{{"force", "u cond", bending_force_tolerance}, {"block", "u cond", bending_block_tolerance}}};
-constexpr std::array<MetricInfo, 2> spring_metrics{{{"force", "u cond", spring_force_tolerance}, {"block", "u cond", spring_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> bending_metrics{
+    {{"force", "u cond", bending_force_tolerance}, {"block", "u cond", bending_block_tolerance}}};
+constexpr std::array<MetricInfo, 2> spring_metrics{
+    {{"force", "u cond", spring_force_tolerance}, {"block", "u cond", spring_block_tolerance}}};
 
 constexpr std::array<MetricInfo, 8> rest_state_metrics{{{"mass", "u cond", rest_state_tolerance},
                                                         {"area", "u cond", rest_state_tolerance},
@@ -61,8 +68,9 @@ constexpr std::array<MetricInfo, 8> rest_state_metrics{{{"mass", "u cond", rest_
                                                         {"stiffness", "u cond", rest_state_tolerance},
                                                         {"weight", "u cond", rest_state_tolerance},
                                                         {"meeting", "u value", rest_state_tolerance}}};
-constexpr std::array<MetricInfo, 2> initial_guess_metrics{{{"target", "u scale", initial_guess_target_tolerance},
-                                                           {"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
+constexpr std::array<MetricInfo, 2> initial_guess_metrics{
+    {{"target", "u scale", initial_guess_target_tolerance},
+     {"position", "u (|x_prev| + b)", truncate_position_tolerance}}};
 
 }  // namespace
 
@@ -86,7 +94,8 @@ double Histogram::quantile(double q) const {
   std::uint64_t below = 0;
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     below += bins_[i];
-    if (below >= wanted && below > 0) return std::min(maximum_, double{std::bit_cast<float>(static_cast<std::uint32_t>(i) << 16)});
+    if (below >= wanted && below > 0)
+      return std::min(maximum_, double{std::bit_cast<float>(static_cast<std::uint32_t>(i) << 16)});
   }
   return 0;
 }
@@ -97,7 +106,8 @@ std::vector<Histogram::Octave> Histogram::octaves(int lowest) const {
     if (bins_[i] == 0) continue;
     const double edge = std::bit_cast<float>(static_cast<std::uint32_t>(i) << 16);
     const int exponent = edge > 0 ? std::max(lowest, std::ilogb(edge)) : lowest;
-    while (octaves.empty() || octaves.back().exponent < exponent) octaves.push_back({octaves.empty() ? exponent : octaves.back().exponent + 1, 0});
+    while (octaves.empty() || octaves.back().exponent < exponent)
+      octaves.push_back({octaves.empty() ? exponent : octaves.back().exponent + 1, 0});
     octaves.back().count += bins_[i];
   }
   return octaves;
@@ -160,7 +170,8 @@ void Tally::mismatch(std::string message) {
 
 void Tally::add(const Tally& other) {
   for (std::size_t i = 0; i < metrics.size(); ++i) {
-    if (metrics[i].errors.count() == 0 || other.metrics[i].errors.maximum() > metrics[i].errors.maximum()) metrics[i].worst = other.metrics[i].worst;
+    if (metrics[i].errors.count() == 0 || other.metrics[i].errors.maximum() > metrics[i].errors.maximum())
+      metrics[i].worst = other.metrics[i].worst;
     metrics[i].errors.add(other.metrics[i].errors);
   }
   std::map<std::string, std::uint64_t> kept;

@@ -1,4 +1,5 @@
-// What is counted while cases are judged. Tallies of batches are added in the order of the batches, so a report is the same on any number of threads.
+// What is counted while cases are judged. Tallies of batches are added in the order of the batches, so a report is the
+// same on any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,8 @@ class Histogram {
   double maximum() const { return maximum_; }
   /// Smallest bin edge below which the share `q` of the values lies (within 1 %); 0 where there are none.
   double quantile(double q) const;
-  /// How many values lie in [2^exponent, 2^(exponent+1)), ascending, without gaps in between; those below 2^lowest count there, 0 too.
+  /// How many values lie in [2^exponent, 2^(exponent+1)), ascending, without gaps in between; those below 2^lowest
+  /// count there, 0 too.
   struct Octave {
     int exponent = 0;
     std::uint64_t count = 0;
@@ -41,7 +43,8 @@ struct MetricInfo {
   double tolerance;
 };
 
-/// The metrics of a stage, none where all its answers are discrete; their positions are the numbers that Tally::error takes.
+/// The metrics of a stage, none where all its answers are discrete; their positions are the numbers that Tally::error
+/// takes.
 std::span<const MetricInfo> metrics(Stage stage);
 
 /// A tolerance that no error comes nearer to than this factor is loose: it would let a kernel become so much worse.
@@ -63,11 +66,12 @@ struct Mismatch {
 
 struct GeneratorTally {
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
-  std::uint64_t not_exact = 0;  ///< grey decisions whose accepted answer is not the exact one, or not one of its side of a jump
+  /// grey decisions whose accepted answer is not the exact one, or not one of its side of a jump
+  std::uint64_t not_exact = 0;
 };
 
-/// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge (detect_edge_edge) or question (block),
-/// of step one vertex at one event.
+/// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge
+/// (detect_edge_edge) or question (block), of step one vertex at one event.
 class Tally {
  public:
   explicit Tally(Stage stage);
@@ -75,7 +79,8 @@ class Tally {
   void begin(const CaseName& name);
   /// `near`: cases within 2¹⁰ ulp of a decision boundary (near_factor), where the stage has one.
   void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
-  /// One error in units of the metric; beyond the tolerance it is a mismatch, described by `where` (called only then) and the numbers.
+  /// One error in units of the metric; beyond the tolerance it is a mismatch, described by `where` (called only then)
+  /// and the numbers.
   template <class Where>
   void error(std::size_t metric, double value, const Where& where) {
     if (const auto excess = note_error(metric, value)) mismatch(*excess + where());
@@ -88,10 +93,10 @@ class Tally {
   Stage stage;
   std::vector<MetricTally> metrics;
   std::map<std::string, GeneratorTally> generators;
-  std::vector<Mismatch> mismatches;       ///< the first of each generator, at most `listed`
-  std::uint64_t mismatched = 0;           ///< all of them
-  std::uint64_t questions = 0;            ///< generated cases: of a mesh stage meshes, sweeps or steps
-  std::uint64_t failures = 0;             ///< of them, cases to which the contestant gave no answer (ContestantFailure)
+  std::vector<Mismatch> mismatches;  ///< the first of each generator, at most `listed`
+  std::uint64_t mismatched = 0;      ///< all of them
+  std::uint64_t questions = 0;       ///< generated cases: of a mesh stage meshes, sweeps or steps
+  std::uint64_t failures = 0;        ///< of them, cases to which the contestant gave no answer (ContestantFailure)
   double contestant_seconds = 0, authority_seconds = 0;
   static constexpr std::uint64_t listed = 20;
 
@@ -102,8 +107,8 @@ class Tally {
   double grey_share() const;
   /// Cases within 2¹⁰ ulp of a decision boundary over all cases.
   double near_share() const;
-  /// Whether the share is compatible with grey_share_limit: of n decisions m = n · limit may be grey, and chance may add 3 √m + 3 (a Poisson count of
-  /// mean m lies higher in less than one run of a hundred).
+  /// Whether the share is compatible with grey_share_limit: of n decisions m = n · limit may be grey, and chance may
+  /// add 3 √m + 3 (a Poisson count of mean m lies higher in less than one run of a hundred).
   bool grey_within_limit() const;
 
  private:

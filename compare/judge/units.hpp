@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// 0 where the error is 0, whatever the scale; otherwise the error in units of u · scale. What is below the smallest normal
-/// number 2⁻¹²⁶ is rounded to a multiple of 2⁻¹⁴⁹, which is u · 2⁻¹²⁶ off and no more to be had.
+/// 0 where the error is 0, whatever the scale; otherwise the error in units of u · scale. What is below the smallest
+/// normal number 2⁻¹²⁶ is rounded to a multiple of 2⁻¹⁴⁹, which is u · 2⁻¹²⁶ off and no more to be had.
 inline double in_units(double error, double scale) {
   return error == 0 ? 0 : error / (unit_roundoff * (scale + 0x1p-126));
 }

@@ -29,12 +29,14 @@ bool is_within(const ForceErrors& errors, std::span<const MetricInfo> infos) {
 }
 
 /// The accepted answer whose worse error, as a share of its tolerance, is least.
-const ForceAnswer& nearest(const std::vector<ForceAnswer>& accepted, const Vec3f& force, const std::array<float, 6>& block, std::span<const MetricInfo> infos) {
+const ForceAnswer& nearest(const std::vector<ForceAnswer>& accepted, const Vec3f& force,
+                           const std::array<float, 6>& block, std::span<const MetricInfo> infos) {
   const auto share = [&](const ForceAnswer& exact) {
     const ForceErrors errors = errors_of(force, block, exact);
     return std::max(errors.force / infos[0].tolerance, errors.block / infos[1].tolerance);
   };
-  return *std::min_element(accepted.begin(), accepted.end(), [&](const ForceAnswer& a, const ForceAnswer& b) { return share(a) < share(b); });
+  return *std::min_element(accepted.begin(), accepted.end(),
+                           [&](const ForceAnswer& a, const ForceAnswer& b) { return share(a) < share(b); });
 }
 
 }  // namespace
@@ -53,11 +55,16 @@ void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tall
     const Vec3f& force = out.force[i];
     const ForceAnswer& exact = nearest(accepted, force, out.block[i], infos);
     const ForceErrors errors = errors_of(force, out.block[i], exact);
-    if (is_within(errors, infos) && !is_within(errors_of(force, out.block[i], accepted.front()), infos)) tally.answered_not_exactly();
-    tally.error(0, errors.force, [&] { return text("modulus %.9g, exact %.9g", std::hypot(force.x, force.y, force.z), std::hypot(exact.force.x, exact.force.y, exact.force.z)); });
+    if (is_within(errors, infos) && !is_within(errors_of(force, out.block[i], accepted.front()), infos))
+      tally.answered_not_exactly();
+    tally.error(0, errors.force, [&] {
+      return text("modulus %.9g, exact %.9g", std::hypot(force.x, force.y, force.z),
+                  std::hypot(exact.force.x, exact.force.y, exact.force.z));
+    });
     tally.error(1, errors.block, [&] {
       const auto& b = out.block[i];
-      return text("trace %.9g, exact %.9g", double{b[0]} + b[3] + b[5], exact.block[0] + exact.block[3] + exact.block[5]);
+      return text("trace %.9g, exact %.9g", double{b[0]} + b[3] + b[5],
+                  exact.block[0] + exact.block[3] + exact.block[5]);
     });
   }
 }

@@ -1,4 +1,5 @@
-// Verdicts of closest_face and closest_points. The scale Σ|δ| is that of method.md §2.5: the moduli of all coordinates relative to the case's first vertex.
+// Verdicts of closest_face and closest_points. The scale Σ|δ| is that of method.md §2.5: the moduli of all coordinates
+// relative to the case's first vertex.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,8 @@ double modulus(const Vec3f& p, const Vec3f& from) {
 bool right_length(std::size_t n, std::initializer_list<std::size_t> lengths, Tally& tally) {
   for (const std::size_t length : lengths) {
     if (length == n) continue;
-    tally.mismatch("an array of the answer has " + std::to_string(length) + " entries for " + std::to_string(n) + " cases");
+    tally.mismatch("an array of the answer has " + std::to_string(length) + " entries for " + std::to_string(n) +
+                   " cases");
     return false;
   }
   return true;
@@ -29,7 +31,8 @@ bool judge_below(float below, float exact, double distance, double scale, std::s
     tally.mismatch(text("distance_below: %.9g is above the exact distance %.17g", below, distance));
     return false;
   }
-  tally.error(metric, in_units(double{exact} - below, scale), [&] { return text("%.9g, exact %.17g", below, distance); });
+  tally.error(metric, in_units(double{exact} - below, scale),
+              [&] { return text("%.9g, exact %.17g", below, distance); });
   return true;
 }
 
@@ -41,7 +44,8 @@ void judge_face(std::size_t i, const ClosestFaceTruth& truth, const ClosestFaceO
   }
   if (out.feature[i] != truth.exact.feature[i]) tally.answered_not_exactly();
   const double scale = std::max(truth.distance[i], size);
-  tally.error(0, in_units(std::abs(out.distance[i] - truth.distance[i]), scale), [&] { return text("%.9g, exact %.17g", out.distance[i], truth.distance[i]); });
+  tally.error(0, in_units(std::abs(out.distance[i] - truth.distance[i]), scale),
+              [&] { return text("%.9g, exact %.17g", out.distance[i], truth.distance[i]); });
   double worst = 0;
   for (int k = 0; k < 3; ++k) {
     const double error = std::abs(out.weights[i][k] - truth.weights[i][k]);
@@ -51,7 +55,8 @@ void judge_face(std::size_t i, const ClosestFaceTruth& truth, const ClosestFaceO
     }
     worst = std::max(worst, error);
   }
-  tally.error(1, in_units(worst, truth.weight_condition[i]), [&] { return text("condition %.4g, largest error %.4g", truth.weight_condition[i], worst); });
+  tally.error(1, in_units(worst, truth.weight_condition[i]),
+              [&] { return text("condition %.4g, largest error %.4g", truth.weight_condition[i], worst); });
   judge_below(out.distance_below[i], truth.exact.distance_below[i], truth.distance[i], scale, 2, tally);
 }
 
@@ -69,7 +74,8 @@ std::string features(const ClosestPointsOut& out, std::size_t i) {
          parallel;
 }
 
-void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestPointsOut& out, double size, Tally& tally) {
+void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestPointsOut& out, double size,
+                  Tally& tally) {
   const unsigned answer = code(out, i), exact = code(truth.exact, i);
   if (!(truth.accepted[i] >> answer & 1)) {
     tally.mismatch("features: " + features(out, i) + "; exact " + features(truth.exact, i));
@@ -81,17 +87,22 @@ void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestP
     tally.mismatch(text("parameters: (%.9g, %.9g) is not within [0, 1]", out.parameters[i][0], out.parameters[i][1]));
     return;
   }
-  if (!judge_below(out.distance_below[i], truth.exact.distance_below[i], truth.distance[i], std::max(truth.distance[i], size), 2, tally)) return;
-  // On the other side of the rule for nearly parallel edges the contact points are others: only the distance_below above can be compared.
+  if (!judge_below(out.distance_below[i], truth.exact.distance_below[i], truth.distance[i],
+                   std::max(truth.distance[i], size), 2, tally))
+    return;
+  // On the other side of the rule for nearly parallel edges the contact points are others: only the distance_below
+  // above can be compared.
   if (out.nearly_parallel[i] != truth.exact.nearly_parallel[i]) {
     if (!(out.contact_distance[i] >= out.distance_below[i]))
-      tally.mismatch(text("contact_distance: %.9g is below distance_below %.9g", out.contact_distance[i], out.distance_below[i]));
+      tally.mismatch(
+          text("contact_distance: %.9g is below distance_below %.9g", out.contact_distance[i], out.distance_below[i]));
     return;
   }
   const double distance = truth.contact_distance[i];
   tally.error(0, in_units(std::abs(out.contact_distance[i] - distance), std::max(distance, size)),
               [&] { return text("%.9g, exact %.17g", out.contact_distance[i], distance); });
-  const double worst = std::max(std::abs(out.parameters[i][0] - truth.parameters[i][0]), std::abs(out.parameters[i][1] - truth.parameters[i][1]));
+  const double worst = std::max(std::abs(out.parameters[i][0] - truth.parameters[i][0]),
+                                std::abs(out.parameters[i][1] - truth.parameters[i][1]));
   tally.error(1, in_units(worst, truth.parameter_condition[i]),
               [&] { return text("condition %.4g, largest error %.4g", truth.parameter_condition[i], worst); });
 }
@@ -101,9 +112,12 @@ bool is_grey(std::uint32_t accepted) { return (accepted & (accepted - 1)) != 0; 
 
 }  // namespace
 
-void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceTruth& truth, const ClosestFaceOut& out, Tally& tally) {
+void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceTruth& truth, const ClosestFaceOut& out,
+                        Tally& tally) {
   tally.begin(cases[0].name);
-  if (!right_length(cases.size(), {out.feature.size(), out.weights.size(), out.distance.size(), out.distance_below.size()}, tally)) return;
+  if (!right_length(cases.size(),
+                    {out.feature.size(), out.weights.size(), out.distance.size(), out.distance_below.size()}, tally))
+    return;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     tally.begin(cases[i].name);
     tally.count(1, 1, is_grey(truth.accepted[i]), truth.near[i]);
@@ -113,15 +127,21 @@ void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceT
   }
 }
 
-void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestPointsTruth& truth, const ClosestPointsOut& out, Tally& tally) {
+void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestPointsTruth& truth,
+                          const ClosestPointsOut& out, Tally& tally) {
   tally.begin(cases[0].name);
-  if (!right_length(cases.size(), {out.first_feature.size(), out.second_feature.size(), out.nearly_parallel.size(), out.parameters.size(),
-                                   out.contact_distance.size(), out.distance_below.size()}, tally)) return;
+  if (!right_length(cases.size(),
+                    {out.first_feature.size(), out.second_feature.size(), out.nearly_parallel.size(),
+                     out.parameters.size(), out.contact_distance.size(), out.distance_below.size()},
+                    tally))
+    return;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     tally.begin(cases[i].name);
     tally.count(1, 1, is_grey(truth.accepted[i]), truth.near[i]);
     const Vec3f& from = in.first[i][0];
-    judge_points(i, truth, out, modulus(in.first[i][1], from) + modulus(in.second[i][0], from) + modulus(in.second[i][1], from), tally);
+    judge_points(i, truth, out,
+                 modulus(in.first[i][1], from) + modulus(in.second[i][0], from) + modulus(in.second[i][1], from),
+                 tally);
   }
 }
 

@@ -12,25 +12,41 @@ namespace ogc::compare {
 namespace {
 
 /// The numbers of the metrics of rest_state, in the order of tally.cpp.
-enum Metric : std::size_t { of_mass, of_area, of_gradient, of_edge_length_squared, of_rest_angle, of_stiffness, of_weight, of_meeting };
+enum Metric : std::size_t {
+  of_mass,
+  of_area,
+  of_gradient,
+  of_edge_length_squared,
+  of_rest_angle,
+  of_stiffness,
+  of_weight,
+  of_meeting
+};
 
 /// Whether θ₀ cannot be told from its turn by 2π.
-bool is_folded(double angle, double scale) { return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi; }
+bool is_folded(double angle, double scale) {
+  return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
+}
 
 class RestVerdict {
  public:
-  RestVerdict(const RestStateTruth& truth, const RestStateOut& out, Tally& tally) : truth_(truth), exact_(truth.exact), out_(out), tally_(tally) {}
+  RestVerdict(const RestStateTruth& truth, const RestStateOut& out, Tally& tally)
+      : truth_(truth), exact_(truth.exact), out_(out), tally_(tally) {}
 
   void judge() {
     if (!has_right_lengths() || !names_right_vertices()) return;
-    for (std::size_t v = 0; v < out_.mass.size(); ++v) one(of_mass, "vertex", v, out_.mass[v], truth_.mass[v], truth_.mass_scale[v]);
+    for (std::size_t v = 0; v < out_.mass.size(); ++v)
+      one(of_mass, "vertex", v, out_.mass[v], truth_.mass[v], truth_.mass_scale[v]);
     for (std::size_t t = 0; t < out_.triangles.size(); ++t) judge_triangle(t);
     for (std::size_t e = 0; e < out_.edge_length_squared.size(); ++e)
-      one(of_edge_length_squared, "edge", e, out_.edge_length_squared[e], truth_.edge_length_squared[e], truth_.edge_length_squared_scale[e]);
+      one(of_edge_length_squared, "edge", e, out_.edge_length_squared[e], truth_.edge_length_squared[e],
+          truth_.edge_length_squared_scale[e]);
     for (std::size_t i = 0; i < out_.hinges.size(); ++i) judge_hinge(i);
     for (std::size_t i = 0; i < out_.meetings.size(); ++i) {
-      one(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i], truth_.meeting_stiffness[i]);
-      one(of_meeting, "friction of meeting", i, out_.meetings[i].friction, truth_.meeting_friction[i], truth_.meeting_friction[i]);
+      one(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i],
+          truth_.meeting_stiffness[i]);
+      one(of_meeting, "friction of meeting", i, out_.meetings[i].friction, truth_.meeting_friction[i],
+          truth_.meeting_friction[i]);
     }
   }
 
@@ -40,17 +56,21 @@ class RestVerdict {
   }
 
   void error(Metric metric, const char* what, std::size_t i, double off, double scale, double value, double exact) {
-    tally_.error(metric, in_units(off, scale), [&] { return std::string(what) + " " + std::to_string(i) + text(": %.9g, exact %.17g", value, exact); });
+    tally_.error(metric, in_units(off, scale), [&] {
+      return std::string(what) + " " + std::to_string(i) + text(": %.9g, exact %.17g", value, exact);
+    });
   }
 
   bool has_length(const char* what, std::size_t length, std::size_t wanted) {
     if (length == wanted) return true;
-    tally_.mismatch(std::string(what) + ": " + std::to_string(length) + " entries instead of " + std::to_string(wanted));
+    tally_.mismatch(std::string(what) + ": " + std::to_string(length) + " entries instead of " +
+                    std::to_string(wanted));
     return false;
   }
 
   bool has_right_lengths() {
-    return has_length("mass", out_.mass.size(), exact_.mass.size()) && has_length("triangles", out_.triangles.size(), exact_.triangles.size()) &&
+    return has_length("mass", out_.mass.size(), exact_.mass.size()) &&
+           has_length("triangles", out_.triangles.size(), exact_.triangles.size()) &&
            has_length("hinges", out_.hinges.size(), exact_.hinges.size()) &&
            has_length("edge_length_squared", out_.edge_length_squared.size(), exact_.edge_length_squared.size()) &&
            has_length("meetings", out_.meetings.size(), exact_.meetings.size());
@@ -69,7 +89,8 @@ class RestVerdict {
   }
 
   bool wrong_name(const char* what, std::size_t i) {
-    tally_.mismatch(std::string(what) + " " + std::to_string(i) + " has other vertices, or another body, than the one that stands there");
+    tally_.mismatch(std::string(what) + " " + std::to_string(i) +
+                    " has other vertices, or another body, than the one that stands there");
     return false;
   }
 
@@ -78,8 +99,9 @@ class RestVerdict {
     for (std::size_t k = 0; k < 2; ++k) {
       const auto& value = out_.triangles[t].gradient[k];
       const auto& exact = truth_.gradient[t][k];
-      error(of_gradient, k == 0 ? "first gradient of triangle" : "second gradient of triangle", t, std::hypot(value[0] - exact[0], value[1] - exact[1]),
-            truth_.gradient_scale[t][k], std::hypot(value[0], value[1]), std::hypot(exact[0], exact[1]));
+      error(of_gradient, k == 0 ? "first gradient of triangle" : "second gradient of triangle", t,
+            std::hypot(value[0] - exact[0], value[1] - exact[1]), truth_.gradient_scale[t][k],
+            std::hypot(value[0], value[1]), std::hypot(exact[0], exact[1]));
     }
   }
 
@@ -87,12 +109,14 @@ class RestVerdict {
     const double angle = out_.hinges[i].rest_angle, exact = truth_.rest_angle[i], scale = truth_.rest_angle_scale[i];
     const double turned = exact - std::copysign(2 * std::numbers::pi, exact);
     const bool is_turned = is_folded(exact, scale) && std::abs(angle - turned) < std::abs(angle - exact);
-    if (is_turned && in_units(std::abs(angle - turned), scale) <= rest_state_angle_tolerance) tally_.answered_not_exactly();
+    if (is_turned && in_units(std::abs(angle - turned), scale) <= rest_state_angle_tolerance)
+      tally_.answered_not_exactly();
     one(of_rest_angle, "hinge", i, angle, is_turned ? turned : exact, scale);
     one(of_stiffness, "hinge", i, out_.hinges[i].stiffness, truth_.stiffness[i], truth_.stiffness_scale[i]);
-    const auto &weight = out_.hinges[i].weight;
-    const auto &right = truth_.weight[i];
-    error(of_weight, "weights of hinge", i, std::hypot(weight[0] - right[0], weight[1] - right[1], weight[2] - right[2]), truth_.weight_scale[i],
+    const auto& weight = out_.hinges[i].weight;
+    const auto& right = truth_.weight[i];
+    error(of_weight, "weights of hinge", i,
+          std::hypot(weight[0] - right[0], weight[1] - right[1], weight[2] - right[2]), truth_.weight_scale[i],
           std::hypot(weight[0], weight[1], weight[2]), std::hypot(right[0], right[1], right[2]));
   }
 
@@ -106,7 +130,8 @@ class RestVerdict {
 void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const RestStateOut& out, Tally& tally) {
   tally.begin(test.name);
   std::uint64_t folded = 0;
-  for (std::size_t i = 0; i < truth.rest_angle.size(); ++i) folded += is_folded(truth.rest_angle[i], truth.rest_angle_scale[i]);
+  for (std::size_t i = 0; i < truth.rest_angle.size(); ++i)
+    folded += is_folded(truth.rest_angle[i], truth.rest_angle_scale[i]);
   tally.count(truth.mass.size(), truth.rest_angle.size(), folded);
   RestVerdict(truth, out, tally).judge();
 }
@@ -120,7 +145,8 @@ void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& 
   };
   tally.count(questions.size(), questions.size(), marked(truth.grey), marked(truth.near));
   if (out.inside.size() != questions.size()) {
-    tally.mismatch("inside has " + std::to_string(out.inside.size()) + " entries instead of " + std::to_string(questions.size()));
+    tally.mismatch("inside has " + std::to_string(out.inside.size()) + " entries instead of " +
+                   std::to_string(questions.size()));
     return;
   }
   for (std::size_t i = 0; i < questions.size(); ++i) {

@@ -1,11 +1,12 @@
 // Verdicts of the two detections and of bound. Sets are brought into canonical order and compared as sorted keys:
 //
-//   exact, answered             right
-//   exact, not answered         excused by a grey decision that holds it, if another contact of that decision is answered or absence is accepted
-//   answered, not exact         excused by a grey decision that holds it
-//   a and b answered, a ⊂ b     wrong in one grey decision: whatever the side of the boundary, their blocks share no point (§3.3, local exclusiveness).
-//                               Two triangles across a slightly concave edge may stand side by side; so may edge pairs, by the rule for nearly
-//                               parallel ones
+//   exact, answered            right
+//   exact, not answered        excused by a grey decision that holds it, if another contact of that decision is
+//                              answered or absence is accepted
+//   answered, not exact        excused by a grey decision that holds it
+//   a and b answered, a ⊂ b    wrong in one grey decision: whatever the side of the boundary, their blocks share no
+//                              point (§3.3, local exclusiveness). Two triangles across a slightly concave edge may
+//                              stand side by side; so may edge pairs, by the rule for nearly parallel ones
 //
 // A missing contact that nothing replaces is named as a gap in the covering: there a vertex could pass unseen.
 #include <algorithm>
@@ -49,7 +50,8 @@ bool lists(const GreyDecision<Contact>& decision, const Contact& contact) {
 template <class Contact>
 class SetVerdict {
  public:
-  SetVerdict(std::vector<Contact> exact, std::vector<Contact> answer, const std::vector<GreyDecision<Contact>>& grey, const Topology& topology, Tally& tally)
+  SetVerdict(std::vector<Contact> exact, std::vector<Contact> answer, const std::vector<GreyDecision<Contact>>& grey,
+             const Topology& topology, Tally& tally)
       : exact_(std::move(exact)), answer_(std::move(answer)), grey_(grey), topology_(topology), tally_(tally) {
     std::sort(exact_.begin(), exact_.end());
     std::sort(answer_.begin(), answer_.end());
@@ -70,7 +72,8 @@ class SetVerdict {
   std::string print(const Contact& contact) const { return "{" + contact_name(contact, topology_) + "}"; }
 
   std::size_t answered(const GreyDecision<Contact>& decision) const {
-    return static_cast<std::size_t>(std::count_if(decision.contacts.begin(), decision.contacts.end(), [&](const Contact& c) { return holds(answer_, c); }));
+    return static_cast<std::size_t>(std::count_if(decision.contacts.begin(), decision.contacts.end(),
+                                                  [&](const Contact& c) { return holds(answer_, c); }));
   }
 
   void judge_missing(const Contact& contact) {
@@ -80,20 +83,25 @@ class SetVerdict {
       if (decision.absence_accepted || answered(decision) > 0) return tally_.answered_not_exactly();
       listed = true;
     }
-    tally_.mismatch("contacts: " + print(contact) + " is missing" + (listed ? ", and nothing that the grey zone allows stands for it (covering)" : ""));
+    tally_.mismatch("contacts: " + print(contact) + " is missing" +
+                    (listed ? ", and nothing that the grey zone allows stands for it (covering)" : ""));
   }
 
   void judge_extra(const Contact& contact) {
-    const bool excused = std::any_of(grey_.begin(), grey_.end(), [&](const auto& decision) { return lists(decision, contact); });
-    if (excused) tally_.answered_not_exactly();
-    else tally_.mismatch("contacts: " + print(contact) + " is no contact");
+    const bool excused = std::any_of(grey_.begin(), grey_.end(),
+                                     [&](const auto& decision) { return lists(decision, contact); });
+    if (excused)
+      tally_.answered_not_exactly();
+    else
+      tally_.mismatch("contacts: " + print(contact) + " is no contact");
   }
 
   void judge_decision(const GreyDecision<Contact>& decision) {
     for (const Contact& a : decision.contacts)
       for (const Contact& b : decision.contacts)
         if (excludes(topology_, a, b) && holds(answer_, a) && holds(answer_, b)) {
-          tally_.mismatch("contacts: " + print(a) + " and " + print(b) + " stand side by side, and one is part of the other");
+          tally_.mismatch("contacts: " + print(a) + " and " + print(b) +
+                          " stand side by side, and one is part of the other");
           return;
         }
   }
@@ -104,19 +112,23 @@ class SetVerdict {
   Tally& tally_;
 };
 
-double length(const Vec3f& a, const Vec3f& b) { return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z); }
+double length(const Vec3f& a, const Vec3f& b) {
+  return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
+}
 
 double longest_side(const MeshCase& mesh, const Triangle& t) {
   const auto& x = mesh.positions;
   return std::max({length(x[t[0]], x[t[1]]), length(x[t[1]], x[t[2]]), length(x[t[2]], x[t[0]])});
 }
 
-/// The unit of a smallest distance is that of the pair which attains it, u max(d, Σ|δ|), and the judge does not know that pair. Every point of it
-/// lies within d + (longest sides) of the case's first vertex, which bounds each |δ| by √3 times that: three of them for a pair of four vertices.
+/// The unit of a smallest distance is that of the pair which attains it, u max(d, Σ|δ|), and the judge does not know
+/// that pair. Every point of it lies within d + (longest sides) of the case's first vertex, which bounds each |δ| by √3
+/// times that: three of them for a pair of four vertices.
 double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
 /// One value: never above the exact one, never negative, and not uselessly far below.
-void judge_smallest(const char* what, std::size_t i, float value, float exact, double scale, std::size_t metric, Tally& tally) {
+void judge_smallest(const char* what, std::size_t i, float value, float exact, double scale, std::size_t metric,
+                    Tally& tally) {
   if (!(value <= exact)) {
     tally.mismatch(std::string(what) + " " + std::to_string(i) + text(": %.9g is above the exact %.9g", value, exact));
     return;
@@ -132,13 +144,15 @@ void judge_smallest(const char* what, std::size_t i, float value, float exact, d
 
 bool right_length(std::size_t length, std::size_t wanted, const char* what, Tally& tally) {
   if (length == wanted) return true;
-  tally.mismatch(std::string(what) + " has " + std::to_string(length) + " entries instead of " + std::to_string(wanted));
+  tally.mismatch(std::string(what) + " has " + std::to_string(length) + " entries instead of " +
+                 std::to_string(wanted));
   return false;
 }
 
 }  // namespace
 
-void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTruth& truth, const DetectVertexFacetOut& out, Tally& tally) {
+void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTruth& truth,
+                               const DetectVertexFacetOut& out, Tally& tally) {
   const MeshCase& mesh = std::get<MeshCase>(test.data);
   const Topology& topology = *mesh.topology;
   tally.begin(test.name);
@@ -148,14 +162,16 @@ void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTrut
   for (const Triangle& t : topology.triangles) longest = std::max(longest, longest_side(mesh, t));
   if (right_length(out.d_min_vertex.size(), truth.exact.d_min_vertex.size(), "d_min_vertex", tally))
     for (std::size_t v = 0; v < out.d_min_vertex.size(); ++v)
-      judge_smallest("vertex", v, out.d_min_vertex[v], truth.exact.d_min_vertex[v], pair_scale(truth.exact.d_min_vertex[v], longest), 0, tally);
+      judge_smallest("vertex", v, out.d_min_vertex[v], truth.exact.d_min_vertex[v],
+                     pair_scale(truth.exact.d_min_vertex[v], longest), 0, tally);
   if (right_length(out.d_min_triangle.size(), truth.exact.d_min_triangle.size(), "d_min_triangle", tally))
     for (std::size_t t = 0; t < out.d_min_triangle.size(); ++t)
       judge_smallest("triangle", t, out.d_min_triangle[t], truth.exact.d_min_triangle[t],
                      pair_scale(truth.exact.d_min_triangle[t], longest_side(mesh, topology.triangles[t])), 1, tally);
 }
 
-void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& truth, const DetectEdgeEdgeOut& out, Tally& tally) {
+void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& truth, const DetectEdgeEdgeOut& out,
+                            Tally& tally) {
   const MeshCase& mesh = std::get<MeshCase>(test.data);
   const Topology& topology = *mesh.topology;
   tally.begin(test.name);
@@ -167,7 +183,8 @@ void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& tru
   for (std::size_t e = 0; e < out.d_min_edge.size(); ++e) {
     const Edge ends = topology.edges[e];
     const double sides = longest + length(mesh.positions[ends[0]], mesh.positions[ends[1]]);
-    judge_smallest("edge", e, out.d_min_edge[e], truth.exact.d_min_edge[e], pair_scale(truth.exact.d_min_edge[e], sides), 0, tally);
+    judge_smallest("edge", e, out.d_min_edge[e], truth.exact.d_min_edge[e],
+                   pair_scale(truth.exact.d_min_edge[e], sides), 0, tally);
   }
 }
 
@@ -175,7 +192,8 @@ void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& 
   tally.begin(test.name);
   tally.count(truth.exact.bound.size(), truth.exact.bound.size(), 0);
   if (!right_length(out.bound.size(), truth.exact.bound.size(), "bound", tally)) return;
-  for (std::size_t v = 0; v < out.bound.size(); ++v) judge_smallest("vertex", v, out.bound[v], truth.exact.bound[v], truth.exact.bound[v], 0, tally);
+  for (std::size_t v = 0; v < out.bound.size(); ++v)
+    judge_smallest("vertex", v, out.bound[v], truth.exact.bound[v], truth.exact.bound[v], 0, tally);
 }
 
 }  // namespace ogc::compare

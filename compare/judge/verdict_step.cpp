@@ -1,5 +1,6 @@
-// Verdict of a step: what each event asks its own stage, from the answer's own state before it, so that the event which is named is the one that is wrong. The
-// first wrong event ends the case: what follows it may be garbage that no stage should be asked about.
+// Verdict of a step: what each event asks its own stage, from the answer's own state before it, so that the event which
+// is named is the one that is wrong. The first wrong event ends the case: what follows it may be garbage that no stage
+// should be asked about.
 #include <algorithm>
 #include <cmath>
 
@@ -16,13 +17,25 @@ const char* name_of(StepEventKind kind) {
   return names[std::min(2, static_cast<int>(kind))];
 }
 
-std::string where_of(const StepOut& out, std::size_t event) { return "event " + std::to_string(event) + ", " + name_of(out.events[event].kind); }
+std::string where_of(const StepOut& out, std::size_t event) {
+  return "event " + std::to_string(event) + ", " + name_of(out.events[event].kind);
+}
 
 class StepVerdict {
  public:
-  StepVerdict(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out, const Authority& authority, Tally& tally)
-      : test_(test), in_(in), truth_(truth), out_(out), authority_(authority), tally_(tally), groups_(rigid_groups(*in.scene)), partners_(exclusions(*in.scene).partners),
-        start_(to_single(in.scene->mesh.positions)), at_(start_), wrong_before_(tally.mismatched) {}
+  StepVerdict(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out,
+              const Authority& authority, Tally& tally)
+      : test_(test),
+        in_(in),
+        truth_(truth),
+        out_(out),
+        authority_(authority),
+        tally_(tally),
+        groups_(rigid_groups(*in.scene)),
+        partners_(exclusions(*in.scene).partners),
+        start_(to_single(in.scene->mesh.positions)),
+        at_(start_),
+        wrong_before_(tally.mismatched) {}
 
   void judge() {
     judge_parts();
@@ -33,7 +46,9 @@ class StepVerdict {
   bool right() const { return tally_.mismatched == wrong_before_; }
 
   void judge_parts() {
-    part("rest", Stage::rest_state, [&](Tally& own) { judge_rest_state(test_, authority_.rest_state({in_.scene, in_.topology}), out_.rest, own); });
+    part("rest", Stage::rest_state, [&](Tally& own) {
+      judge_rest_state(test_, authority_.rest_state({in_.scene, in_.topology}), out_.rest, own);
+    });
     if (!right()) return;
     judge_colours();
     judge_targets();
@@ -55,19 +70,22 @@ class StepVerdict {
     decisions_ += total.decisions;
     grey_ += total.grey;
     tally_.answered_not_exactly(total.not_exact);
-    for (const Mismatch& item : own.mismatches) tally_.mismatch(prefix + " (stage " + std::string(stage_name(stage)) + "): " + item.message);
+    for (const Mismatch& item : own.mismatches)
+      tally_.mismatch(prefix + " (stage " + std::string(stage_name(stage)) + "): " + item.message);
   }
 
   /// Any colouring in which no two free vertices of a stencil share a colour.
   void judge_colours() {
     const auto& colour = out_.colour;
     for (std::size_t v = 0; v < colour.size(); ++v)
-      if ((groups_[v] == -1) != (colour[v] >= 0) || colour[v] < -1) tally_.mismatch("colour" + vertex(v) + " has " + std::to_string(colour[v]));
+      if ((groups_[v] == -1) != (colour[v] >= 0) || colour[v] < -1)
+        tally_.mismatch("colour" + vertex(v) + " has " + std::to_string(colour[v]));
     const auto apart = [&](const auto& vertices) {
       for (std::size_t i = 0; i < vertices.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
           if (colour[vertices[i]] >= 0 && colour[vertices[i]] == colour[vertices[k]])
-            tally_.mismatch("colour" + vertex(static_cast<std::size_t>(vertices[i])) + " shares that of vertex " + std::to_string(vertices[k]));
+            tally_.mismatch("colour" + vertex(static_cast<std::size_t>(vertices[i])) + " shares that of vertex " +
+                            std::to_string(vertices[k]));
     };
     if (!right()) return;
     for (const RestTriangle& t : out_.rest.triangles) apart(t.corner);
@@ -91,13 +109,15 @@ class StepVerdict {
     for (std::size_t v = 0; v < start_.size(); ++v) {
       const Vec3f& y = out_.target[v];
       if (groups_[v] != -1) {
-        if (!(y == (groups_[v] == 0 ? start_[v] : truth_.prescribed_target[v]))) tally_.mismatch("target" + vertex(v) + " is not where its motion leads");
+        if (!(y == (groups_[v] == 0 ? start_[v] : truth_.prescribed_target[v])))
+          tally_.mismatch("target" + vertex(v) + " is not where its motion leads");
         continue;
       }
       const Vec3& x = exact.target[v];
       const double error = std::max({std::abs(y.x - x.x), std::abs(y.y - x.y), std::abs(y.z - x.z)});
-      tally_.error(1, in_units(error, exact.target_scale[v]),
-                   [&] { return "target" + vertex(v) + text(" is %.4g m off, of %.4g", error, exact.target_scale[v]); });
+      tally_.error(1, in_units(error, exact.target_scale[v]), [&] {
+        return "target" + vertex(v) + text(" is %.4g m off, of %.4g", error, exact.target_scale[v]);
+      });
     }
   }
 
@@ -106,7 +126,8 @@ class StepVerdict {
     for (std::size_t i = 0; i < common && right(); ++i) {
       const StepEvent& event = out_.events[i];
       if (event.kind != truth_.events[i]) {
-        const std::string after = i > 0 ? std::to_string(out_.events[i - 1].cut) + " vertices having been cut" : "at the start";
+        const std::string after = i > 0 ? std::to_string(out_.events[i - 1].cut) + " vertices having been cut"
+                                        : "at the start";
         tally_.mismatch(where(i) + ": a " + name_of(truth_.events[i]) + " is due, " + after);
         return;
       }
@@ -118,7 +139,8 @@ class StepVerdict {
       at_ = event.position;
     }
     if (right() && out_.events.size() != truth_.events.size())
-      tally_.mismatch("events: " + std::to_string(out_.events.size()) + " instead of " + std::to_string(truth_.events.size()));
+      tally_.mismatch("events: " + std::to_string(out_.events.size()) + " instead of " +
+                      std::to_string(truth_.events.size()));
   }
 
   /// X_prev is x, sets and smallest distances are those at X_prev, bounds those of the answer's own distances.
@@ -126,17 +148,22 @@ class StepVerdict {
     const StepEvent& event = out_.events[i];
     detection_ = &event;
     for (std::size_t v = 0; v < at_.size(); ++v)
-      if (!(event.position[v] == at_[v])) tally_.mismatch(where(i) + vertex(v) + " has an X_prev that is not its position");
+      if (!(event.position[v] == at_[v]))
+        tally_.mismatch(where(i) + vertex(v) + " has an X_prev that is not its position");
     if (!right()) return;
-    const TestCase mesh{test_.name, MeshCase{std::get<StepCase>(test_.data).topology, groups_, event.position,
-                                             static_cast<float>(in_.scene->settings.contact_radius), out_.query_radius, partners_}};
+    const TestCase mesh{test_.name,
+                        MeshCase{std::get<StepCase>(test_.data).topology, groups_, event.position,
+                                 static_cast<float>(in_.scene->settings.contact_radius), out_.query_radius, partners_}};
     const DetectIn question = detect_question(mesh);
-    part(where(i), Stage::detect_vertex_facet,
-         [&](Tally& own) { judge_detect_vertex_facet(mesh, authority_.detect_vertex_facet(question), event.vertex_facet, own); });
-    part(where(i), Stage::detect_edge_edge, [&](Tally& own) { judge_detect_edge_edge(mesh, authority_.detect_edge_edge(question), event.edge_edge, own); });
+    part(where(i), Stage::detect_vertex_facet, [&](Tally& own) {
+      judge_detect_vertex_facet(mesh, authority_.detect_vertex_facet(question), event.vertex_facet, own);
+    });
+    part(where(i), Stage::detect_edge_edge, [&](Tally& own) {
+      judge_detect_edge_edge(mesh, authority_.detect_edge_edge(question), event.edge_edge, own);
+    });
     if (!right()) return;
-    const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge, event.vertex_facet.d_min_triangle,
-                         static_cast<float>(in_.scene->settings.bound_relaxation)};
+    const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
+                         event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
     ++detections_;
   }
@@ -146,41 +173,58 @@ class StepVerdict {
     std::vector<std::uint8_t> touched(start_.size(), 0);
     const auto mark = [&](const Face& face) {
       if (face.kind == FaceKind::vertex) touched[face.index] = 1;
-      if (face.kind == FaceKind::edge) for (const Index v : in_.topology->edges[face.index]) touched[v] = 1;
-      if (face.kind == FaceKind::triangle) for (const Index v : in_.topology->triangles[face.index]) touched[v] = 1;
+      if (face.kind == FaceKind::edge)
+        for (const Index v : in_.topology->edges[face.index]) touched[v] = 1;
+      if (face.kind == FaceKind::triangle)
+        for (const Index v : in_.topology->triangles[face.index]) touched[v] = 1;
     };
-    for (const VertexFacetContact& c : detection_->vertex_facet.contacts) mark({FaceKind::vertex, c.vertex}), mark(c.face);
+    for (const VertexFacetContact& c : detection_->vertex_facet.contacts)
+      mark({FaceKind::vertex, c.vertex}), mark(c.face);
     for (const EdgeEdgeContact& c : detection_->edge_edge.contacts) mark(c.first), mark(c.second);
     return touched;
   }
 
-  /// y, truncated; in the first round for all vertices, later for those that touch nothing. A vertex that is not at y was cut: no cut leads to y itself, which
-  /// lies beyond the bound.
+  /// y, truncated; in the first round for all vertices, later for those that touch nothing. A vertex that is not at y
+  /// was cut: no cut leads to y itself, which lies beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
     const std::vector<std::uint8_t> held = detections_ > 1 ? touched() : std::vector<std::uint8_t>(start_.size(), 0);
     Index cut = 0;
     for (std::size_t v = 0; v < at_.size(); ++v) {
       if (held[v]) {
-        if (!(event.position[v] == at_[v])) tally_.mismatch(where(i) + vertex(v) + " is part of an active contact and did not stay");
+        if (!(event.position[v] == at_[v]))
+          tally_.mismatch(where(i) + vertex(v) + " is part of an active contact and did not stay");
         continue;
       }
       const bool exceeded = !(event.position[v] == out_.target[v]);
       cut += exceeded;
       const TruncateIn question{{at_[v]}, {out_.target[v]}, {detection_->bound[v]}};
-      part(where(i) + vertex(v), Stage::truncate,
-           [&](Tally& own) { judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {exceeded}}, own); });
+      part(where(i) + vertex(v), Stage::truncate, [&](Tally& own) {
+        judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {exceeded}}, own);
+      });
     }
-    if (event.cut != cut) tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, " + std::to_string(cut) + " are not at y");
+    if (event.cut != cut)
+      tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, " + std::to_string(cut) +
+                      " are not at y");
   }
 
   void judge_iteration(std::size_t i) {
     const StepEvent& event = out_.events[i];
-    const SweepIn question{in_.scene, in_.topology, &out_.rest, out_.colour, at_, start_, out_.target, detection_->position, detection_->bound,
-                           detection_->vertex_facet.contacts, detection_->edge_edge.contacts};
+    const SweepIn question{in_.scene,
+                           in_.topology,
+                           &out_.rest,
+                           out_.colour,
+                           at_,
+                           start_,
+                           out_.target,
+                           detection_->position,
+                           detection_->bound,
+                           detection_->vertex_facet.contacts,
+                           detection_->edge_edge.contacts};
     const SweepOut answer{event.position, event.cut};
     part(where(i), Stage::sweep, [&](Tally& own) {
-      if (can_judge_sweep(test_, question, answer, own)) judge_sweep(test_, question, authority_.sweep(question, answer), answer, own);
+      if (can_judge_sweep(test_, question, answer, own))
+        judge_sweep(test_, question, authority_.sweep(question, answer), answer, own);
     });
   }
 
@@ -190,8 +234,9 @@ class StepVerdict {
       const Vec3f& a = out_.velocity[v];
       const Vec3& b = truth_.velocity[v];
       const double error = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-      tally_.error(2, in_units(error, truth_.velocity_scale[v]),
-                   [&] { return "end" + vertex(v) + text(" has a velocity %.4g m/s off, of %.4g", error, std::hypot(b.x, b.y, b.z)); });
+      tally_.error(2, in_units(error, truth_.velocity_scale[v]), [&] {
+        return "end" + vertex(v) + text(" has a velocity %.4g m/s off, of %.4g", error, std::hypot(b.x, b.y, b.z));
+      });
     }
   }
 
@@ -232,7 +277,8 @@ bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, 
   return right;
 }
 
-void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out, const Authority& authority, Tally& tally) {
+void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out,
+                const Authority& authority, Tally& tally) {
   tally.begin(test.name);
   StepVerdict(test, in, truth, out, authority, tally).judge();
 }

@@ -1,4 +1,5 @@
-// Verdict of a sweep: the bounds by the judge's own exact arithmetic, all else by the authority's truth about this answer.
+// Verdict of a sweep: the bounds by the judge's own exact arithmetic, all else by the authority's truth about this
+// answer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +21,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
     if (obeys_bound(out.position[v], in.previous[v], in.bound[v])) continue;
     const Vec3f &x = out.position[v], &p = in.previous[v];
     const double moved = std::hypot(double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z);
-    tally.mismatch("vertex " + std::to_string(v) + text(": the stored position is %.17g from X_prev, bound %.9g", moved, in.bound[v]));
+    tally.mismatch("vertex " + std::to_string(v) +
+                   text(": the stored position is %.17g from X_prev, bound %.9g", moved, in.bound[v]));
     return false;
   }
   return true;
@@ -31,7 +33,8 @@ std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
   std::uint64_t count = in.old.size() + 3 * in.rest->triangles.size() + 4 * in.rest->hinges.size();
   for (const VertexFacetContact& c : in.vertex_facet) count += 1 + corners[static_cast<std::size_t>(c.face.kind)];
-  for (const EdgeEdgeContact& c : in.edge_edge) count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
+  for (const EdgeEdgeContact& c : in.edge_edge)
+    count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
   return count;
 }
 
@@ -65,11 +68,13 @@ void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& trut
       const Vec3f& x = out.position[v];
       const Vec3& exact = truth.position[v];
       return "vertex " + std::to_string(v) + ", colour " + std::to_string(in.colour[v]) +
-             text(": %.4g m from the exact position, %.4g accepted", std::hypot(x.x - exact.x, x.y - exact.y, x.z - exact.z), truth.accepted[v]);
+             text(": %.4g m from the exact position, %.4g accepted",
+                  std::hypot(x.x - exact.x, x.y - exact.y, x.z - exact.z), truth.accepted[v]);
     });
   }
   if (out.cut < truth.cut || out.cut > truth.cut + truth.cut_doubtful)
-    tally.mismatch("cut: " + std::to_string(out.cut) + ", exact " + std::to_string(truth.cut) + " and " + std::to_string(truth.cut_doubtful) + " in doubt");
+    tally.mismatch("cut: " + std::to_string(out.cut) + ", exact " + std::to_string(truth.cut) + " and " +
+                   std::to_string(truth.cut_doubtful) + " in doubt");
 }
 
 }  // namespace ogc::compare

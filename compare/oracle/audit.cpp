@@ -1,4 +1,5 @@
-// Culling by boxes, then one exact question for each pair. Findings are gathered by thread and sorted, so that the answer never depends on threads.
+// Culling by boxes, then one exact question for each pair. Findings are gathered by thread and sorted, so that the
+// answer never depends on threads.
 #include "compare/oracle/audit.hpp"
 
 #include <tbb/blocked_range.h>
@@ -25,7 +26,10 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 class Auditor {
  public:
   Auditor(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions)
-      : topology_(topology), positions_(positions), exclusions_(exclusions), tree_(triangle_boxes(topology, positions)) {}
+      : topology_(topology),
+        positions_(positions),
+        exclusions_(exclusions),
+        tree_(triangle_boxes(topology, positions)) {}
 
   Findings run() const {
     tbb::enumerable_thread_specific<Findings> shares;
@@ -46,7 +50,8 @@ class Auditor {
   static std::vector<Box> triangle_boxes(const Topology& topology, std::span<const Vec3> positions) {
     std::vector<Box> boxes;
     boxes.reserve(topology.triangles.size());
-    for (const Triangle& t : topology.triangles) boxes.push_back(box_of({positions[at(t[0])], positions[at(t[1])], positions[at(t[2])]}));
+    for (const Triangle& t : topology.triangles)
+      boxes.push_back(box_of({positions[at(t[0])], positions[at(t[1])], positions[at(t[2])]}));
     return boxes;
   }
 
@@ -78,7 +83,8 @@ class Auditor {
 
 }  // namespace
 
-AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions, const AuditOptions& options) {
+AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions,
+                  const AuditOptions& options) {
   check_state("audit", topology, positions, exclusions);
   Findings found = Auditor(topology, positions, exclusions).run();
   AuditResult result;
@@ -98,7 +104,8 @@ std::string describe(const Intersection& pair, const Topology& topology, const E
 std::string describe(const AuditResult& result, const Topology& topology, const ElementNames& names) {
   std::string text;
   for (const Intersection& pair : result.intersections) text += describe(pair, topology, names) + "\n";
-  if (result.count > result.intersections.size()) text += "and " + std::to_string(result.count - result.intersections.size()) + " more\n";
+  if (result.count > result.intersections.size())
+    text += "and " + std::to_string(result.count - result.intersections.size()) + " more\n";
   return text;
 }
 

@@ -13,7 +13,8 @@ namespace ogc::compare {
 
 enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle };
 
-/// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, or vertex `first` lies on triangle `second` that does not contain it.
+/// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, or vertex `first` lies on triangle
+/// `second` that does not contain it.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;
   Index first = -1, second = -1;
@@ -27,13 +28,14 @@ struct AuditOptions {
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;
-  std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet, without those left out
+  std::size_t pairs_tested = 0;  ///< edge–triangle pairs whose boxes meet, without those left out
 };
 
-/// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are left out beside those with a
-/// shared vertex. A collapsed triangle is the segment or point that it covers, an edge of length zero a point. Isolated vertices belong to no surface and
-/// are left out. A vertex on a triangle is listed
-/// beside its edges, which touch the triangle too. Throws InputError where a position is not finite or sizes do not fit.
+/// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are
+/// left out beside those with a shared vertex. A collapsed triangle is the segment or point that it covers, an edge of
+/// length zero a point. Isolated vertices belong to no surface and are left out. A vertex on a triangle is listed
+/// beside its edges, which touch the triangle too. Throws InputError where a position is not finite or sizes do not
+/// fit.
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 

@@ -50,7 +50,9 @@ Index BoxTree::build(std::span<const Box> boxes, std::span<Index> items) {
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (fresh.box.high[k] - fresh.box.low[k] > fresh.box.high[axis] - fresh.box.low[axis]) axis = k;
-  const auto key = [&](Index i) { return boxes[static_cast<std::size_t>(i)].low[axis] / 2 + boxes[static_cast<std::size_t>(i)].high[axis] / 2; };
+  const auto key = [&](Index i) {
+    return boxes[static_cast<std::size_t>(i)].low[axis] / 2 + boxes[static_cast<std::size_t>(i)].high[axis] / 2;
+  };
   const std::size_t half = items.size() / 2;
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                    [&](Index a, Index b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });

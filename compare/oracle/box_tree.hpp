@@ -1,5 +1,6 @@
-// A tree of axis-parallel boxes for the oracle's culling. Boxes are closed and compared in double without arithmetic, so culling never rounds: a pair
-// that meets is always visited. Own tree, because CGAL's asks its kernel about each datum and wants no degenerate ones.
+// A tree of axis-parallel boxes for the oracle's culling. Boxes are closed and compared in double without arithmetic,
+// so culling never rounds: a pair that meets is always visited. Own tree, because CGAL's asks its kernel about each
+// datum and wants no degenerate ones.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
-// ‖x − x_prev‖² − b² is a sum of 19 doubles without any rounding: a difference of two floats is two doubles, a product of two such doubles is two more
-// (fma), and every term is a multiple of 2⁻²⁹⁸ below 2²⁶⁰, so nothing under- or overflows. Its sign is that of the last of the components which
-// Shewchuk's "grow expansion" leaves (Adaptive Precision Floating-Point Arithmetic, 1997, Theorem 10).
+// ‖x − x_prev‖² − b² is a sum of 19 doubles without any rounding: a difference of two floats is two doubles, a product
+// of two such doubles is two more (fma), and every term is a multiple of 2⁻²⁹⁸ below 2²⁶⁰, so nothing under- or
+// overflows. Its sign is that of the last of the components which Shewchuk's "grow expansion" leaves (Adaptive
+// Precision Floating-Point Arithmetic, 1997, Theorem 10).
 #include "compare/oracle/certificate.hpp"
 
 #include <array>
@@ -54,7 +55,8 @@ bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) &&
 
 bool exceeds(const Vec3f& x, const Vec3f& previous, float bound) {
   ExactSum margin;
-  for (const auto& [now, before] : {std::array{x.x, previous.x}, std::array{x.y, previous.y}, std::array{x.z, previous.z}}) {
+  for (const auto& [now, before] :
+       {std::array{x.x, previous.x}, std::array{x.y, previous.y}, std::array{x.z, previous.z}}) {
     const TwoParts difference = two_sum(double{now}, -double{before});
     margin.add_product(difference.high, difference.high);
     margin.add_product(2 * difference.high, difference.low);
@@ -66,17 +68,21 @@ bool exceeds(const Vec3f& x, const Vec3f& previous, float bound) {
 
 }  // namespace
 
-MotionCertificate motion_certificate(std::span<const Vec3f> positions, std::span<const Vec3f> previous, std::span<const float> bounds) {
+MotionCertificate motion_certificate(std::span<const Vec3f> positions, std::span<const Vec3f> previous,
+                                     std::span<const float> bounds) {
   if (previous.size() != positions.size() || bounds.size() != positions.size())
-    throw InputError("motion certificate: " + std::to_string(positions.size()) + " positions, " + std::to_string(previous.size()) + " previous positions and " +
-                     std::to_string(bounds.size()) + " bounds: pass the arrays of one snapshot");
+    throw InputError("motion certificate: " + std::to_string(positions.size()) + " positions, " +
+                     std::to_string(previous.size()) + " previous positions and " + std::to_string(bounds.size()) +
+                     " bounds: pass the arrays of one snapshot");
   MotionCertificate certificate;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const Vec3f &x = positions[v], &p = previous[v];
     const bool meaningful = finite(x) && finite(p) && bounds[v] >= 0 && std::isfinite(bounds[v]);
     if (!meaningful || exceeds(x, p, bounds[v])) ++certificate.violations;
     const double length = std::hypot(double{x.x} - double{p.x}, double{x.y} - double{p.y}, double{x.z} - double{p.z});
-    const double ratio = !meaningful ? std::numeric_limits<double>::infinity() : length == 0 ? 0 : length / double{bounds[v]};
+    const double ratio = !meaningful   ? std::numeric_limits<double>::infinity()
+                         : length == 0 ? 0
+                                       : length / double{bounds[v]};
     if (ratio > certificate.worst_ratio) {
       certificate.worst_ratio = ratio;
       certificate.worst_vertex = static_cast<Index>(v);

@@ -1,4 +1,5 @@
-// The motion certificate (method.md §5.5): two states without intersections say nothing about the way between them; bounds that are kept do.
+// The motion certificate (method.md §5.5): two states without intersections say nothing about the way between them;
+// bounds that are kept do.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +11,18 @@ namespace ogc::compare {
 
 /// What the stored positions say about Eq. 27. Kept: no vertex moved further than its bound.
 struct MotionCertificate {
-  std::size_t violations = 0;  ///< vertices with ‖x − x_prev‖ > b_v, or with a number that is not finite, or with b_v < 0
-  Index worst_vertex = -1;     ///< of the largest ratio, the first of equals; -1 where no vertex moved
-  double worst_ratio = 0;      ///< largest ‖x − x_prev‖ / b_v, rounded; infinite where a vertex moved against b_v = 0 or is not finite
+  /// vertices with ‖x − x_prev‖ > b_v, or with a number that is not finite, or with b_v < 0
+  std::size_t violations = 0;
+  Index worst_vertex = -1;  ///< of the largest ratio, the first of equals; -1 where no vertex moved
+  /// largest ‖x − x_prev‖ / b_v, rounded; infinite where a vertex moved against b_v = 0 or is not finite
+  double worst_ratio = 0;
   bool kept() const { return violations == 0; }
 };
 
-/// Each comparison is exact, on the stored single-precision values; only `worst_ratio` is rounded. The arrays are those of a Snapshot: positions x,
-/// X_prev and b_v of the last detection [m], one entry each vertex. Throws InputError where their lengths differ.
-MotionCertificate motion_certificate(std::span<const Vec3f> positions, std::span<const Vec3f> previous, std::span<const float> bounds);
+/// Each comparison is exact, on the stored single-precision values; only `worst_ratio` is rounded. The arrays are those
+/// of a Snapshot: positions x, X_prev and b_v of the last detection [m], one entry each vertex. Throws InputError where
+/// their lengths differ.
+MotionCertificate motion_certificate(std::span<const Vec3f> positions, std::span<const Vec3f> previous,
+                                     std::span<const float> bounds);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Points of one plane are projected along a coordinate axis on which the plane does not project to a line, points of one line along two: both are
-// one-to-one there, and dropping coordinates rounds nothing.
+// Points of one plane are projected along a coordinate axis on which the plane does not project to a line, points of
+// one line along two: both are one-to-one there, and dropping coordinates rounds nothing.
 #include "compare/oracle/exact_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -41,12 +41,14 @@ bool planar_segments_meet(const Point2& p, const Point2& q, const Point2& a, con
   const int pa = CGAL::orientation(p, q, a), pb = CGAL::orientation(p, q, b);
   const int ap = CGAL::orientation(a, b, p), aq = CGAL::orientation(a, b, q);
   if (pa * pb < 0 && ap * aq < 0) return true;
-  return (pa == 0 && within(p, q, a)) || (pb == 0 && within(p, q, b)) || (ap == 0 && within(a, b, p)) || (aq == 0 && within(a, b, q));
+  return (pa == 0 && within(p, q, a)) || (pb == 0 && within(p, q, b)) || (ap == 0 && within(a, b, p)) ||
+         (aq == 0 && within(a, b, q));
 }
 
 /// Proper triangle, closed.
 bool planar_triangle_holds(const std::array<Point2, 3>& t, const Point2& p) {
-  const int s0 = CGAL::orientation(t[0], t[1], p), s1 = CGAL::orientation(t[1], t[2], p), s2 = CGAL::orientation(t[2], t[0], p);
+  const int s0 = CGAL::orientation(t[0], t[1], p), s1 = CGAL::orientation(t[1], t[2], p),
+            s2 = CGAL::orientation(t[2], t[0], p);
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
@@ -54,7 +56,8 @@ bool planar_segment_meets_triangle(const std::array<Vec3, 2>& segment, const std
   const std::array<Point2, 3> t{project(triangle[0], axis), project(triangle[1], axis), project(triangle[2], axis)};
   const Point2 p = project(segment[0], axis), q = project(segment[1], axis);
   if (planar_triangle_holds(t, p) || planar_triangle_holds(t, q)) return true;
-  return planar_segments_meet(p, q, t[0], t[1]) || planar_segments_meet(p, q, t[1], t[2]) || planar_segments_meet(p, q, t[2], t[0]);
+  return planar_segments_meet(p, q, t[0], t[1]) || planar_segments_meet(p, q, t[1], t[2]) ||
+         planar_segments_meet(p, q, t[2], t[0]);
 }
 
 /// All four points on one line, or all the same.
@@ -62,7 +65,8 @@ bool collinear_segments_meet(const std::array<Vec3, 2>& first, const std::array<
   const auto overlap = [](double a, double b, double c, double d) {
     return std::max(std::min(a, b), std::min(c, d)) <= std::min(std::max(a, b), std::max(c, d));
   };
-  return overlap(first[0].x, first[1].x, second[0].x, second[1].x) && overlap(first[0].y, first[1].y, second[0].y, second[1].y) &&
+  return overlap(first[0].x, first[1].x, second[0].x, second[1].x) &&
+         overlap(first[0].y, first[1].y, second[0].y, second[1].y) &&
          overlap(first[0].z, first[1].z, second[0].z, second[1].z);
 }
 

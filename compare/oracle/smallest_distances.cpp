@@ -1,5 +1,6 @@
-// Culling by boxes of the distance found so far, intervals next, and exact numbers for what may be nearer or as near: of the pairs of a regular stack, that is
-// most. Threads share the distance, and nothing but the order in which pairs are left out depends on them: the nearest pair and its name do not.
+// Culling by boxes of the distance found so far, intervals next, and exact numbers for what may be nearer or as near:
+// of the pairs of a regular stack, that is most. Threads share the distance, and nothing but the order in which pairs
+// are left out depends on them: the nearest pair and its name do not.
 #include "compare/oracle/smallest_distances.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -35,12 +36,16 @@ bool certainly_beyond(const std::array<Vec3, A>& first, const std::array<Vec3, B
 double root_rounded_down(const Rational& square) {
   double root = std::sqrt(CGAL::to_interval(square).first);
   while (Rational(root) * Rational(root) > square) root = std::nextafter(root, 0.0);
-  for (double next = std::nextafter(root, infinity); root > 0 && Rational(next) * Rational(next) <= square; next = std::nextafter(root, infinity)) root = next;
+  for (double next = std::nextafter(root, infinity); root > 0 && Rational(next) * Rational(next) <= square;
+       next = std::nextafter(root, infinity))
+    root = next;
   return root;
 }
 
 /// A double that is not below the square.
-double square_above(const LeastSquare& square) { return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second; }
+double square_above(const LeastSquare& square) {
+  return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second;
+}
 
 /// The nearest of the pairs that one thread saw.
 struct Nearest {
@@ -53,7 +58,9 @@ struct Nearest {
     const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
     return may_be_positive(difference) || (!may_be_negative(difference) && std::pair(first, second) < std::pair(i, j));
   }
-  double distance() const { return first < 0 ? infinity : root_rounded_down(Rational(square.numerator) / Rational(square.denominator)); }
+  double distance() const {
+    return first < 0 ? infinity : root_rounded_down(Rational(square.numerator) / Rational(square.denominator));
+  }
 };
 
 /// What all threads know: no pair beyond the root of `limit` is the nearest.
@@ -66,13 +73,14 @@ class Search {
     offer_distance(widen<Exact>(a), widen<Exact>(b), square);
     Nearest& nearest = shares_.local();
     if (nearest.keeps(square, first, second)) return;
-    const bool nearer = nearest.first < 0 || square.numerator * nearest.square.denominator < nearest.square.numerator * square.denominator;
+    const bool nearer = nearest.first < 0 ||
+                        square.numerator * nearest.square.denominator < nearest.square.numerator * square.denominator;
     nearest = {square, first, second};
     if (nearer) lower(square_above(square));
   }
 
-  /// `box` grown by no less than the nearest distance: the root and the sums are each off by half a unit in the last place at most, two steps outwards
-  /// are more than that.
+  /// `box` grown by no less than the nearest distance: the root and the sums are each off by half a unit in the last
+  /// place at most, two steps outwards are more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -128,14 +136,16 @@ Nearest nearest_of(std::size_t count, Visit visit) {
   return search.nearest();
 }
 
-Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions) {
+Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> positions,
+                                const ExclusionView& exclusions) {
   const BoxTree tree = tree_over(positions, topology.triangles);
   return nearest_of(at(topology.vertex_count), [&](Search& search, Index v) {
     if (topology.vertex_edges[at(v)].empty()) return;
     const std::array<Index, 1> vertex{v};
     tree.for_each_meeting(search.search_box(box_of_corners(positions, vertex)), [&](Index t) {
       const Triangle& triangle = topology.triangles[at(t)];
-      if (!left_out(vertex, triangle, exclusions)) search.offer(v, t, corners(positions, vertex), corners(positions, triangle));
+      if (!left_out(vertex, triangle, exclusions))
+        search.offer(v, t, corners(positions, vertex), corners(positions, triangle));
     });
   });
 }
@@ -147,16 +157,19 @@ Nearest nearest_edge_edge(const Topology& topology, std::span<const Vec3> positi
     tree.for_each_meeting(search.search_box(box_of_corners(positions, edge)), [&](Index other) {
       if (other <= e) return;
       const Edge& partner = topology.edges[at(other)];
-      if (!left_out(edge, partner, exclusions)) search.offer(e, other, corners(positions, edge), corners(positions, partner));
+      if (!left_out(edge, partner, exclusions))
+        search.offer(e, other, corners(positions, edge), corners(positions, partner));
     });
   });
 }
 
 }  // namespace
 
-SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions) {
+SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions,
+                                     const ExclusionView& exclusions) {
   check_state("smallest distances", topology, positions, exclusions);
-  const Nearest facet = nearest_vertex_triangle(topology, positions, exclusions), edges = nearest_edge_edge(topology, positions, exclusions);
+  const Nearest facet = nearest_vertex_triangle(topology, positions, exclusions),
+                edges = nearest_edge_edge(topology, positions, exclusions);
   return {facet.distance(), facet.first, facet.second, edges.distance(), edges.first, edges.second};
 }
 

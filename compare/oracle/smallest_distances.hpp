@@ -8,7 +8,8 @@
 
 namespace ogc::compare {
 
-/// Smallest distances over pairs that share no vertex and do not lie inside one rigid group, without isolated vertices [m]; infinite, with -1, where there is no pair.
+/// Smallest distances over pairs that share no vertex and do not lie inside one rigid group, without isolated vertices
+/// [m]; infinite, with -1, where there is no pair.
 struct SmallestDistances {
   double vertex_triangle = std::numeric_limits<double>::infinity();
   Index vertex = -1, triangle = -1;
@@ -16,8 +17,10 @@ struct SmallestDistances {
   Index edge = -1, other_edge = -1;  ///< edge < other_edge
 };
 
-/// Which pairs are nearest is decided exactly; of pairs equally near the one with the smallest numbers is named. The distances are the exact ones rounded
-/// down. `exclusions`: pairs that are left out beside adjacent ones. Throws InputError for positions that are not finite.
-SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {});
+/// Which pairs are nearest is decided exactly; of pairs equally near the one with the smallest numbers is named. The
+/// distances are the exact ones rounded down. `exclusions`: pairs that are left out beside adjacent ones. Throws
+/// InputError for positions that are not finite.
+SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions,
+                                     const ExclusionView& exclusions = {});
 
 }  // namespace ogc::compare

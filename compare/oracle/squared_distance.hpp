@@ -1,6 +1,7 @@
-// Squared distances of points, triangles and segments as quotients, without a division and without a case that is decided wrongly: every feature whose region
-// can't be excluded offers the distance to its point, line or plane. For exact numbers these are the right features, for intervals a superset; a distance
-// to a line or plane is never above that to the feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of this room
+// Squared distances of points, triangles and segments as quotients, without a division and without a case that is
+// decided wrongly: every feature whose region can't be excluded offers the distance to its point, line or plane. For
+// exact numbers these are the right features, for intervals a superset; a distance to a line or plane is never above
+// that to the feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of this room
 // include this header: it shows CGAL's number types.
 #pragma once
 
@@ -66,7 +67,8 @@ std::array<DistanceVector<N>, K> widen(const std::array<Vec3, K>& points) {
 
 /// Of a point and the closed segment ab, which may be a point.
 template <class N, class Least>
-void offer_point_segment(const DistanceVector<N>& p, const DistanceVector<N>& a, const DistanceVector<N>& b, Least& least) {
+void offer_point_segment(const DistanceVector<N>& p, const DistanceVector<N>& a, const DistanceVector<N>& b,
+                         Least& least) {
   const auto e = minus(b, a), w = minus(p, a), rest = minus(p, b);
   const N length = dot(e, e), along = dot(w, e), beyond = along - length;
   if (!may_be_positive(along) || may_be_negative(along)) least.offer(dot(w, w), N(1));
@@ -78,7 +80,8 @@ void offer_point_segment(const DistanceVector<N>& p, const DistanceVector<N>& a,
 
 /// Of a point and a closed triangle, which may be collapsed.
 template <class N, class Least>
-void offer_distance(const std::array<DistanceVector<N>, 1>& point, const std::array<DistanceVector<N>, 3>& corners, Least& least) {
+void offer_distance(const std::array<DistanceVector<N>, 1>& point, const std::array<DistanceVector<N>, 3>& corners,
+                    Least& least) {
   const auto n = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   const N square = dot(n, n);
   bool possible = may_be_positive(square), certain = possible;
@@ -97,8 +100,10 @@ void offer_distance(const std::array<DistanceVector<N>, 1>& point, const std::ar
 
 /// Of two closed segments, each of which may be a point.
 template <class N, class Least>
-void offer_distance(const std::array<DistanceVector<N>, 2>& first, const std::array<DistanceVector<N>, 2>& second, Least& least) {
-  const auto u = minus(first[1], first[0]), v = minus(second[1], second[0]), w = minus(second[0], first[0]), n = cross(u, v);
+void offer_distance(const std::array<DistanceVector<N>, 2>& first, const std::array<DistanceVector<N>, 2>& second,
+                    Least& least) {
+  const auto u = minus(first[1], first[0]), v = minus(second[1], second[0]), w = minus(second[0], first[0]),
+             n = cross(u, v);
   const N square = dot(n, n), s = dot(cross(w, v), n), t = dot(cross(w, u), n);
   const N s_rest = square - s, t_rest = square - t;
   bool possible = may_be_positive(square), certain = possible;

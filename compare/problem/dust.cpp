@@ -46,8 +46,8 @@ Dust clear_dust(Mesh& mesh) {
 }
 
 Dust clear_dust(Scene& scene) {
-  const double limit =
-      dust_share * std::max(largest_coordinate(scene.mesh.positions), largest_coordinate(scene.rest_positions));
+  const double limit = dust_share *
+                       std::max(largest_coordinate(scene.mesh.positions), largest_coordinate(scene.rest_positions));
   Dust dust;
   clear(scene.rest_positions, limit, scene.mesh.positions, dust);
   clear(scene.mesh.positions, limit, {}, dust);

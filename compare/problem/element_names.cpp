@@ -91,8 +91,8 @@ std::string ElementNames::vertices(std::span<const Index> list) const {
     const Part& part = part_of(v);
     if (part.source != nullptr && !part.source->shares_vertices) return {};
     const Index local = v - part.first_vertex;
-    const Index number =
-        part.source == nullptr ? local : file_number(part.source->vertices, local) + part.source->first;
+    const Index number = part.source == nullptr ? local
+                                                : file_number(part.source->vertices, local) + part.source->first;
     text += (text.empty() ? list.size() == 1 ? "vertex " : "vertices " : ", ") + std::to_string(number);
   }
   return text;

@@ -1,4 +1,5 @@
-// Which pairs of faces are no pairs (method.md §2.3): neither contacts, nor part of d_min, nor of an audit. Who asks, decides; here are the facts.
+// Which pairs of faces are no pairs (method.md §2.3): neither contacts, nor part of d_min, nor of an audit. Who asks,
+// decides; here are the facts.
 #pragma once
 
 #include <span>
@@ -11,7 +12,8 @@ namespace ogc::compare {
 struct Exclusions {
   /// By vertex; may be empty. A pair whose vertices all carry one number ≥ 0 is left out.
   std::vector<Index> groups;
-  /// By vertex, both ways; without rows where there are none. A pair is left out where a vertex of one side is a partner of a vertex of the other.
+  /// By vertex, both ways; without rows where there are none. A pair is left out where a vertex of one side is a
+  /// partner of a vertex of the other.
   CompressedRows partners{};
   friend bool operator==(const Exclusions& a, const Exclusions& b) {
     return a.groups == b.groups && a.partners.offsets == b.partners.offsets && a.partners.items == b.partners.items;
@@ -24,12 +26,15 @@ struct ExclusionView {
   const CompressedRows* partners = nullptr;  ///< null: there are none
 
   ExclusionView() = default;
-  ExclusionView(std::span<const Index> by_group, const CompressedRows* by_partner = nullptr) : groups(by_group), partners(by_partner) {}
+  ExclusionView(std::span<const Index> by_group, const CompressedRows* by_partner = nullptr)
+      : groups(by_group), partners(by_partner) {}
   ExclusionView(const std::vector<Index>& by_group) : groups(by_group) {}
-  ExclusionView(const Exclusions& all) : groups(all.groups), partners(all.partners.rows() > 0 ? &all.partners : nullptr) {}
+  ExclusionView(const Exclusions& all)
+      : groups(all.groups), partners(all.partners.rows() > 0 ? &all.partners : nullptr) {}
 };
 
-/// Rows of partners of `count` vertices, each pair both ways, ascending and without repetition; without rows where there is no pair. Indices are valid.
+/// Rows of partners of `count` vertices, each pair both ways, ascending and without repetition; without rows where
+/// there is no pair. Indices are valid.
 CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index, 2>> pairs);
 
 /// The pairs of such rows, smaller vertex first, ascending.

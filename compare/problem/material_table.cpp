@@ -11,11 +11,15 @@ constexpr double least = 0x1p-30, most = 0x1p40;
 constexpr std::array<MaterialInfo, 8> table{{
     {"density", "kg/m²", "mass per rest area", least, most, &Material::density},
     {"lame_mu", "N/m", "membrane: second Lamé constant times thickness", 0, most, &Material::lame_mu},
-    {"lame_lambda", "N/m", "membrane: first Lamé constant (plane stress) times thickness", 0, most, &Material::lame_lambda},
-    {"bending_stiffness", "J", "bending: k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)²", 0, most, &Material::bending_stiffness},
-    {"membrane_damping", "s", "stiffness-proportional damping k_d of the membrane", 0, most, &Material::membrane_damping},
+    {"lame_lambda", "N/m", "membrane: first Lamé constant (plane stress) times thickness", 0, most,
+     &Material::lame_lambda},
+    {"bending_stiffness", "J", "bending: k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)²", 0, most,
+     &Material::bending_stiffness},
+    {"membrane_damping", "s", "stiffness-proportional damping k_d of the membrane", 0, most,
+     &Material::membrane_damping},
     {"bending_damping", "s", "stiffness-proportional damping k_d of bending", 0, most, &Material::bending_damping},
-    {"contact_stiffness", "N/m", "k_c; two surfaces meet with the harmonic mean", least, most, &Material::contact_stiffness},
+    {"contact_stiffness", "N/m", "k_c; two surfaces meet with the harmonic mean", least, most,
+     &Material::contact_stiffness},
     {"friction", "1", "μ_c; two surfaces meet with the arithmetic mean", 0, 0x1p10, &Material::friction},
 }};
 

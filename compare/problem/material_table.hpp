@@ -1,4 +1,5 @@
-// Every constant of a material with unit and range in one table: validation, rounding, scene files and their schema read it.
+// Every constant of a material with unit and range in one table: validation, rounding, scene files and their schema
+// read it.
 #pragma once
 
 #include <span>
@@ -15,7 +16,8 @@ struct MaterialInfo {
   double Material::*field;
 };
 
-/// All constants, in the order of the struct. Ranges keep squares and products of two of them finite and normal in single precision.
+/// All constants, in the order of the struct. Ranges keep squares and products of two of them finite and normal in
+/// single precision.
 std::span<const MaterialInfo> material_table();
 
 /// Name of a model in scene files: "none", "st_venant_kirchhoff", "stable_neo_hookean".

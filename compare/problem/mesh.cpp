@@ -1,5 +1,5 @@
-// Adjacency by counting sorts: one pass counts a row's items, one fills them, and visiting items in ascending order leaves the rows sorted.
-// A million vertices take about a second of memory traffic and no global sort.
+// Adjacency by counting sorts: one pass counts a row's items, one fills them, and visiting items in ascending order
+// leaves the rows sorted. A million vertices take about a second of memory traffic and no global sort.
 #include "compare/problem/mesh.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ Index number(std::size_t i) { return static_cast<Index>(i); }
 
 Edge ordered(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
-// `visit(emit)` calls emit(row, item) for every entry, items of one row in the order wanted, and does the same each time it is called.
+// `visit(emit)` calls emit(row, item) for every entry, items of one row in the order wanted, and does the same each
+// time it is called.
 template <class Visit>
 CompressedRows gather(std::size_t rows, const Visit& visit) {
   CompressedRows result;
@@ -47,15 +48,17 @@ void check_face(const char* kind, std::size_t i, std::span<const Index> corners,
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const bool repeated = corners[k] == corners[(k + 1) % corners.size()];
     if (corners[k] < 0 || corners[k] >= vertex_count || repeated) {
-      throw std::out_of_range(std::string(kind) + " " + std::to_string(i) + ": vertex " + std::to_string(corners[k]) +
-                              (repeated ? " is repeated" : " does not exist (" + std::to_string(vertex_count) + " vertices)"));
+      throw std::out_of_range(
+          std::string(kind) + " " + std::to_string(i) + ": vertex " + std::to_string(corners[k]) +
+          (repeated ? " is repeated" : " does not exist (" + std::to_string(vertex_count) + " vertices)"));
     }
   }
 }
 
 void check_indices(Index vertex_count, std::span<const Triangle> triangles, std::span<const Edge> loose_edges) {
   constexpr std::size_t most = std::numeric_limits<Index>::max() / 2;  // each edge stands in two rows
-  if (triangles.size() > most / 3 || loose_edges.size() > most - 3 * triangles.size()) throw std::out_of_range("more edges than an index can number");
+  if (triangles.size() > most / 3 || loose_edges.size() > most - 3 * triangles.size())
+    throw std::out_of_range("more edges than an index can number");
   for (std::size_t t = 0; t < triangles.size(); ++t) check_face("triangle", t, triangles[t], vertex_count);
   for (std::size_t e = 0; e < loose_edges.size(); ++e) check_face("loose edge", e, loose_edges[e], vertex_count);
 }
@@ -79,7 +82,8 @@ void number_edges(Topology& topology, const CompressedRows& ends) {
   const auto edge_number = [&](Index a, Index b) {
     const auto [smaller, larger] = ordered(a, b);
     const auto row = ends[at(smaller)];
-    return ends.offsets[at(smaller)] + static_cast<Index>(std::lower_bound(row.begin(), row.end(), larger) - row.begin());
+    return ends.offsets[at(smaller)] +
+           static_cast<Index>(std::lower_bound(row.begin(), row.end(), larger) - row.begin());
   };
   topology.triangle_edges.reserve(topology.triangles.size());
   for (const auto& [a, b, c] : topology.triangles) {
@@ -133,8 +137,9 @@ void sort_out_edges(Topology& topology) {
     if (around.size() == 1) topology.boundary_edges.push_back(edge);
     if (around.size() >= 3) topology.non_manifold_edges.push_back(edge);
     if (around.size() == 2) {
-      topology.hinges.push_back(
-          {edge, {around[0], around[1]}, {opposite_of(topology, edge, around[0]), opposite_of(topology, edge, around[1])}});
+      topology.hinges.push_back({edge,
+                                 {around[0], around[1]},
+                                 {opposite_of(topology, edge, around[0]), opposite_of(topology, edge, around[1])}});
     }
   }
 }
@@ -178,7 +183,9 @@ Topology build_topology(Index vertex_count, std::span<const Triangle> triangles,
 Index find_edge(const Topology& topology, Index a, Index b) {
   const Edge wanted = ordered(a, b);
   const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), wanted);
-  return found != topology.edges.end() && *found == wanted ? number(static_cast<std::size_t>(found - topology.edges.begin())) : -1;
+  return found != topology.edges.end() && *found == wanted
+             ? number(static_cast<std::size_t>(found - topology.edges.begin()))
+             : -1;
 }
 
 }  // namespace ogc::compare

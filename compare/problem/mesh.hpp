@@ -35,8 +35,8 @@ struct Hinge {
   std::array<Index, 2> opposite{-1, -1};
 };
 
-/// Adjacency of a complex of `vertex_count` vertices. Edge numbers are names that both contestants share: all edges of triangles and all loose
-/// edges, without repetition, sorted by smaller, then larger vertex.
+/// Adjacency of a complex of `vertex_count` vertices. Edge numbers are names that both contestants share: all edges of
+/// triangles and all loose edges, without repetition, sorted by smaller, then larger vertex.
 struct Topology {
   Index vertex_count = 0;
   std::vector<Triangle> triangles;
@@ -46,15 +46,18 @@ struct Topology {
   CompressedRows vertex_edges;                       ///< edges that contain v
   CompressedRows vertex_neighbours;                  ///< V_v: vertices that share an edge with v (Eq. 8)
   CompressedRows edge_triangles;                     ///< triangles that contain e
-  CompressedRows edge_opposite;                      ///< V_e: vertices that share a triangle with e (Eq. 9), however many
-  std::vector<Hinge> hinges;                         ///< by edge number
-  std::vector<Index> boundary_edges;                 ///< edges with exactly one triangle
-  std::vector<Index> non_manifold_edges;             ///< edges with three or more triangles
-  std::vector<Index> component;                      ///< component number of each vertex, numbered by first vertex
+  /// V_e: vertices that share a triangle with e (Eq. 9), however many
+  CompressedRows edge_opposite;
+  std::vector<Hinge> hinges;              ///< by edge number
+  std::vector<Index> boundary_edges;      ///< edges with exactly one triangle
+  std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
+  std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 };
 
-/// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws std::out_of_range otherwise.
-Topology build_topology(Index vertex_count, std::span<const Triangle> triangles, std::span<const Edge> loose_edges = {});
+/// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws
+/// std::out_of_range otherwise.
+Topology build_topology(Index vertex_count, std::span<const Triangle> triangles,
+                        std::span<const Edge> loose_edges = {});
 
 /// Number of the edge {a, b}, or -1 where there is none.
 Index find_edge(const Topology& topology, Index a, Index b);

@@ -1,4 +1,5 @@
-// Bookkeeping of scenes, and the one motion that everything prescribed follows. Targets are computed here, once, for all contestants.
+// Bookkeeping of scenes, and the one motion that everything prescribed follows. Targets are computed here, once, for
+// all contestants.
 #include "compare/problem/scene.hpp"
 
 #include <algorithm>
@@ -9,7 +10,8 @@
 namespace ogc::compare {
 namespace {
 
-// Through memory: g++ 12.2 vectorises a pair of conversions double → float → double to nothing at -O2 (basic-block vectorisation).
+// Through memory: g++ 12.2 vectorises a pair of conversions double → float → double to nothing at -O2 (basic-block
+// vectorisation).
 double rounded(double value) {
   const volatile float single = static_cast<float>(value);
   return single;
@@ -19,9 +21,12 @@ Vec3 rounded(const Vec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)};
 
 Vec3f narrowed(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
-// x(t) as x + (R − I)(x − c) + u τ with R − I = sin θ K + 2 sin²(θ/2) K²: before the motion starts the start position comes back exactly.
+// x(t) as x + (R − I)(x − c) + u τ with R − I = sin θ K + 2 sin²(θ/2) K²: before the motion starts the start position
+// comes back exactly.
 struct RigidMotion {
   Vec3 centre, axis, shift;
   double sine, versine;
@@ -86,11 +91,13 @@ void round_to_single(Scene& scene) {
     for (const MaterialInfo& info : material_table()) body.material.*info.field = rounded(body.material.*info.field);
   }
   for (Spring& spring : scene.springs) {
-    for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping, &spring.ratio}) *number = rounded(*number);
+    for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping, &spring.ratio})
+      *number = rounded(*number);
   }
   scene.gravity = rounded(scene.gravity);
   for (const SettingInfo& info : setting_table()) {
-    if (const auto* field = std::get_if<double Settings::*>(&info.field)) scene.settings.**field = rounded(scene.settings.**field);
+    if (const auto* field = std::get_if<double Settings::*>(&info.field))
+      scene.settings.** field = rounded(scene.settings.**field);
   }
 }
 
@@ -105,7 +112,9 @@ std::vector<Index> rigid_groups(const Scene& scene) {
   return groups;
 }
 
-Exclusions exclusions(const Scene& scene) { return {rigid_groups(scene), partner_rows(scene.mesh.positions.size(), scene.excluded_pairs)}; }
+Exclusions exclusions(const Scene& scene) {
+  return {rigid_groups(scene), partner_rows(scene.mesh.positions.size(), scene.excluded_pairs)};
+}
 
 void add_stitch(Scene& scene, Index first, Index second, Index third, double ratio, double stiffness) {
   if (ratio == 1) std::swap(second, third), ratio = 0;
@@ -120,7 +129,8 @@ std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion
   const RigidMotion moved(motion, t);
   std::vector<Vec3f> targets;
   targets.reserve(motion.vertices.size());
-  for (const Index v : motion.vertices) targets.push_back(narrowed(moved(scene.mesh.positions[static_cast<std::size_t>(v)])));
+  for (const Index v : motion.vertices)
+    targets.push_back(narrowed(moved(scene.mesh.positions[static_cast<std::size_t>(v)])));
   return targets;
 }
 
@@ -145,7 +155,9 @@ std::vector<Vec3f> to_single(const std::vector<Vec3>& positions) {
 
 std::vector<Vec3> to_double(const std::vector<Vec3f>& positions) {
   std::vector<Vec3> result(positions.size());
-  std::transform(positions.begin(), positions.end(), result.begin(), [](const Vec3f& v) { return Vec3{v.x, v.y, v.z}; });
+  std::transform(positions.begin(), positions.end(), result.begin(), [](const Vec3f& v) {
+    return Vec3{v.x, v.y, v.z};
+  });
   return result;
 }
 

@@ -1,5 +1,6 @@
-// A scene: everything that a contestant needs to know. Plain data in double; `round_to_single` makes each number one that single
-// precision holds exactly, so that a contestant in single and one in double are asked the same question (method.md §2.5).
+// A scene: everything that a contestant needs to know. Plain data in double; `round_to_single` makes each number one
+// that single precision holds exactly, so that a contestant in single and one in double are asked the same question
+// (method.md §2.5).
 #pragma once
 
 #include <cstdint>
@@ -17,15 +18,16 @@ enum class BendingModel { none, discrete_hinge, isometric_quadratic };
 
 /// Constants of one body's surface (method.md §4.5 to §4.10).
 struct Material {
-  double density = 0.2;                 ///< mass per rest area [kg/m²]
+  double density = 0.2;  ///< mass per rest area [kg/m²]
   MembraneModel membrane = MembraneModel::st_venant_kirchhoff;
   double lame_mu = 10, lame_lambda = 10;  ///< plane-stress Lamé constants times thickness [N/m]
   BendingModel bending = BendingModel::discrete_hinge;
-  double bending_stiffness = 5e-7;      ///< k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², isometric: of k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖² [J]
-  double membrane_damping = 0;          ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
-  double bending_damping = 0;           ///< the same for θ − θᵗ [s]
-  double contact_stiffness = 100;       ///< k_c [N/m]; two surfaces meet with the harmonic mean
-  double friction = 0.2;                ///< μ_c [1]; two surfaces meet with the arithmetic mean
+  /// k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², isometric: of k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖² [J]
+  double bending_stiffness = 5e-7;
+  double membrane_damping = 0;     ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
+  double bending_damping = 0;      ///< the same for θ − θᵗ [s]
+  double contact_stiffness = 100;  ///< k_c [N/m]; two surfaces meet with the harmonic mean
+  double friction = 0.2;           ///< μ_c [1]; two surfaces meet with the arithmetic mean
   friend bool operator==(const Material&, const Material&) = default;
 };
 
@@ -47,55 +49,60 @@ struct Keyframes {
   friend bool operator==(const Keyframes&, const Keyframes&) = default;
 };
 
-/// Prescribed motion of a set of vertices: by keyframes where there are any, otherwise rigid: x(t) = R(ω (t − t₀)) (x(0) − c) + c + u (t − t₀), for
-/// t₀ = start ≤ t ≤ end, at rest before and after. R turns by the right-hand rule about `axis` through `centre`. Its vertices form one group: pairs inside
-/// are no contacts, not even where keyframes deform it.
+/// Prescribed motion of a set of vertices: by keyframes where there are any, otherwise rigid: x(t) = R(ω (t − t₀))
+/// (x(0) − c) + c + u (t − t₀), for t₀ = start ≤ t ≤ end, at rest before and after. R turns by the right-hand rule
+/// about `axis` through `centre`. Its vertices form one group: pairs inside are no contacts, not even where keyframes
+/// deform it.
 struct PrescribedMotion {
   std::string name;
   std::vector<Index> vertices;
-  Vec3 centre{}, axis{1, 0, 0};     ///< [m]; direction of the axis: not zero, its length does not matter
-  double angular_velocity = 0;      ///< ω [rad/s]
-  Vec3 velocity{};                  ///< u [m/s]
-  double start = 0, end = 1e30;     ///< [s]
+  Vec3 centre{}, axis{1, 0, 0};  ///< [m]; direction of the axis: not zero, its length does not matter
+  double angular_velocity = 0;   ///< ω [rad/s]
+  Vec3 velocity{};               ///< u [m/s]
+  double start = 0, end = 1e30;  ///< [s]
   Keyframes keyframes;
   friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
-/// A spring between a vertex and another one, or a point of the line between two others, of any bodies: k/2 (l − l₀)², and k_d/h · k/2 (l − lᵗ)² of damping,
-/// with l = ‖x_first − (1 − s) x_second − s x_third‖. It is no edge of the mesh and takes no part in contact. A stitch has l₀ = 0, and the pairs beside it are
-/// no contacts only where `Scene::excluded_pairs` says so.
+/// A spring between a vertex and another one, or a point of the line between two others, of any bodies: k/2 (l − l₀)²,
+/// and k_d/h · k/2 (l − lᵗ)² of damping, with l = ‖x_first − (1 − s) x_second − s x_third‖. It is no edge of the mesh
+/// and takes no part in contact. A stitch has l₀ = 0, and the pairs beside it are no contacts only where
+/// `Scene::excluded_pairs` says so.
 struct Spring {
-  Index first = -1, second = -1;        ///< vertices, not the same
-  double stiffness = 0;                 ///< k [N/m]
-  double rest_length = 0;               ///< l₀ [m]
-  double damping = 0;                   ///< k_d [s]
-  Index third = -1;                     ///< −1: there is none, and s = 0
-  double ratio = 0;                     ///< s [1], from 0 to 1
+  Index first = -1, second = -1;  ///< vertices, not the same
+  double stiffness = 0;           ///< k [N/m]
+  double rest_length = 0;         ///< l₀ [m]
+  double damping = 0;             ///< k_d [s]
+  Index third = -1;               ///< −1: there is none, and s = 0
+  double ratio = 0;               ///< s [1], from 0 to 1
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
 struct Scene {
   std::string name;
-  Mesh mesh;                          ///< start positions X⁰ [m] of all bodies
-  std::vector<Vec3> rest_positions;   ///< [m]; same length as mesh.positions
-  std::vector<Vec3> velocities;       ///< V⁰ [m/s]; same length
-  std::vector<Body> bodies;           ///< cover all vertices and triangles, in order
+  Mesh mesh;                         ///< start positions X⁰ [m] of all bodies
+  std::vector<Vec3> rest_positions;  ///< [m]; same length as mesh.positions
+  std::vector<Vec3> velocities;      ///< V⁰ [m/s]; same length
+  std::vector<Body> bodies;          ///< cover all vertices and triangles, in order
   std::vector<PrescribedMotion> motions;
   std::vector<Spring> springs;
-  std::vector<std::array<Index, 2>> excluded_pairs;  ///< vertices: a pair of faces with one of them on each side is left out (stitched primitives, §5.1.3)
-  Vec3 gravity{0, -9.81, 0};          ///< [m/s²]
+  /// vertices: a pair of faces with one of them on each side is left out (stitched primitives, §5.1.3)
+  std::vector<std::array<Index, 2>> excluded_pairs;
+  Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
   Settings settings;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// Appends the mesh as a body at rest in its rest shape; `body` gives name, material and whether it is fixed, its ranges are set here. Returns its number.
+/// Appends the mesh as a body at rest in its rest shape; `body` gives name, material and whether it is fixed, its
+/// ranges are set here. Returns its number.
 std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
 
-/// Rounds every number that a stage sees (positions, rest data, velocities, materials, gravity, settings) to the nearest single-precision value,
-/// in place. Motions stay in double: stages see their targets only.
+/// Rounds every number that a stage sees (positions, rest data, velocities, materials, gravity, settings) to the
+/// nearest single-precision value, in place. Motions stay in double: stages see their targets only.
 void round_to_single(Scene& scene);
 
-/// Adds the spring of a stitch from vertex `first` to the point (1 − ratio) x_second + ratio x_third, and excludes the pairs beside it.
+/// Adds the spring of a stitch from vertex `first` to the point (1 − ratio) x_second + ratio x_third, and excludes the
+/// pairs beside it.
 void add_stitch(Scene& scene, Index first, Index second, Index third, double ratio, double stiffness);
 
 /// What moves with what: -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
@@ -104,7 +111,8 @@ std::vector<Index> rigid_groups(const Scene& scene);
 /// Pairs that are left out of contact, d_min and audit: by rigid_groups and excluded_pairs.
 Exclusions exclusions(const Scene& scene);
 
-/// Target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the order of motion.vertices.
+/// Target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the order of
+/// motion.vertices.
 std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t);
 
 /// Number of the body of each vertex; -1 where no body covers it. Length: vertex count.

@@ -93,7 +93,8 @@ constexpr std::array<SettingInfo, 30> table{{
 }};
 
 const SettingInfo& find_setting(std::string_view name) {
-  const auto found = std::find_if(table.begin(), table.end(), [&](const SettingInfo& info) { return info.name == name; });
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&](const SettingInfo& info) { return info.name == name; });
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
   for (const SettingInfo& info : table) names.push_back(info.name);
@@ -124,7 +125,8 @@ void set_choice(Settings& settings, const SettingInfo& info, std::string_view va
   if (found == info.choices.end())
     throw InputError("setting '" + std::string(info.name) + "' can't be '" + shown(value) + "'; give " +
                      describe_range(info));
-  std::visit([&]<class T>(T Settings::*field) { settings.*field = static_cast<T>(found - info.choices.begin()); }, info.field);
+  std::visit([&]<class T>(T Settings::*field) { settings.*field = static_cast<T>(found - info.choices.begin()); },
+             info.field);
 }
 
 }  // namespace
@@ -155,8 +157,10 @@ bool in_range(const SettingInfo& info, double value) {
 
 void set_setting(Settings& settings, std::string_view name, std::string_view value) {
   const SettingInfo& info = find_setting(name);
-  if (info.choices.empty()) set_number(settings, info, value);
-  else set_choice(settings, info, value);
+  if (info.choices.empty())
+    set_number(settings, info, value);
+  else
+    set_choice(settings, info, value);
 }
 
 std::string setting_text(const Settings& settings, const SettingInfo& info) {
@@ -169,6 +173,8 @@ double get_setting(const Settings& settings, const SettingInfo& info) {
   return std::visit([&](auto field) { return static_cast<double>(settings.*field); }, info.field);
 }
 
-double get_setting(const Settings& settings, std::string_view name) { return get_setting(settings, find_setting(name)); }
+double get_setting(const Settings& settings, std::string_view name) {
+  return get_setting(settings, find_setting(name));
+}
 
 }  // namespace ogc::compare

@@ -58,8 +58,8 @@ std::string_view near_name(std::string_view name, std::span<const std::string_vi
     best = candidate;
   }
   if (!best.empty()) return best;
-  const auto meant =
-      std::ranges::find_if(known, [&](std::string_view candidate) { return abbreviates(wanted, lower(candidate)); });
+  const auto meant = std::ranges::find_if(
+      known, [&](std::string_view candidate) { return abbreviates(wanted, lower(candidate)); });
   return meant == known.end() ? std::string_view{} : *meant;
 }
 

@@ -27,8 +27,9 @@ std::string shown(std::string_view text, std::size_t most = 40);
 /// The shortest decimal text that reads back as the same double.
 std::string shortest(double value);
 
-/// What a person would have typed: where single precision holds the value exactly, the double nearest to the shortest decimal text of the float
-/// (0.01 for 0.009999999776482582), which rounds to the same float; otherwise the value itself.
+/// What a person would have typed: where single precision holds the value exactly, the double nearest to the shortest
+/// decimal text of the float (0.01 for 0.009999999776482582), which rounds to the same float; otherwise the value
+/// itself.
 double as_typed(double value);
 
 }  // namespace ogc::compare

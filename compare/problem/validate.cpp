@@ -6,8 +6,8 @@
 #include <set>
 
 #include "compare/problem/material_table.hpp"
-#include "compare/problem/ranges.hpp"
 #include "compare/problem/problem_sort.hpp"
+#include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
 
@@ -25,7 +25,8 @@ void check_settings(std::vector<Problem>& problems, const Settings& settings) {
   for (const SettingInfo& info : setting_table()) {
     const double value = get_setting(settings, info);
     if (!in_range(info, value)) {
-      problems.push_back({quoted("setting", std::string(info.name)), "is " + shortest(value), "give " + describe_range(info)});
+      problems.push_back(
+          {quoted("setting", std::string(info.name)), "is " + shortest(value), "give " + describe_range(info)});
     }
   }
 }
@@ -35,7 +36,8 @@ void check_names(std::vector<Problem>& problems, const Scene& scene) {
   if (!usable_name(scene.name)) problems.push_back({"scene", "name '" + scene.name + "' can't be used", remedy});
   std::set<std::string> bodies, motions;
   for (const Body& body : scene.bodies) {
-    if (!usable_name(body.name) || !bodies.insert(body.name).second) problems.push_back({quoted("body", body.name), "name can't be used", remedy});
+    if (!usable_name(body.name) || !bodies.insert(body.name).second)
+      problems.push_back({quoted("body", body.name), "name can't be used", remedy});
   }
   for (const PrescribedMotion& motion : scene.motions) {
     if (!usable_name(motion.name) || !motions.insert(motion.name).second) {
@@ -60,16 +62,22 @@ bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
   const std::string remedy = "bodies are consecutive ranges that cover all vertices and triangles";
   std::int64_t vertex = 0, triangle = 0;
   for (const Body& body : scene.bodies) {
-    if (body.first_vertex != vertex || body.first_triangle != triangle || body.vertex_count <= 0 || body.triangle_count < 0) {
-      problems.push_back({quoted("body", body.name), "does not begin where the one before it ends, or is empty", remedy});
+    if (body.first_vertex != vertex || body.first_triangle != triangle || body.vertex_count <= 0 ||
+        body.triangle_count < 0) {
+      problems.push_back(
+          {quoted("body", body.name), "does not begin where the one before it ends, or is empty", remedy});
       return false;
     }
     vertex += body.vertex_count;
     triangle += body.triangle_count;
   }
-  if (vertex == static_cast<std::int64_t>(scene.mesh.positions.size()) && triangle == static_cast<std::int64_t>(scene.mesh.triangles.size())) return true;
-  problems.push_back({"scene", "bodies cover " + std::to_string(vertex) + " of " + std::to_string(scene.mesh.positions.size()) + " vertices and " +
-                                   std::to_string(triangle) + " of " + std::to_string(scene.mesh.triangles.size()) + " triangles",
+  if (vertex == static_cast<std::int64_t>(scene.mesh.positions.size()) &&
+      triangle == static_cast<std::int64_t>(scene.mesh.triangles.size()))
+    return true;
+  problems.push_back({"scene",
+                      "bodies cover " + std::to_string(vertex) + " of " + std::to_string(scene.mesh.positions.size()) +
+                          " vertices and " + std::to_string(triangle) + " of " +
+                          std::to_string(scene.mesh.triangles.size()) + " triangles",
                       remedy});
   return false;
 }
@@ -82,7 +90,8 @@ void check_ownership(std::vector<Problem>& problems, const Scene& scene, const E
     const Body& body = scene.bodies[b];
     for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
       const Triangle& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
-      const bool own = std::all_of(corners.begin(), corners.end(), [&](Index v) { return owner_of(v) == static_cast<Index>(b); });
+      const bool own = std::all_of(corners.begin(), corners.end(),
+                                   [&](Index v) { return owner_of(v) == static_cast<Index>(b); });
       if (!own) foreign.add(names.triangle(t, corners), quoted("of body", body.name));
     }
   }
@@ -96,17 +105,26 @@ void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& mot
                      const std::string& where) {
   const Keyframes& frames = motion.keyframes;
   if (frames.empty() && frames.positions.empty()) return;
-  if (frames.times.size() < 2) problems.push_back({where, "has " + std::to_string(frames.times.size()) + " keyframes", "give at least two"});
-  const bool rising = std::adjacent_find(frames.times.begin(), frames.times.end(), [](double a, double b) { return !(a < b); }) == frames.times.end();
+  if (frames.times.size() < 2)
+    problems.push_back({where, "has " + std::to_string(frames.times.size()) + " keyframes", "give at least two"});
+  const bool rising = std::adjacent_find(frames.times.begin(), frames.times.end(),
+                                         [](double a, double b) { return !(a < b); }) == frames.times.end();
   const bool finite = std::all_of(frames.times.begin(), frames.times.end(), [](double t) { return std::isfinite(t); });
-  if (!rising || !finite) problems.push_back({where, "has keyframes whose times do not rise", "give finite, ascending times [s]"});
+  if (!rising || !finite)
+    problems.push_back({where, "has keyframes whose times do not rise", "give finite, ascending times [s]"});
   if (frames.positions.size() != frames.times.size() * motion.vertices.size())
-    problems.push_back({where, "has " + std::to_string(frames.positions.size()) + " positions in " + std::to_string(frames.times.size()) + " keyframes of " +
-                                   std::to_string(motion.vertices.size()) + " vertices",
+    problems.push_back({where,
+                        "has " + std::to_string(frames.positions.size()) + " positions in " +
+                            std::to_string(frames.times.size()) + " keyframes of " +
+                            std::to_string(motion.vertices.size()) + " vertices",
                         "give one for each vertex in each keyframe"});
-  const auto usable = [](const Vec3f& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most_length; };  // false where NaN stands first
-  const auto bad = std::find_if_not(frames.positions.begin(), frames.positions.end(),
-                                    [&](const Vec3f& p) { return is_finite(Vec3{p.x, p.y, p.z}) && usable(p); });
+  // false where NaN stands first
+  const auto usable = [](const Vec3f& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most_length;
+  };
+  const auto bad = std::find_if_not(frames.positions.begin(), frames.positions.end(), [&](const Vec3f& p) {
+    return is_finite(Vec3{p.x, p.y, p.z}) && usable(p);
+  });
   if (bad != frames.positions.end() && !motion.vertices.empty()) {
     const auto place = static_cast<std::size_t>(bad - frames.positions.begin());
     problems.push_back({where + ", keyframe " + std::to_string(place / motion.vertices.size()) + ", " +
@@ -122,7 +140,8 @@ void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion
   const auto numbers = {motion.angular_velocity, motion.start, motion.end};
   const bool finite = is_finite(motion.centre) && is_finite(motion.axis) && is_finite(motion.velocity) &&
                       std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-  if (!finite) problems.push_back({where, "has a number that is not finite", "give finite centre, axis, velocities and times"});
+  if (!finite)
+    problems.push_back({where, "has a number that is not finite", "give finite centre, axis, velocities and times"});
   const auto above = [](const Vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > most_length;
   };
@@ -139,7 +158,8 @@ void check_motions(std::vector<Problem>& problems, const Scene& scene, const Ele
   const std::string last = std::to_string(scene.mesh.positions.size() - 1);
   ProblemSort unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + last);
   ProblemSort fixed(problems, limit, "moves a vertex of a fixed body", "leave the vertex out or make the body free");
-  ProblemSort twice(problems, limit, "moves a vertex that is prescribed already", "list each vertex once, in one motion");
+  ProblemSort twice(problems, limit, "moves a vertex that is prescribed already",
+                    "list each vertex once, in one motion");
   const std::vector<Index> body = covered ? body_of_vertex(scene) : std::vector<Index>{};
   std::vector<bool> prescribed(scene.mesh.positions.size());
   for (const PrescribedMotion& motion : scene.motions) {
@@ -168,10 +188,12 @@ std::string point_name(const Scene& scene, const ElementNames& names, Index v) {
 void check_springs(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemSort unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
   ProblemSort range(problems, limit, "has a number out of range",
-                    "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ s, none below 0");
+                    "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ "
+                    "s, none below 0");
   const auto count = static_cast<Index>(scene.mesh.positions.size());
   const auto within = [](double x, double most) { return x >= 0 && x <= most; };
-  ProblemSort place(problems, limit, "has no such point on the line of its second and third vertex", "give a third vertex, another than both, and a ratio from 0 to 1");
+  ProblemSort place(problems, limit, "has no such point on the line of its second and third vertex",
+                    "give a third vertex, another than both, and a ratio from 0 to 1");
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& s = scene.springs[i];
     const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
@@ -184,7 +206,8 @@ void check_springs(std::vector<Problem>& problems, const Scene& scene, const Ele
                     shortest(s.ratio));
     const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
     if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
-      range.add(numbered("spring", i), shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
+      range.add(numbered("spring", i),
+                shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
   }
 }
 
@@ -202,7 +225,8 @@ bool check_lengths(std::vector<Problem>& problems, const Scene& scene) {
   const std::size_t expected = scene.mesh.positions.size();
   const auto check = [&](const char* name, std::size_t count) {
     if (count == expected) return true;
-    problems.push_back({name, std::to_string(count) + " entries for " + std::to_string(expected) + " vertices", "give one for each vertex"});
+    problems.push_back({name, std::to_string(count) + " entries for " + std::to_string(expected) + " vertices",
+                        "give one for each vertex"});
     return false;
   };
   const bool rest = check("rest positions", scene.rest_positions.size());
@@ -212,7 +236,9 @@ bool check_lengths(std::vector<Problem>& problems, const Scene& scene) {
 void check_velocities(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
                       std::size_t limit) {
   ProblemSort bad(problems, limit, "velocity is not finite or above 2²⁰ m/s", "give three finite numbers [m/s]");
-  const auto usable = [](const Vec3& v) { return is_finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most_length; };
+  const auto usable = [](const Vec3& v) {
+    return is_finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most_length;
+  };
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
     if (!usable(scene.velocities[v])) bad.add(names.vertex(static_cast<Index>(v)), printed(scene.velocities[v]));
   }

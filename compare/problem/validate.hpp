@@ -1,4 +1,5 @@
-// What can be checked of a problem without geometry beyond lengths and areas being non-zero; the oracle asks about intersections.
+// What can be checked of a problem without geometry beyond lengths and areas being non-zero; the oracle asks about
+// intersections.
 #pragma once
 
 #include <string>

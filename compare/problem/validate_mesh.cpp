@@ -1,4 +1,5 @@
-// Each sort of problem is one loop over one array. Lengths and areas are asked only of usable coordinates, faces only of valid indices.
+// Each sort of problem is one loop over one array. Lengths and areas are asked only of usable coordinates, faces only
+// of valid indices.
 #include "compare/problem/validate_mesh.hpp"
 
 #include <algorithm>
@@ -44,8 +45,8 @@ std::string loose_edge_name(const MeshCheck& check, std::size_t e) {
   return check.names.loose_edge(static_cast<Index>(e), check.mesh.loose_edges[e]);
 }
 
-// Each edge is visited once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly; at the ends of the range one
-// rounding of the length does not matter.
+// Each edge is visited once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly;
+// at the ends of the range one rounding of the length does not matter.
 void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
   ProblemSort zero(check.problems, check.limit, kind + "edge of zero length",
                    "merge the two vertices or move them apart");

@@ -22,7 +22,8 @@ struct MeshCheck {
 /// Whether all faces name existing, distinct vertices; lists those that do not.
 bool check_indices(const MeshCheck& check);
 
-/// Coordinates, edge lengths and areas of the mesh's faces on `positions`; indices are valid. `kind` stands before the nouns: "" or "rest ".
+/// Coordinates, edge lengths and areas of the mesh's faces on `positions`; indices are valid. `kind` stands before the
+/// nouns: "" or "rest ".
 void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind);
 
 /// Whether all three coordinates are finite.

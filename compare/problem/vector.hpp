@@ -1,5 +1,5 @@
-// Plain coordinates. This room holds facts, never an algorithm, so the types carry no operators: each contestant brings its own
-// arithmetic, and none can borrow the other's.
+// Plain coordinates. This room holds facts, never an algorithm, so the types carry no operators: each contestant brings
+// its own arithmetic, and none can borrow the other's.
 #pragma once
 
 #include <array>

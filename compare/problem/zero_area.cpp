@@ -1,4 +1,5 @@
-// Three 2×2 determinants as exact sums of six products each; a rounded evaluation settles nearly all triangles before that.
+// Three 2×2 determinants as exact sums of six products each; a rounded evaluation settles nearly all triangles before
+// that.
 #include "compare/problem/zero_area.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 
 std::array<double, 3> coordinates(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-// Sum of products without rounding, as a non-overlapping expansion (Shewchuk 1997, Grow-Expansion): it is zero exactly where all components are.
+// Sum of products without rounding, as a non-overlapping expansion (Shewchuk 1997, Grow-Expansion): it is zero exactly
+// where all components are.
 class ExactSum {
  public:
   void add_product(double a, double b) {
@@ -35,9 +37,11 @@ class ExactSum {
   std::size_t count_ = 0;
 };
 
-// Whether the projections of a, b and c on the plane of coordinates i and j lie on a line; exact. The filter: each factor is rounded once and each
-// product once, so the difference is known to 3ε(|p| + |q|) + O(ε²), ε = 2⁻⁵³; 4ε covers the second order.
-bool on_a_line(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c, std::size_t i, std::size_t j) {
+// Whether the projections of a, b and c on the plane of coordinates i and j lie on a line; exact. The filter: each
+// factor is rounded once and each product once, so the difference is known to 3ε(|p| + |q|) + O(ε²), ε = 2⁻⁵³; 4ε
+// covers the second order.
+bool on_a_line(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,
+               std::size_t i, std::size_t j) {
   const double p = (b[i] - a[i]) * (c[j] - a[j]), q = (b[j] - a[j]) * (c[i] - a[i]);
   if (std::abs(p - q) > 0x4p-53 * (std::abs(p) + std::abs(q))) return false;
   ExactSum sum;

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "compare/files/bytes.hpp"
-#include "compare/problem/error.hpp"
 #include "compare/files/durable_file.hpp"
 #include "compare/files/hdf5.hpp"
+#include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 
 namespace ogc::compare {
@@ -24,8 +24,9 @@ std::string_view bytes_of(const std::vector<T>& values) {
 std::string state_digest(const Checkpoint& checkpoint) {
   const Snapshot& state = checkpoint.state;
   std::string all;
-  for (const std::string_view part : {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities),
-                                      bytes_of(state.exact_positions), bytes_of(state.exact_velocities)})
+  for (const std::string_view part :
+       {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities),
+        bytes_of(state.exact_positions), bytes_of(state.exact_velocities)})
     all += part;
   return digest(all + std::to_string(state.step) + "," + std::to_string(checkpoint.audited_states));
 }
@@ -56,7 +57,8 @@ struct Stored {
 void check_version(const Hdf5File& file, const std::string& path) {
   const auto version = file.attribute<std::int64_t>("format_version");
   if (version > checkpoint_format_version)
-    throw InputError(path + ": is of checkpoint format " + std::to_string(version) + ", newer than format " + std::to_string(checkpoint_format_version) +
+    throw InputError(path + ": is of checkpoint format " + std::to_string(version) + ", newer than format " +
+                     std::to_string(checkpoint_format_version) +
                      ", the newest that this program reads: use a newer ogc");
 }
 
@@ -98,21 +100,27 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint, cons
 Checkpoint read_checkpoint(const fs::path& folder, const std::string& scene_digest) {
   const std::string path = path_in(folder).string();
   if (!fs::exists(path))
-    throw InputError(path + ": is missing: the run ended before its first state was stored, or a version of the program without checkpoints wrote it; remove " +
+    throw InputError(path +
+                     ": is missing: the run ended before its first state was stored, or a version of the program "
+                     "without checkpoints wrote it; remove " +
                      "the folder and run it again");
-  const std::string remedy = ": begin a new run from its last frame, ogc run … --from-state " + (folder / "frames").string() + "/…";
+  const std::string remedy = ": begin a new run from its last frame, ogc run … --from-state " +
+                             (folder / "frames").string() + "/…";
   Stored stored;
   try {
     const Hdf5File file = Hdf5File::open(path);
     check_version(file, path);
     stored = content(file);
   } catch (const InputError& error) {
-    throw InputError(std::string(error.what()) + "; this is the run's checkpoint, without which it can't be resumed" + remedy);
+    throw InputError(std::string(error.what()) + "; this is the run's checkpoint, without which it can't be resumed" +
+                     remedy);
   }
   if (stored.digest != state_digest(stored.checkpoint)) throw InputError(path + ": the checkpoint is damaged" + remedy);
   if (stored.scene_digest != scene_digest)
-    throw InputError((folder / "scene").string() + ": is not the scene that this run was begun with, its files were changed since: restore them, or begin a " +
-                     "new run of the changed scene, ogc run " + (folder / "scene").string() + "/NAME.json");
+    throw InputError(
+        (folder / "scene").string() +
+        ": is not the scene that this run was begun with, its files were changed since: restore them, or begin a " +
+        "new run of the changed scene, ogc run " + (folder / "scene").string() + "/NAME.json");
   return stored.checkpoint;
 }
 

@@ -1,5 +1,6 @@
-// checkpoint.h5: where a run can go on to the same bits. One file, replaced as a whole; its digest tells a damaged one. What else a run needs stands in run.json and
-// scene/, whose digest it keeps, so that a scene changed by hand is no surprise later.
+// checkpoint.h5: where a run can go on to the same bits. One file, replaced as a whole; its digest tells a damaged one.
+// What else a run needs stands in run.json and scene/, whose digest it keeps, so that a scene changed by hand is no
+// surprise later.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +14,17 @@ inline constexpr std::int64_t checkpoint_format_version = 2;
 
 /// A state that was judged, where states are judged at all.
 struct Checkpoint {
-  Snapshot state;                   ///< step, positions, velocities, bounds, capacities; from version 2 on the exact ones, where a solver has them
+  /// step, positions, velocities, bounds, capacities; from version 2 on the exact ones, where a solver has them
+  Snapshot state;
   std::int64_t audited_states = 0;  ///< judged so far
 };
 
 /// Writes `folder`/checkpoint.h5 durably. Throws ResourceError.
-void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint, const std::string& scene_digest);
+void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint,
+                      const std::string& scene_digest);
 
-/// Reads it. Throws InputError that says what to do: missing, damaged, of a newer format, or of a scene with another digest.
+/// Reads it. Throws InputError that says what to do: missing, damaged, of a newer format, or of a scene with another
+/// digest.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& scene_digest);
 
 /// Of the files of a run's scene, by name and content. Throws InputError.

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> names{"obj", "ply", "vtp"};
 
-void write_frame(const fs::path& path, ExportFormat format, const Scene& scene, std::span<const Index> bodies, const Frame& frame) {
+void write_frame(const fs::path& path, ExportFormat format, const Scene& scene, std::span<const Index> bodies,
+                 const Frame& frame) {
   if (format == ExportFormat::vtp)
     write_durably(path, vtp_bytes(scene.mesh, bodies, frame));
   else
@@ -33,7 +34,8 @@ ExportFormat parse_export_format(std::string_view text) {
 
 std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, const fs::path& out) {
   const RunReader run(folder);
-  if (run.frame_count() == 0) throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
+  if (run.frame_count() == 0)
+    throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
   std::error_code error;
   fs::create_directories(out, error);
   if (error) refuse_path(out, "make the folder", error);

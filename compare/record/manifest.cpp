@@ -34,7 +34,8 @@ constexpr std::array<std::string_view, 8> other_fields{"format", "format_version
                                                        "seed",   "scene",          "settings", "stages"};
 
 bool is_known(std::string_view key) {
-  return std::any_of(text_fields.begin(), text_fields.end(), [&](const TextField& entry) { return entry.name == key; }) ||
+  return std::any_of(text_fields.begin(), text_fields.end(),
+                     [&](const TextField& entry) { return entry.name == key; }) ||
          std::find(other_fields.begin(), other_fields.end(), key) != other_fields.end();
 }
 
@@ -53,7 +54,8 @@ Json settings_json(const Settings& settings) {
 
 Json material_json(const Material& material) {
   Json json = {{"membrane", name_of(material.membrane)}, {"bending", name_of(material.bending)}};
-  for (const MaterialInfo& info : material_table()) json[std::string(info.name)] = quantity(material.*info.field, info.unit);
+  for (const MaterialInfo& info : material_table())
+    json[std::string(info.name)] = quantity(material.*info.field, info.unit);
   return json;
 }
 
@@ -91,7 +93,9 @@ Json scene_json(const Manifest& manifest, const Scene& scene) {
           {"bodies", bodies_json(scene)}};
 }
 
-Json extra_json(const std::string& value) { return value == "yes" || value == "no" ? Json(value == "yes") : Json(value); }
+Json extra_json(const std::string& value) {
+  return value == "yes" || value == "no" ? Json(value == "yes") : Json(value);
+}
 
 std::string extra_text(const Json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
@@ -100,7 +104,8 @@ std::string extra_text(const Json& value) {
 
 Provenance provenance_of(const Json& json) {
   Provenance provenance;
-  for (const TextField& entry : text_fields) provenance.*entry.field = json.at(std::string(entry.name)).get<std::string>();
+  for (const TextField& entry : text_fields)
+    provenance.*entry.field = json.at(std::string(entry.name)).get<std::string>();
   provenance.dirty = json.at("dirty").get<bool>();
   provenance.warnings = json.value("warnings", std::vector<std::string>{});
   for (const auto& [key, value] : json.items())
@@ -124,7 +129,8 @@ std::string manifest_text(const Manifest& manifest, const Scene& scene) {
   json["dirty"] = manifest.provenance.dirty;
   json["warnings"] = manifest.provenance.warnings;
   for (const auto& [key, value] : manifest.provenance.extra) {
-    if (is_known(key)) throw std::invalid_argument("run.json: '" + key + "' has a meaning of its own and can't be an extra entry");
+    if (is_known(key))
+      throw std::invalid_argument("run.json: '" + key + "' has a meaning of its own and can't be an extra entry");
     json[key] = extra_json(value);
   }
   json["seed"] = scene.settings.seed;
@@ -140,14 +146,16 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     throw InputError(path.string() + ": is missing: name a folder that `ogc run` has written");
   const Json json = parse_json(read_bytes(path), path.string());
   try {
-    if (json.at("format").get<std::string>() != "ogc run") throw InputError(path.string() + ": is not of a run: name a folder that `ogc run` has written");
+    if (json.at("format").get<std::string>() != "ogc run")
+      throw InputError(path.string() + ": is not of a run: name a folder that `ogc run` has written");
     if (const auto version = json.at("format_version").get<std::int64_t>(); version > run_format_version)
-      throw InputError(path.string() + ": is of run format " + std::to_string(version) + ", newer than format " + std::to_string(run_format_version) +
-                       ", the newest that this program reads: use a newer ogc");
-    return {provenance_of(json), json.at("scene").at("name").get<std::string>(), json.at("scene").at("file").get<std::string>(),
-            json.at("stages").get<std::vector<std::string>>()};
+      throw InputError(path.string() + ": is of run format " + std::to_string(version) + ", newer than format " +
+                       std::to_string(run_format_version) + ", the newest that this program reads: use a newer ogc");
+    return {provenance_of(json), json.at("scene").at("name").get<std::string>(),
+            json.at("scene").at("file").get<std::string>(), json.at("stages").get<std::vector<std::string>>()};
   } catch (const Json::exception& error) {
-    throw InputError(path.string() + ": " + error.what() + ": the file was changed by hand or is damaged; restore it, or run the scene again");
+    throw InputError(path.string() + ": " + error.what() +
+                     ": the file was changed by hand or is damaged; restore it, or run the scene again");
   }
 }
 

@@ -1,4 +1,5 @@
-// run.json: who ran what, where and when, and with which numbers. For people and plots; the program itself reads the scene back from its own files.
+// run.json: who ran what, where and when, and with which numbers. For people and plots; the program itself reads the
+// scene back from its own files.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +19,9 @@ struct Provenance {
   std::string solver, backend, device, command;
   std::string version, commit, compiler, cuda;  ///< of the program
   bool dirty = false;
-  std::string started, ended, status;           ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
-  std::vector<std::string> warnings;            ///< what can hardly be meant, in words
-  std::map<std::string, std::string> extra;     ///< further entries of run.json; "yes" and "no" are truth values there
+  std::string started, ended, status;        ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
+  std::vector<std::string> warnings;         ///< what can hardly be meant, in words
+  std::map<std::string, std::string> extra;  ///< further entries of run.json; "yes" and "no" are truth values there
 };
 
 /// What run.json says beside the copy of the scene's numbers.
@@ -33,7 +34,8 @@ struct Manifest {
 /// The text of run.json: `manifest`, and of the scene its sizes, settings and bodies with each number's unit.
 std::string manifest_text(const Manifest& manifest, const Scene& scene);
 
-/// Reads `folder`/run.json. Throws InputError that names the file: missing, not JSON, not of a run, or of a newer format, which is named.
+/// Reads `folder`/run.json. Throws InputError that names the file: missing, not JSON, not of a run, or of a newer
+/// format, which is named.
 Manifest read_manifest(const std::filesystem::path& folder);
 
 /// Date and time now, ISO 8601, UTC, whole seconds.

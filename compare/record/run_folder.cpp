@@ -21,7 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path frame_path(const fs::path& folder, std::int64_t step) { return folder / "frames" / (frame_name(step) + ".h5"); }
+fs::path frame_path(const fs::path& folder, std::int64_t step) {
+  return folder / "frames" / (frame_name(step) + ".h5");
+}
 
 /// Step in the name of a frame's file; none for another file.
 std::optional<std::int64_t> frame_step_of(const std::string& name) {
@@ -33,7 +35,8 @@ std::optional<std::int64_t> frame_step_of(const std::string& name) {
   return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(step) : std::nullopt;
 }
 
-/// Length of a table with its header and its whole rows of steps up to `step`. A row begins with the number of its step.
+/// Length of a table with its header and its whole rows of steps up to `step`. A row begins with the number of its
+/// step.
 std::size_t length_until(const fs::path& table, std::int64_t step) {
   const std::string text = read_bytes(table);
   std::size_t kept = text.find('\n') + 1;
@@ -47,7 +50,8 @@ std::size_t length_until(const fs::path& table, std::int64_t step) {
 
 /// Finished frames by step.
 std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folder) {
-  if (!fs::is_directory(folder / "frames")) throw InputError((folder / "frames").string() + ": is missing: name a folder that `ogc run` has written");
+  if (!fs::is_directory(folder / "frames"))
+    throw InputError((folder / "frames").string() + ": is missing: name a folder that `ogc run` has written");
   std::vector<std::pair<std::int64_t, fs::path>> frames;
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
     if (const auto step = frame_step_of(entry.path().filename().string())) frames.emplace_back(*step, entry.path());
@@ -75,9 +79,11 @@ void refuse_used_folder(const fs::path& folder) {
   if (fs::exists(status) && !fs::is_directory(status))
     throw InputError(folder.string() + ": is a file: name a new folder for the run");
   if (error && status.type() != fs::file_type::not_found) refuse_path(folder, "make the folder", error);
-  for (const char* name : {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf"})
+  for (const char* name :
+       {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf"})
     if (fs::exists(folder / name))
-      throw InputError(folder.string() + ": holds a run already (" + name + "): name another folder, or remove this one");
+      throw InputError(folder.string() + ": holds a run already (" + name +
+                       "): name another folder, or remove this one");
 }
 
 /// Writes the scene beside its place and moves it there as a whole. Returns its file relative to `folder`.
@@ -127,7 +133,8 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::int64_t step, con
       scene_digest_(scene_digest(folder_)),
       queue_([this] { commit(); }) {
   steps_.emplace(folder_ / "steps.csv", length_until(folder_ / "steps.csv", step));
-  if (fs::exists(folder_ / "iterations.csv")) iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
+  if (fs::exists(folder_ / "iterations.csv"))
+    iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
   remove_partial_frames(folder_);
   fs::remove(folder_ / "trajectory.vtkhdf");  // ends where the run was cut off
   for (const auto& [stored, path] : list_frames(folder_))
@@ -202,8 +209,8 @@ void RunWriter::commit() {
 
 void RunWriter::save(Checkpoint checkpoint) {
   const Snapshot& state = checkpoint.state;
-  const std::size_t bytes =
-      state.positions.size() * (3 * sizeof(Vec3f) + sizeof(float)) + state.exact_positions.size() * 2 * sizeof(Vec3);
+  const std::size_t bytes = state.positions.size() * (3 * sizeof(Vec3f) + sizeof(float)) +
+                            state.exact_positions.size() * 2 * sizeof(Vec3);
   const auto work = std::make_shared<const Checkpoint>(std::move(checkpoint));
   queue_.add(bytes, {}, [this, work] {
     commit();
@@ -250,7 +257,9 @@ void RunWriter::give_up(const std::string& status) {
 }
 
 RunReader::RunReader(fs::path folder)
-    : manifest_(read_manifest(folder)), scene_(read_scene(folder / manifest_.scene_file)), frames_(list_frames(folder)) {}
+    : manifest_(read_manifest(folder)),
+      scene_(read_scene(folder / manifest_.scene_file)),
+      frames_(list_frames(folder)) {}
 
 void RunReader::check_size(std::size_t i, std::size_t vertices) const {
   if (vertices == scene_.mesh.positions.size()) return;

@@ -31,9 +31,9 @@
 #include <utility>
 #include <vector>
 
+#include "compare/files/durable_file.hpp"
 #include "compare/problem/contestant.hpp"
 #include "compare/record/checkpoint.hpp"
-#include "compare/files/durable_file.hpp"
 #include "compare/record/frame_file.hpp"
 #include "compare/record/manifest.hpp"
 #include "compare/record/trajectory.hpp"
@@ -48,11 +48,14 @@ void expect_new_run_folder(const std::filesystem::path& folder);
 /// Writes a run. Throws ResourceError (disk full or not writable, with the path).
 class RunWriter {
  public:
-  /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it is empty. Stage names give
-  /// columns of steps.csv; none for a run without profile. Throws InputError where the folder holds a run already, or what a run would overwrite.
-  RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance, std::vector<std::string> stage_names);
-  /// Goes on with the run of the folder after `step`, a checkpoint's: rows of later steps are cut off, as they are written again; status "running", and run.json
-  /// says when it went on, with `note`. Scene: the folder's. Throws InputError where another process writes the run, or where it can't be read.
+  /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it
+  /// is empty. Stage names give columns of steps.csv; none for a run without profile. Throws InputError where the
+  /// folder holds a run already, or what a run would overwrite.
+  RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
+            std::vector<std::string> stage_names);
+  /// Goes on with the run of the folder after `step`, a checkpoint's: rows of later steps are cut off, as they are
+  /// written again; status "running", and run.json says when it went on, with `note`. Scene: the folder's. Throws
+  /// InputError where another process writes the run, or where it can't be read.
   RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
   /// Removes the frames of other steps.
   void keep_frames(const std::function<bool(std::int64_t)>& keep);

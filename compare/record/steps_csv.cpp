@@ -66,12 +66,15 @@ bool parse(std::string_view text, T& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-std::string column_title(const StepColumn& column) { return std::string(column.name) + " [" + std::string(column.unit) + "]"; }
+std::string column_title(const StepColumn& column) {
+  return std::string(column.name) + " [" + std::string(column.unit) + "]";
+}
 
 std::vector<std::string> parse_header(const std::string& file, std::string_view line) {
   const std::vector<std::string_view> titles = split(line);
   const auto refuse = [&](std::size_t i, const std::string& expected) {
-    throw InputError(file + ": line 1: column " + std::to_string(i + 1) + " is '" + (i < titles.size() ? std::string(titles[i]) : "") + "' where '" + expected +
+    throw InputError(file + ": line 1: column " + std::to_string(i + 1) + " is '" +
+                     (i < titles.size() ? std::string(titles[i]) : "") + "' where '" + expected +
                      "' is expected: the run was written by another version of the program; read it with that one");
   };
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -79,7 +82,8 @@ std::vector<std::string> parse_header(const std::string& file, std::string_view 
   std::vector<std::string> stage_names;
   for (std::size_t i = columns.size(); i < titles.size(); ++i) {
     if (!titles[i].starts_with(stage_prefix) || !titles[i].ends_with(stage_unit)) refuse(i, "stage_NAME [ms]");
-    stage_names.emplace_back(titles[i].substr(stage_prefix.size(), titles[i].size() - stage_prefix.size() - stage_unit.size()));
+    stage_names.emplace_back(
+        titles[i].substr(stage_prefix.size(), titles[i].size() - stage_prefix.size() - stage_unit.size()));
   }
   return stage_names;
 }
@@ -114,7 +118,8 @@ std::string step_header(std::span<const std::string> stage_names) {
 std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count) {
   std::string text;
   for (const StepMetrics& row : rows) {
-    if (!row.stage_ms.empty() && row.stage_ms.size() != stage_count) throw std::invalid_argument("steps.csv: a row with times for another number of stages");
+    if (!row.stage_ms.empty() && row.stage_ms.size() != stage_count)
+      throw std::invalid_argument("steps.csv: a row with times for another number of stages");
     for (const StepColumn& column : columns) {
       if (&column != &columns.front()) text += ',';
       std::visit([&](auto field) { print(text, row.*field); }, column.field);
@@ -143,10 +148,12 @@ StepTable read_steps(const std::filesystem::path& folder, std::int64_t last) {
     if (++number == 1)
       table.stage_names = parse_header(path.string(), line);
     else if (!parse_row(line, table.stage_names.size(), table.rows.emplace_back()))
-      throw InputError(path.string() + ": line " + std::to_string(number) + ": is no row of " + std::to_string(columns.size() + table.stage_names.size()) +
+      throw InputError(path.string() + ": line " + std::to_string(number) + ": is no row of " +
+                       std::to_string(columns.size() + table.stage_names.size()) +
                        " numbers: the file was changed by hand or is damaged; remove the line");
   }
-  if (number == 0) throw InputError(path.string() + ": has no header: the run was killed before it began; run it again");
+  if (number == 0)
+    throw InputError(path.string() + ": has no header: the run was killed before it began; run it again");
   return table;
 }
 

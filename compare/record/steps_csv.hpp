@@ -1,4 +1,5 @@
-// steps.csv: one row a step, one column a quantity, the unit behind its name. One table serves writing and reading, so they can't disagree.
+// steps.csv: one row a step, one column a quantity, the unit behind its name. One table serves writing and reading, so
+// they can't disagree.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +26,9 @@ std::span<const StepColumn> step_columns();
 /// The header line; stages become "stage_NAME [ms]".
 std::string step_header(std::span<const std::string> stage_names);
 
-/// One line a row; numbers read back as the same double, "nan" where a quantity was not asked for. Rows without times by stage get "nan" in each stage's
-/// column. Throws std::invalid_argument where a row has times for another number of stages.
+/// One line a row; numbers read back as the same double, "nan" where a quantity was not asked for. Rows without times
+/// by stage get "nan" in each stage's column. Throws std::invalid_argument where a row has times for another number of
+/// stages.
 std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count);
 
 /// What steps.csv holds so far.

@@ -20,7 +20,9 @@ void write_cells(Hdf5File& file, const std::string& kind, const std::vector<std:
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   }
   const std::string group = "VTKHDF/" + kind;
-  const auto write_integers = [&](const char* name, const Integers& values) { file.write(group + name, std::span(values)); };
+  const auto write_integers = [&](const char* name, const Integers& values) {
+    file.write(group + name, std::span(values));
+  };
   file.create_group(group);
   write_integers("/NumberOfConnectivityIds", {static_cast<std::int64_t>(connectivity.size())});
   write_integers("/NumberOfCells", {static_cast<std::int64_t>(cells.size())});
@@ -32,7 +34,8 @@ void write_static_part(Hdf5File& file, const Scene& scene) {
   file.create_group("VTKHDF");
   file.set_attribute("VTKHDF", "Version", std::array<std::int64_t, 2>{2, 0});
   file.set_attribute("VTKHDF", "Type", std::string_view("PolyData"));
-  file.write("VTKHDF/NumberOfPoints", std::span<const std::int64_t>(std::array{static_cast<std::int64_t>(scene.mesh.positions.size())}));
+  file.write("VTKHDF/NumberOfPoints",
+             std::span<const std::int64_t>(std::array{static_cast<std::int64_t>(scene.mesh.positions.size())}));
   write_cells(file, "Vertices", std::vector<std::array<Index, 1>>{});
   write_cells(file, "Lines", scene.mesh.loose_edges);
   write_cells(file, "Polygons", scene.mesh.triangles);

@@ -14,8 +14,9 @@ class Appended {
  public:
   template <class T>
   std::string array(const char* type, const char* name, std::span<const T> values, int components = 1) {
-    std::string tag = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
-                      "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) + "\"/>";
+    std::string tag = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                      std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) +
+                      "\"/>";
     const std::uint64_t size = values.size_bytes();
     bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
     bytes_.append(reinterpret_cast<const char*>(values.data()), size);
@@ -81,8 +82,11 @@ std::string vtp_bytes(const LabelledMesh& part) {
 }
 
 std::string pvd_text(const std::vector<std::pair<double, std::string>>& files) {
-  std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"") + byte_order + "\">\n<Collection>\n";
-  for (const auto& [time, file] : files) text += "<DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  std::string text = std::string(
+                         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"") +
+                     byte_order + "\">\n<Collection>\n";
+  for (const auto& [time, file] : files)
+    text += "<DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" + file + "\"/>\n";
   return text + "</Collection>\n</VTKFile>\n";
 }
 

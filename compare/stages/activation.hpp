@@ -1,5 +1,5 @@
-// Stage activation: contact energy over distance, slope and curvature (Eq. 18–20; Eq. 19 corrected, method.md §1.1), and the variants of the ablation
-// (method.md §4.2).
+// Stage activation: contact energy over distance, slope and curvature (Eq. 18–20; Eq. 19 corrected, method.md §1.1),
+// and the variants of the ablation (method.md §4.2).
 #pragma once
 
 #include <vector>
@@ -16,23 +16,26 @@ struct ActivationIn {
   std::vector<ContactActivation> activation;
 };
 
-/// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic stage holds. `ogc`: k_c/2 (r − d)² from τ on, below it k' (ln τ − ln d) + k_c/2 (r − τ)²
-/// with k' = τ k_c (r − τ); `ogc_as_printed`: the same with k' = τ k_c (τ − r)², numbers in metres, so that g' jumps at τ; `quadratic`: k_c/2 (r − d)²;
-/// `ipc_log`: −k_c (d − r)² ln(d/r); `cubic`: 2 k_c/(3r) (r − d)³.
+/// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic stage holds. `ogc`: k_c/2 (r − d)² from τ on,
+/// below it k' (ln τ − ln d) + k_c/2 (r − τ)² with k' = τ k_c (r − τ); `ogc_as_printed`: the same with k' = τ k_c (τ −
+/// r)², numbers in metres, so that g' jumps at τ; `quadratic`: k_c/2 (r − d)²; `ipc_log`: −k_c (d − r)² ln(d/r);
+/// `cubic`: 2 k_c/(3r) (r − d)³.
 struct ActivationOut {
   std::vector<float> energy, slope, curvature;
 };
 
-/// Values in double from multiprecision, and the sum of the moduli of the terms of which each consists, but at least 2⁻¹⁰² where d < r: the unit of the errors.
-/// u times that is the smallest normal number, so that underflow next to r counts little.
+/// Values in double from multiprecision, and the sum of the moduli of the terms of which each consists, but at least
+/// 2⁻¹⁰² where d < r: the unit of the errors. u times that is the smallest normal number, so that underflow next to r
+/// counts little.
 struct ActivationTruth {
   std::vector<double> energy, slope, curvature;
   std::vector<double> energy_scale, slope_scale, curvature_scale;
 };
 
-/// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ (1), k'_c (2), log (library: 2 ulp), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3). IPC's: the depth, twice (2), ln(r/d) from the
-/// depth (three roundings of a quotient, two of a polynomial), its products (4), or with g'' instead of a second depth the sum with (d − r)/d (2 + 2) and its
-/// square (1).
+/// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ
+/// (1), k'_c (2), log (library: 2 ulp), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3). IPC's:
+/// the depth, twice (2), ln(r/d) from the depth (three roundings of a quotient, two of a polynomial), its products (4),
+/// or with g'' instead of a second depth the sum with (d − r)/d (2 + 2) and its square (1).
 inline constexpr double activation_tolerance = 12;
 
 }  // namespace ogc::compare

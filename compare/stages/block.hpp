@@ -9,14 +9,15 @@
 
 namespace ogc::compare {
 
-/// "Is x in U_a, apart from its distance?": the distance is a decision of its own (d < r, Alg. 1 line 7). A question names a face of the mesh and what x is.
+/// "Is x in U_a, apart from its distance?": the distance is a decision of its own (d < r, Alg. 1 line 7). A question
+/// names a face of the mesh and what x is.
 struct BlockQuestion {
   enum class Kind : std::uint8_t {
     /// x is vertex `of`; U_a of Eq. 8, 9, 10 for a vertex, edge (between its end planes too) or triangle.
     vertex_in_surface,
-    /// x is the point of edge `of` closest to a; U_a of Eq. 14, 15 for an edge or vertex of the edge-only manifold. To a vertex one point is closest. To an
-    /// edge it is one unless the two are parallel: nearly parallel ones (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) are no legal question
-    /// of this stage (their contacts: compare/stages/detect_edge_edge.hpp).
+    /// x is the point of edge `of` closest to a; U_a of Eq. 14, 15 for an edge or vertex of the edge-only manifold. To
+    /// a vertex one point is closest. To an edge it is one unless the two are parallel: nearly parallel ones (‖e×e'‖² <
+    /// 10⁻⁶‖e‖²‖e'‖²) are no legal question of this stage (their contacts: compare/stages/detect_edge_edge.hpp).
     edge_in_edges,
   };
   Kind kind = Kind::vertex_in_surface;
@@ -36,8 +37,8 @@ struct BlockOut {
   std::vector<std::uint8_t> inside;  ///< by question; boundaries open and closed as printed
 };
 
-/// grey: a margin that decides the answer lies in its grey zone; either answer is accepted there. For an edge in edges that includes the margins that say
-/// which point of `of` is closest.
+/// grey: a margin that decides the answer lies in its grey zone; either answer is accepted there. For an edge in edges
+/// that includes the margins that say which point of `of` is closest.
 struct BlockTruth {
   std::vector<std::uint8_t> inside, grey;
   std::vector<std::uint8_t> near;  ///< 1 where such a margin lies within near_factor

@@ -24,7 +24,8 @@ struct BoundTruth {
   BoundOut exact;
 };
 
-/// One-sided. Largest shortfall in units of u · b: one product, rounded down (2 u), in a kernel that may round to nearest and step down once more.
+/// One-sided. Largest shortfall in units of u · b: one product, rounded down (2 u), in a kernel that may round to
+/// nearest and step down once more.
 inline constexpr double bound_below_tolerance = 4;
 
 }  // namespace ogc::compare

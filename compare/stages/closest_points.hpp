@@ -1,5 +1,5 @@
-// Stage closest_points: the closest points of two closed edges, the faces whose interiors hold them, and the rule for nearly parallel edges
-// (Alg. 2 lines 6, 9, 10; method.md §1.2 to §1.4).
+// Stage closest_points: the closest points of two closed edges, the faces whose interiors hold them, and the rule for
+// nearly parallel edges (Alg. 2 lines 6, 9, 10; method.md §1.2 to §1.4).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,15 @@ namespace ogc::compare {
 
 enum class EdgeFeature : std::uint8_t { end_0, end_1, interior };
 
-/// n independent cases; `first` is the lower-numbered edge. Edges of zero length are legal (during a run): such an edge is its end_0.
+/// n independent cases; `first` is the lower-numbered edge. Edges of zero length are legal (during a run): such an edge
+/// is its end_0.
 struct ClosestPointsIn {
   std::vector<std::array<Vec3f, 2>> first, second;
 };
 
-/// `nearly_parallel`: ‖e×e'‖² < 10⁻⁶ ‖e‖² ‖e'‖² and the projection of the second edge on the line of the first overlaps the first in more than a point.
-/// Then both features are interior, and the points are the middle of the overlap and its projection on the (closed) second edge.
+/// `nearly_parallel`: ‖e×e'‖² < 10⁻⁶ ‖e‖² ‖e'‖² and the projection of the second edge on the line of the first overlaps
+/// the first in more than a point. Then both features are interior, and the points are the middle of the overlap and
+/// its projection on the (closed) second edge.
 struct ClosestPointsOut {
   std::vector<EdgeFeature> first_feature, second_feature;
   std::vector<std::uint8_t> nearly_parallel;
@@ -27,21 +29,23 @@ struct ClosestPointsOut {
   std::vector<float> distance_below;             ///< [m], never above the exact distance of the two edges
 };
 
-/// Code of an answer: first_feature + 3 · second_feature + 9 · nearly_parallel; bit `code` of `accepted` says whether it is acceptable.
+/// Code of an answer: first_feature + 3 · second_feature + 9 · nearly_parallel; bit `code` of `accepted` says whether
+/// it is acceptable.
 struct ClosestPointsTruth {
   ClosestPointsOut exact;
   std::vector<std::uint32_t> accepted;
-  std::vector<std::uint8_t> near;                     ///< 1 where a margin between answers lies within near_factor
-  std::vector<double> contact_distance, distance;     ///< [m]
+  std::vector<std::uint8_t> near;                  ///< 1 where a margin between answers lies within near_factor
+  std::vector<double> contact_distance, distance;  ///< [m]
   std::vector<std::array<double, 2>> parameters;
-  std::vector<double> parameter_condition;            ///< as weight_condition of closest_face
+  std::vector<double> parameter_condition;  ///< as weight_condition of closest_face
 };
 
 /// Units as in closest_face; the interior–interior solution has two more products in its determinant.
 inline constexpr double closest_points_distance_tolerance = 16;
 inline constexpr double closest_points_parameter_tolerance = 16;
-/// As closest_face_below_tolerance: nearly parallel edges at an angle θ cost ρ S/θ by their normal, S ≤ 2 Σ|δ|, or θ ‖e‖ by their ends; 2⁸ roundings in double
-/// give √ρ = 2.9 u at the best change-over, 2 √ρ S = 12 u Σ|δ|; twice that for the kernel, and a third for the two products.
+/// As closest_face_below_tolerance: nearly parallel edges at an angle θ cost ρ S/θ by their normal, S ≤ 2 Σ|δ|, or θ
+/// ‖e‖ by their ends; 2⁸ roundings in double give √ρ = 2.9 u at the best change-over, 2 √ρ S = 12 u Σ|δ|; twice that
+/// for the kernel, and a third for the two products.
 inline constexpr double closest_points_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -1,4 +1,5 @@
-// Stage contact_force: normal force and block of one vertex of one contact (Eq. 1, 16, 18 with Eq. 19 corrected; method.md §3.5, §4.2).
+// Stage contact_force: normal force and block of one vertex of one contact (Eq. 1, 16, 18 with Eq. 19 corrected;
+// method.md §3.5, §4.2).
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -19,19 +20,21 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
   return sides == ContactSides::point_point ? 2 : sides == ContactSides::point_edge ? 3 : 4;
 }
 
-/// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the closest points of the closed faces, for nearly parallel edges those of closest_points. Force
-/// −e_k g'(d) w n on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are
-/// updated together, itself included: w² mostly (method.md §4.2, §7.4). A contact acts while 0 < d < r. Below 2⁻²³ r slope
-/// and curvature are those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and both are 0.
+/// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the
+/// closest points of the closed faces, for nearly parallel edges those of closest_points. Force −e_k g'(d) w n on a
+/// vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together, itself
+/// included: w² mostly (method.md §4.2, §7.4). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
+/// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and both are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for
 /// other sides and where one of the rest lengths is 0. Where both are, and the edges were nearly parallel at the last
 /// detection (closest_points: decided exactly), e_k is the length of their overlap, seen along the first, over that of
 /// the shorter one.
 ///
-/// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one: its
-/// foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g' and e_k g''
-/// at the exact distance, which no point of it can exceed, or 2 e_k g'' where others are updated together. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one:
+/// its foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g'
+/// and e_k g'' at the exact distance, which no point of it can exceed, or 2 e_k g'' where others are updated together.
+/// d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;
   std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1
@@ -56,12 +59,12 @@ struct ContactForceIn {
 /// difference, two products of vectors (6), a quotient for each end, their difference, the root of a quotient of
 /// squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
-/// As far as the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
-/// (2), an outer product (2).
+/// As far as the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the
+/// curvature (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
-/// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a root (1), twice for weights that are
-/// not quite those of the closest points. Contacts within it of r, of another feature, of touching or, with
-/// ogc_as_printed, of the jump at τ are grey. Where they cannot be told from touching,
+/// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a
+/// root (1), twice for weights that are not quite those of the closest points. Contacts within it of r, of another
+/// feature, of touching or, with ogc_as_printed, of the jump at τ are grey. Where they cannot be told from touching,
 /// neither distance nor normal is known: any answer within that of d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 

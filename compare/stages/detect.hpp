@@ -12,10 +12,10 @@ namespace ogc::compare {
 /// The question of detect_vertex_facet and detect_edge_edge. Views; the owner must outlive the call.
 struct DetectIn {
   const Topology* topology = nullptr;
-  ExclusionView exclusions;             ///< groups: length vertex_count or 0 (see exclusions(Scene))
-  std::span<const Vec3f> positions;     ///< [m], length vertex_count
-  float contact_radius = 0;             ///< r [m]
-  float query_radius = 0;               ///< r_q ≥ r [m]
+  ExclusionView exclusions;          ///< groups: length vertex_count or 0 (see exclusions(Scene))
+  std::span<const Vec3f> positions;  ///< [m], length vertex_count
+  float contact_radius = 0;          ///< r [m]
+  float query_radius = 0;            ///< r_q ≥ r [m]
 };
 
 /// A grey decision: any one of `contacts` may stand in the answer, and none at all only where `absence_accepted`.
@@ -25,7 +25,8 @@ struct GreyDecision {
   bool absence_accepted = false;
 };
 
-/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as distance_below of the pair stages.
+/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as distance_below of the pair
+/// stages.
 inline constexpr double detect_below_tolerance = 32;
 
 }  // namespace ogc::compare

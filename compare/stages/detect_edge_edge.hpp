@@ -1,4 +1,5 @@
-// Stage detect_edge_edge: the set E_OGC of unordered pairs of faces of the edge-only manifold, and d_min,e (Alg. 2, Eq. 17, 24; method.md §1.2 to §1.4).
+// Stage detect_edge_edge: the set E_OGC of unordered pairs of faces of the edge-only manifold, and d_min,e (Alg. 2, Eq.
+// 17, 24; method.md §1.2 to §1.4).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// Stage detect_vertex_facet: F_OGC(v) for every vertex, and the smallest distances d_min,v and d_min,t (Alg. 1, Eq. 12, 22, 26).
+// Stage detect_vertex_facet: F_OGC(v) for every vertex, and the smallest distances d_min,v and d_min,t (Alg. 1, Eq. 12,
+// 22, 26).
 #pragma once
 
 #include <vector>
@@ -22,12 +23,13 @@ struct DetectVertexFacetOut {
   std::vector<float> d_min_triangle;  ///< min over non-adjacent vertices, at most r_q [m], never above the exact value
 };
 
-/// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; each grey decision.
+/// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; each grey
+/// decision.
 struct DetectVertexFacetTruth {
   DetectVertexFacetOut exact;
   std::vector<GreyDecision<VertexFacetContact>> grey;
-  std::size_t pairs = 0;       ///< candidates within r_q, the denominator of the grey share
-  std::size_t near = 0;        ///< vertices of which some decision lies within near_factor
+  std::size_t pairs = 0;  ///< candidates within r_q, the denominator of the grey share
+  std::size_t near = 0;   ///< vertices of which some decision lies within near_factor
 };
 
 }  // namespace ogc::compare

@@ -1,4 +1,5 @@
-// Stage initial_guess: y of one vertex, and x ← y truncated about X_prev: one round of the guess loop (Eq. 27, 28; method.md §5.2).
+// Stage initial_guess: y of one vertex, and x ← y truncated about X_prev: one round of the guess loop (Eq. 27, 28;
+// method.md §5.2).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@ struct InitialGuessCase {
   float time_step = 0;                  ///< h [s]
   Vec3f previous;                       ///< X_prev [m]; where x is, too
   float bound = 0;                      ///< b_v [m]
-  std::uint8_t held = 0;                ///< 1: from round 2 on and part of an active contact: stays where it is, and does not count as cut
+  /// 1: from round 2 on and part of an active contact: stays where it is, and does not count as cut
+  std::uint8_t held = 0;
 };
 
 struct InitialGuessIn {
@@ -29,13 +31,15 @@ struct InitialGuessOut {
   std::vector<std::uint8_t> cut;        ///< 1 where ‖y − x_prev‖ > b_v, for the y that is stored
 };
 
-/// Exact y with the sum of the moduli of its terms in each coordinate. Position and cut are those of the *given* y (stage truncate): the judge asks for them.
+/// Exact y with the sum of the moduli of its terms in each coordinate. Position and cut are those of the *given* y
+/// (stage truncate): the judge asks for them.
 struct InitialGuessTruth {
   std::vector<Vec3> target;
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
 };
 
-/// Largest error of y's coordinates in units of u · target_scale: h a passes four roundings (with h, with vᵗ, with h, with xᵗ), vᵗ three, xᵗ one.
+/// Largest error of y's coordinates in units of u · target_scale: h a passes four roundings (with h, with vᵗ, with h,
+/// with xᵗ), vᵗ three, xᵗ one.
 inline constexpr double initial_guess_target_tolerance = 4;
 
 }  // namespace ogc::compare

@@ -1,5 +1,6 @@
-// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths, materials of bodies that meet (method.md
-// §4.5 to §4.10). Its Out is part of sweep's In: both sides then sweep with the very same single-precision numbers.
+// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths,
+// materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both sides then sweep with
+// the very same single-precision numbers.
 #pragma once
 
 #include <vector>
@@ -10,19 +11,21 @@
 namespace ogc::compare {
 
 struct RestTriangle {
-  Triangle corner{};                               ///< in the order of the mesh
+  Triangle corner{};  ///< in the order of the mesh
   Index body = -1;
-  float area = 0;                                  ///< A [m²]
-  std::array<std::array<float, 2>, 2> gradient{};  ///< ∇N₁, ∇N₂ [1/m] in the frame whose first axis points from corner 0 to corner 1, corner 2 above it
+  float area = 0;  ///< A [m²]
+  /// ∇N₁, ∇N₂ [1/m] in the frame whose first axis points from corner 0 to corner 1, corner 2 above it
+  std::array<std::array<float, 2>, 2> gradient{};
 };
 
 struct RestHinge {
   std::array<Index, 4> vertex{};  ///< x0 < x1 of the edge, then Hinge::opposite
   Index body = -1;
-  float rest_angle = 0;           ///< θ₀ [rad], as θ of compare/stages/bending.hpp
-  float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
-  /// Of the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) = −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖,
-  /// w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ of the sums K of cotangents.
+  float rest_angle = 0;  ///< θ₀ [rad], as θ of compare/stages/bending.hpp
+  float stiffness = 0;   ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
+  /// Of the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) =
+  /// −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖, w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ of the sums K of
+  /// cotangents.
   std::array<float, 3> weight{};
 };
 
@@ -31,8 +34,8 @@ struct MeetingMaterial {
   float stiffness = 0, friction = 0;
 };
 
-/// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no fixed body holds has a triangle.
-/// Topology: `build_topology(scene)`.
+/// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no
+/// fixed body holds has a triangle. Topology: `build_topology(scene)`.
 struct RestStateIn {
   const Scene* scene = nullptr;
   const Topology* topology = nullptr;
@@ -40,30 +43,33 @@ struct RestStateIn {
 
 /// Triangles and hinges in the order of the topology, without those of fixed bodies and of models `none`.
 struct RestStateOut {
-  std::vector<float> mass;                 ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
+  std::vector<float> mass;  ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
   std::vector<RestTriangle> triangles;
   std::vector<RestHinge> hinges;
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
 };
 
-/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one vertex. `gradient` units are of
-/// ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its triangles; a meeting's is its value.
+/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one
+/// vertex. `gradient` units are of ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its
+/// triangles; a meeting's is its value.
 struct RestStateTruth {
   RestStateOut exact;  ///< correctly rounded
   std::vector<double> mass, mass_scale;
   std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
   std::vector<std::array<std::array<double, 2>, 2>> gradient;
   std::vector<std::array<double, 2>> gradient_scale;
-  std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;  ///< where |θ₀| is within its error of π either sign is accepted
+  /// where |θ₀| is within its error of π either sign is accepted
+  std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;
   std::vector<std::array<double, 3>> weight;
   std::vector<double> weight_scale;
   std::vector<double> meeting_stiffness, meeting_friction;
 };
 
-/// In units of u · scale. The one rounding to single precision: u of the value, and no scale is below its value but that of θ₀, for which |θ₀| ≤ π stands
-/// against at least 2 (each opposite vertex adds its distance from x0 over its height): π/2. Rest data are computed in double or better, so some thirty
-/// roundings of 2⁻⁵³, each of an input's size, add 2⁻²⁴ of the scale.
+/// In units of u · scale. The one rounding to single precision: u of the value, and no scale is below its value but
+/// that of θ₀, for which |θ₀| ≤ π stands against at least 2 (each opposite vertex adds its distance from x0 over its
+/// height): π/2. Rest data are computed in double or better, so some thirty roundings of 2⁻⁵³, each of an input's size,
+/// add 2⁻²⁴ of the scale.
 inline constexpr double rest_state_tolerance = 1 + 0x1p-20;
 inline constexpr double rest_state_angle_tolerance = 1.6;
 

@@ -6,11 +6,14 @@
 
 namespace ogc::compare {
 
-/// E = k_s/2 (l − l₀)² + k k_s/2 (l − lᵗ)², l = ‖Σ wᵢ xᵢ‖, w = (1, s − 1, −s): of an end and a point between two others (a stitch), or of two ends where s = 0;
-/// then x₂ is not read. Asked about `own`. Block: w² (k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + k k_s n nᵀ), w that of `own`; with a rest length of 0 that is
-/// w² k_s I and the damping's part. Where l = 0 there is no direction: the force is 0 and the block w² k_s I for every l₀, which majorises E as −k_s l₀ l ≤ 0.
+/// E = k_s/2 (l − l₀)² + k k_s/2 (l − lᵗ)², l = ‖Σ wᵢ xᵢ‖, w = (1, s − 1, −s): of an end and a point between two others
+/// (a stitch), or of two ends where s = 0; then x₂ is not read. Asked about `own`. Block: w² (k_s (n nᵀ + max(0, 1 −
+/// l₀/l)(I − n nᵀ)) + k k_s n nᵀ), w that of `own`; with a rest length of 0 that is w² k_s I and the damping's part.
+/// Where l = 0 there is no direction: the force is 0 and the block w² k_s I for every l₀, which majorises E as −k_s l₀
+/// l ≤ 0.
 ///
-/// With `per_vertex` damping the energy is the elastic term alone; with B, its block, and moved = x − xᵗ of `own` the force is less k B moved, and the block (1 + k) B.
+/// With `per_vertex` damping the energy is the elastic term alone; with B, its block, and moved = x − xᵗ of `own` the
+/// force is less k B moved, and the block (1 + k) B.
 ///
 /// Legal are lengths of 0 and from 2⁻⁶³ m on, now and at the start, whose squares are normal numbers.
 struct SpringCase {
@@ -27,17 +30,19 @@ struct SpringIn {
   std::vector<SpringCase> cases;
 };
 
-/// In units of u · scale. A difference (1), a length (a square: 1 + 2 more, halved with those of the difference by the root, the root: 1; together 3), l₀/l and
-/// its complement (2), k_s (1), the product with the difference (1 + 1): 9; by way of the damping a second length, its change (1), two products, a quotient, a
-/// sum: 12.
+/// In units of u · scale. A difference (1), a length (a square: 1 + 2 more, halved with those of the difference by the
+/// root, the root: 1; together 3), l₀/l and its complement (2), k_s (1), the product with the difference (1 + 1): 9; by
+/// way of the damping a second length, its change (1), two products, a quotient, a sum: 12.
 inline constexpr double spring_force_tolerance = 12;
 /// Complement (6), k_s and its difference (2), n by both of its factors (2 · 5), an outer product (2), two sums: 22.
 inline constexpr double spring_block_tolerance = 22;
 
-/// Of a stitch, s > 0. What is apart is a difference (1), another (1) times s (1), and theirs (1): 4, where it was 1; a length 7 (a square: 8 + 3, halved by the
-/// root, the root: 1; 6.5 together), where it was 3; and w with its product 2 more. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
+/// Of a stitch, s > 0. What is apart is a difference (1), another (1) times s (1), and theirs (1): 4, where it was 1; a
+/// length 7 (a square: 8 + 3, halved by the root, the root: 1; 6.5 together), where it was 3; and w with its product 2
+/// more. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
 inline constexpr double stitch_force_tolerance = 25;
-/// Complement (6 + 4), k_s and its difference (2), n by both of its factors (2 · (4 + 7 + 1)), an outer product (2), two sums, w² (3) and its product: 44.
+/// Complement (6 + 4), k_s and its difference (2), n by both of its factors (2 · (4 + 7 + 1)), an outer product (2),
+/// two sums, w² (3) and its product: 44.
 inline constexpr double stitch_block_tolerance = 44;
 
 }  // namespace ogc::compare

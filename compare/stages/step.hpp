@@ -1,5 +1,6 @@
-// Stage step: Algorithm 3 with the guess loop of method.md §5.2. Every part of a step is a stage with a contract of its own; what is left is the order in which
-// they follow one another, so the answer is a trace, and the judge asks about each event what its stage asks.
+// Stage step: Algorithm 3 with the guess loop of method.md §5.2. Every part of a step is a stage with a contract of its
+// own; what is left is the order in which they follow one another, so the answer is a trace, and the judge asks about
+// each event what its stage asks.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ struct StepEvent {
   // detection alone
   DetectVertexFacetOut vertex_facet;
   DetectEdgeEdgeOut edge_edge;
-  std::vector<float> bound;     ///< b_v [m]
+  std::vector<float> bound;  ///< b_v [m]
 };
 
 /// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.
@@ -31,25 +32,28 @@ struct StepIn {
 };
 
 struct StepOut {
-  std::vector<Index> colour;        ///< of the sweeps
-  RestStateOut rest;                ///< of the sweeps
-  float query_radius = 0;           ///< r_q [m]
-  std::vector<Vec3f> target;        ///< y [m]
+  std::vector<Index> colour;  ///< of the sweeps
+  RestStateOut rest;          ///< of the sweeps
+  float query_radius = 0;     ///< r_q [m]
+  std::vector<Vec3f> target;  ///< y [m]
   std::vector<StepEvent> events;
   std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
 };
 
 /// What follows from the answer's own positions and counts.
 struct StepTruth {
-  double query_radius = 0, query_radius_scale = 0;  ///< min(r + max ‖y − xᵗ‖, cap), in double; the scale is the radius itself [m]
-  std::vector<Vec3f> prescribed_target;             ///< by vertex; only where prescribed, 0 elsewhere
-  std::vector<StepEventKind> events;                ///< as Algorithm 3 orders them, given each event's count of cut vertices (0 of those that the answer lacks)
-  std::vector<Vec3> velocity;                       ///< [m/s]
-  std::vector<double> velocity_scale;               ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
+  /// min(r + max ‖y − xᵗ‖, cap), in double; the scale is the radius itself [m]
+  double query_radius = 0, query_radius_scale = 0;
+  std::vector<Vec3f> prescribed_target;  ///< by vertex; only where prescribed, 0 elsewhere
+  /// as Algorithm 3 orders them, given each event's count of cut vertices (0 of those that the answer lacks)
+  std::vector<StepEventKind> events;
+  std::vector<Vec3> velocity;          ///< [m/s]
+  std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
 };
 
-/// In units of u r_q: the rounded difference y − xᵗ (1), products and sums of its square (3, both halved by the root), the root (1), the addition of r (1);
-/// or the one rounding of cap · r. Together 4; one more for second order and for the vertex whose length is largest after rounding only.
+/// In units of u r_q: the rounded difference y − xᵗ (1), products and sums of its square (3, both halved by the root),
+/// the root (1), the addition of r (1); or the one rounding of cap · r. Together 4; one more for second order and for
+/// the vertex whose length is largest after rounding only.
 inline constexpr double step_query_radius_tolerance = 5;
 /// In units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
 inline constexpr double step_velocity_tolerance = 2.25;

@@ -1,8 +1,10 @@
-// Stage sweep: one iteration of Algorithm 4, all energies inside, colour by colour, each new position truncated before it is written (method.md §5.2, §7).
+// Stage sweep: one iteration of Algorithm 4, all energies inside, colour by colour, each new position truncated before
+// it is written (method.md §5.2, §7).
 //
-// Answers are judged vertex by vertex: the truth about a vertex is the update from what the answer itself holds at vertices of lower colour and from the
-// old positions elsewhere. Whoever gets each update right so gets the sweep right, by induction over the colours, and no error is carried on and hidden
-// in a tolerance: the vertex that is named is the one that is wrong.
+// Answers are judged vertex by vertex: the truth about a vertex is the update from what the answer itself holds at
+// vertices of lower colour and from the old positions elsewhere. Whoever gets each update right so gets the sweep
+// right, by induction over the colours, and no error is carried on and hidden in a tolerance: the vertex that is named
+// is the one that is wrong.
 #pragma once
 
 #include <span>
@@ -13,15 +15,18 @@
 
 namespace ogc::compare {
 
-/// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's), contact and friction as in the stages of
-/// these names. Prescribed
-/// vertices (`is_prescribed`) go to y, truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at
-/// its old one; own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded at most once.
+/// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's),
+/// contact and friction as in the stages of these names. Prescribed vertices (`is_prescribed`) go to y, truncated; all
+/// others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one;
+/// own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and
+/// rounded at most once.
 struct SweepIn {
-  const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
+  const Scene* scene = nullptr;  ///< rounded; materials, settings (h, r, ε_v, lanes)
   const Topology* topology = nullptr;
   const RestStateOut* rest = nullptr;
-  std::span<const Index> colour;       ///< by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil or of a spring share one
+  /// by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil or of a spring share
+  /// one
+  std::span<const Index> colour;
   std::span<const Vec3f> old, start, target, previous;  ///< x, xᵗ, y, X_prev [m]; contacts were found at X_prev
   std::span<const float> bound;                         ///< b_v [m]
   std::span<const VertexFacetContact> vertex_facet;     ///< canonical order
@@ -33,12 +38,13 @@ struct SweepOut {
   Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay beyond its bound
 };
 
-/// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m], in the direction in which this answer is:
-/// the error of f and H within the tolerances of their stages through H⁻¹, of the solve, of the truncation, of storing. 0 where the answer must be `position`
-/// bit for bit. `grey`: a stencil of the vertex has more than one accepted answer (`position` then comes from the combination nearest to the answer), or the
-/// vertex is *ill-conditioned*: the errors of H alone could make it singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. No single-precision solve
-/// can then be held to a position, and a solver may fall back to a step down the gradient: `accepted` is infinite, unless the vertex was not cut and
-/// moved against its force beyond all error: then 0.
+/// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m], in
+/// the direction in which this answer is: the error of f and H within the tolerances of their stages through H⁻¹, of
+/// the solve, of the truncation, of storing. 0 where the answer must be `position` bit for bit. `grey`: a stencil of
+/// the vertex has more than one accepted answer (`position` then comes from the combination nearest to the answer), or
+/// the vertex is *ill-conditioned*: the errors of H alone could make it singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. No single-precision
+/// solve can then be held to a position, and a solver may fall back to a step down the gradient: `accepted` is
+/// infinite, unless the vertex was not cut and moved against its force beyond all error: then 0.
 struct SweepTruth {
   std::vector<Vec3> position;
   std::vector<double> accepted;
@@ -46,16 +52,17 @@ struct SweepTruth {
   Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
 };
 
-/// What the sweep adds to the tolerances of its stages, in their units u · scale: ∇N₀ of a triangle, w(x0) of a hinge and k_d/h, ε_v h are rounded once by
-/// either side.
+/// What the sweep adds to the tolerances of its stages, in their units u · scale: ∇N₀ of a triangle, w(x0) of a hinge
+/// and k_d/h, ε_v h are rounded once by either side.
 inline constexpr double sweep_input_tolerance = 2;
-/// Additions of a stencil to the block, each rounded to u of a partial sum of moduli: at most four parts (membrane), the largest of which (friction's
-/// identity before the normal is taken out of it) is √(3/2) of the whole: less than 5. The force is added once.
+/// Additions of a stencil to the block, each rounded to u of a partial sum of moduli: at most four parts (membrane),
+/// the largest of which (friction's identity before the normal is taken out of it) is √(3/2) of the whole: less than 5.
+/// The force is added once.
 inline constexpr double sweep_block_additions = 5;
 /// Of the inertia: u w ‖y − x‖ times difference (1), weight w = m/h² (1), product (1); and u w √3 in the block.
 inline constexpr double sweep_inertia_tolerance = 3;
-/// Backward error of the solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for Cholesky's and LDLᵀ's factors and both substitutions (3n + 1, n = 3; two more
-/// for the divisions of LDLᵀ), whose norm is at most n ‖H‖₂.
+/// Backward error of the solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for Cholesky's and LDLᵀ's factors and both
+/// substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ), whose norm is at most n ‖H‖₂.
 inline constexpr double sweep_solve_tolerance = 36;
 
 }  // namespace ogc::compare

@@ -14,7 +14,8 @@ struct TruncateIn {
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
 };
 
-/// The position that is *stored* obeys ‖x − x_prev‖ ≤ b_v exactly. Where nothing is exceeded the position comes back bit for bit.
+/// The position that is *stored* obeys ‖x − x_prev‖ ≤ b_v exactly. Where nothing is exceeded the position comes back
+/// bit for bit.
 struct TruncateOut {
   std::vector<Vec3f> position;
   std::vector<std::uint8_t> exceeded;  ///< 1 where ‖x − x_prev‖ > b_v
@@ -26,8 +27,9 @@ struct TruncateTruth {
   std::vector<Vec3> position;                ///< exact result, rounded to double
 };
 
-/// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b): storing three coordinates (√3 half ulps), a step
-/// towards x_prev where rounding went outwards (as much again), and the relative error of the scale (4 u b).
+/// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b): storing three
+/// coordinates (√3 half ulps), a step towards x_prev where rounding went outwards (as much again), and the relative
+/// error of the scale (4 u b).
 inline constexpr double truncate_position_tolerance = 8;
 
 }  // namespace ogc::compare

@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
-#include "compare/files/mesh_files.hpp"
 #include "compare/files/frames/mesh_sequence.hpp"
 #include "compare/files/frames/natural_order.hpp"
+#include "compare/files/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/auditor.hpp"
@@ -184,16 +184,15 @@ std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) 
   for (const fs::path& file : files)
     if (files.size() > 1 && reader_of(file.string()) != nullptr)
       throw InputError(file.string() + ": holds many frames; name it alone");
-  return compare::mesh_files_sequence(std::move(files), [options = request.meshes](const fs::path& file) {
-    return compare::load_mesh(file, options);
-  });
+  return compare::mesh_files_sequence(
+      std::move(files), [options = request.meshes](const fs::path& file) { return compare::load_mesh(file, options); });
 }
 
 }  // namespace
 
 std::unique_ptr<AuditSource> open_audit(const AuditRequest& request) {
-  const bool is_run =
-      request.paths.size() == 1 && type_of(fs::path(request.paths.front()) / "run.json") == fs::file_type::regular;
+  const bool is_run = request.paths.size() == 1 &&
+                      type_of(fs::path(request.paths.front()) / "run.json") == fs::file_type::regular;
   if (is_run && request.topology.empty()) return std::make_unique<RunSource>(request.paths.front(), request.limit);
   auto source = std::make_unique<SequenceSource>(open_frames(request), request.limit);
   if (source->size() == 0) throw InputError(request.paths.front() + ": holds no frame; there is nothing to audit");

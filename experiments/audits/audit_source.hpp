@@ -40,8 +40,8 @@ class AuditSource {
 
 struct AuditRequest {
   std::vector<std::string>
-      paths;             ///< a run folder, a folder of meshes, meshes, patterns of them, one .npz, .npy or .pc2
-  std::string topology;  ///< mesh of the triangles, for files that hold positions alone; may be empty
+      paths;                    ///< a run folder, a folder of meshes, meshes, patterns of them, one .npz, .npy or .pc2
+  std::string topology;         ///< mesh of the triangles, for files that hold positions alone; may be empty
   compare::MeshOptions meshes;  ///< what is taken of mesh files
   std::size_t limit = compare::AuditOptions{}.limit;  ///< intersections that are listed of a state
 };

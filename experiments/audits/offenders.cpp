@@ -4,9 +4,9 @@
 #include <map>
 
 #include "compare/files/bytes.hpp"
-#include "experiments/audits/png.hpp"
 #include "compare/record/vtp.hpp"
 #include "experiments/audits/picture.hpp"
+#include "experiments/audits/png.hpp"
 #include "experiments/output.hpp"
 
 namespace ogc::experiments {
@@ -115,8 +115,7 @@ std::string show_offenders(const std::filesystem::path& folder, const std::strin
   if (has_png()) compare::write_bytes(png, png_bytes(picture_of(offenders, topology, positions)));
   return name + ": " + counted(offenders.triangles.size(), "triangle") + " " +
          place_of(offenders, topology, positions) + ": " +
-         (has_png() ? png : "no picture (this program was built without libpng; install libpng-dev)") + ", " +
-         vtp;
+         (has_png() ? png : "no picture (this program was built without libpng; install libpng-dev)") + ", " + vtp;
 }
 
 }  // namespace ogc::experiments

@@ -305,8 +305,7 @@ void copy(const Canvas& canvas, Image& image, std::size_t left) {
 
 }  // namespace
 
-Image picture_of(const Offenders& offenders, const compare::Topology& topology,
-                          const std::vector<Vec3>& positions) {
+Image picture_of(const Offenders& offenders, const compare::Topology& topology, const std::vector<Vec3>& positions) {
   const Painter painter(offenders, topology, positions);
   const Region whole = painter.whole();
   Region near = painter.first();

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "experiments/audits/png.hpp"
 #include "experiments/audits/offenders.hpp"
+#include "experiments/audits/png.hpp"
 
 namespace ogc::experiments {
 
@@ -15,6 +15,6 @@ namespace ogc::experiments {
 /// rest is grey. The direction of view is the one of 26 (axes and diagonals) from which most of the offending triangles
 /// is seen unhidden; the box of the close-up is drawn on the left.
 Image picture_of(const Offenders& offenders, const compare::Topology& topology,
-                          const std::vector<compare::Vec3>& positions);
+                 const std::vector<compare::Vec3>& positions);
 
 }  // namespace ogc::experiments

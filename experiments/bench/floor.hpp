@@ -1,4 +1,5 @@
-// The least time that a machine needs for work that was counted: no order of work is faster. Only for machines whose limits were measured.
+// The least time that a machine needs for work that was counted: no order of work is faster. Only for machines whose
+// limits were measured.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +12,13 @@ namespace ogc::experiments {
 
 struct MachineLimits {
   double flop_per_second = 0;
-  double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;  ///< up to so many bytes stay in the cache of the device
+  /// up to so many bytes stay in the cache of the device
+  double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
   double seconds_between_colours = 0;  ///< a kernel that waits for the one before, in a graph
 };
 
-/// H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz; bandwidths and the shortest edge of a graph as fast/PERFORMANCE.md gives them.
+/// H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz; bandwidths and the shortest edge of a graph as
+/// fast/PERFORMANCE.md gives them.
 inline std::optional<MachineLimits> limits_of(const std::string& device) {
   if (device.find("H200") == std::string::npos) return std::nullopt;
   return MachineLimits{132 * 128 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
@@ -27,7 +30,8 @@ inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& w
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;
 }
 
-/// Of the searches of one detection [s]: the larger of arithmetic and bytes, all of them from the cache. Double precision, which takes twice as long, counts as single.
+/// Of the searches of one detection [s]: the larger of arithmetic and bytes, all of them from the cache. Double
+/// precision, which takes twice as long, counts as single.
 inline double search_floor(const MachineLimits& machine, const fast::SearchWork& work) {
   return std::max(work.flop / machine.flop_per_second, work.bytes / machine.cache_bytes_per_second);
 }

@@ -14,9 +14,9 @@ namespace ogc::experiments {
 struct BenchOptions {
   std::vector<fast::Backend> backends;
   std::string scale = "small";
-  std::int64_t steps = 16;            ///< of a window
+  std::int64_t steps = 16;  ///< of a window
   int repetitions = 4;
-  std::vector<std::string> states;    ///< frames of runs
+  std::vector<std::string> states;  ///< frames of runs
 };
 
 /// A scene and where its window begins.

@@ -30,8 +30,7 @@ int run_self(std::vector<std::string> words) {
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) throw std::runtime_error("can't start a process for a benchmark");
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -44,7 +43,8 @@ void bench_in_processes(const std::vector<std::string>& arguments, int count, co
     log_line("process " + std::to_string(k + 1) + " of " + std::to_string(count));
     std::vector<std::string> words = arguments;
     words.insert(words.end(), {"--json", part.string()});
-    if (const int status = run_self(words); status != 0) throw std::runtime_error("process " + std::to_string(k + 1) + " ended with status " + std::to_string(status));
+    if (const int status = run_self(words); status != 0)
+      throw std::runtime_error("process " + std::to_string(k + 1) + " ended with status " + std::to_string(status));
     Json one = parse_results(part);
     std::filesystem::remove(part);
     for (Json& run : one.at("benchmarks")) run["process"] = k;

@@ -33,8 +33,9 @@ double tie_sum(std::span<const double> before, std::span<const double> after) {
   return sum;
 }
 
-/// Share of the orders of n + m values whose U is at most `u`. Orders by U obey f(n, m, u) = f(n − 1, m, u − m) + f(n, m − 1, u): the largest value is of the
-/// first set, and above all m of the second, or of the second. Shares instead of counts, so that nothing overflows.
+/// Share of the orders of n + m values whose U is at most `u`. Orders by U obey f(n, m, u) = f(n − 1, m, u − m) + f(n,
+/// m − 1, u): the largest value is of the first set, and above all m of the second, or of the second. Shares instead of
+/// counts, so that nothing overflows.
 double share_up_to(std::size_t n, std::size_t m, std::size_t u) {
   const std::size_t most = n * m;
   // by_second[j][u] for the present size of the first set.
@@ -42,9 +43,11 @@ double share_up_to(std::size_t n, std::size_t m, std::size_t u) {
   for (auto& shares : by_second) shares[0] = 1;
   for (std::size_t i = 1; i <= n; ++i) {
     for (std::size_t j = 1; j <= m; ++j) {
-      const auto first = static_cast<double>(i) / static_cast<double>(i + j), second = static_cast<double>(j) / static_cast<double>(i + j);
+      const auto first = static_cast<double>(i) / static_cast<double>(i + j),
+                 second = static_cast<double>(j) / static_cast<double>(i + j);
       std::vector<double> shares(most + 1, 0);
-      for (std::size_t k = 0; k <= i * j; ++k) shares[k] = second * by_second[j - 1][k] + (k >= j ? first * by_second[j][k - j] : 0);
+      for (std::size_t k = 0; k <= i * j; ++k)
+        shares[k] = second * by_second[j - 1][k] + (k >= j ? first * by_second[j][k - j] : 0);
       by_second[j] = std::move(shares);
     }
   }
@@ -63,7 +66,8 @@ double mann_whitney(std::span<const double> before, std::span<const double> afte
   const std::size_t n = before.size(), m = after.size();
   if (n == 0 || m == 0) return 1;
   const double u = u_statistic(before, after), middle = 0.5 * static_cast<double>(n * m), ties = tie_sum(before, after);
-  if (ties > 0 || std::max(n, m) > largest_exact) return normal_probability(std::abs(u - middle), static_cast<double>(n), static_cast<double>(m), ties);
+  if (ties > 0 || std::max(n, m) > largest_exact)
+    return normal_probability(std::abs(u - middle), static_cast<double>(n), static_cast<double>(m), ties);
   return std::min(1.0, 2 * share_up_to(n, m, static_cast<std::size_t>(std::min(u, 2 * middle - u))));
 }
 

@@ -27,7 +27,9 @@ std::string plain_name(const std::string& name) {
   for (std::size_t begin = 0; begin < name.size();) {
     const std::size_t end = std::min(name.find('/', begin + 1), name.size());
     const std::string part = name.substr(begin, end - begin);
-    if (!part.starts_with("/repeats:") && !part.starts_with("/min_time:") && part != "/manual_time" && part != "/real_time") plain += part;
+    if (!part.starts_with("/repeats:") && !part.starts_with("/min_time:") && part != "/manual_time" &&
+        part != "/real_time")
+      plain += part;
     begin = end;
   }
   return plain;
@@ -39,7 +41,9 @@ std::string without_nan(std::string text) {
   return text;
 }
 
-double nanoseconds_in(const std::string& unit) { return unit == "s" ? 1e9 : unit == "ms" ? 1e6 : unit == "us" ? 1e3 : 1; }
+double nanoseconds_in(const std::string& unit) {
+  return unit == "s" ? 1e9 : unit == "ms" ? 1e6 : unit == "us" ? 1e3 : 1;
+}
 
 Verdict verdict_of(const BenchChange& change, double correction) {
   if (change.probability < significance) return change.ratio > 1 ? Verdict::slower : Verdict::faster;
@@ -72,18 +76,22 @@ BenchResults read_results(const std::filesystem::path& file) {
       if (run.at("run_type") != "iteration" || run.contains("error_occurred")) continue;
       const int process = run.value("process", 0);
       results.processes = std::max(results.processes, process + 1);
-      by_process[plain_name(run.at("run_name"))][process].push_back(run.at("real_time").get<double>() * nanoseconds_in(run.at("time_unit")));
+      by_process[plain_name(run.at("run_name"))][process].push_back(run.at("real_time").get<double>() *
+                                                                    nanoseconds_in(run.at("time_unit")));
     }
     for (const auto& [key, value] : json.at("context").items())
       if (value.is_string()) results.context[key] = value;
   } catch (const Json::exception& error) {
     throw compare::InputError(file.string() + ": " + error.what() + ": the file was changed by hand; measure again");
   }
-  if (by_process.empty()) throw compare::InputError(file.string() + ": holds no measurement; run `ogc bench --json FILE` again");
+  if (by_process.empty())
+    throw compare::InputError(file.string() + ": holds no measurement; run `ogc bench --json FILE` again");
   for (const auto& [name, processes] : by_process)
     for (const auto& [process, times] : processes) {
-      if (results.processes == 1) results.times[name] = times;
-      else results.times[name].push_back(median(times));
+      if (results.processes == 1)
+        results.times[name] = times;
+      else
+        results.times[name].push_back(median(times));
     }
   return results;
 }
@@ -102,7 +110,14 @@ BenchComparison compare_results(const BenchResults& before, const BenchResults& 
       comparison.only_before.push_back(name);
       continue;
     }
-    comparison.changes.push_back({name, times.size(), found->second.size(), median(times), median(found->second), typical_ratio(times, found->second), 1, {}});
+    comparison.changes.push_back({name,
+                                  times.size(),
+                                  found->second.size(),
+                                  median(times),
+                                  median(found->second),
+                                  typical_ratio(times, found->second),
+                                  1,
+                                  {}});
     probabilities.push_back(mann_whitney(times, found->second));
   }
   for (const auto& [name, times] : after.times)
@@ -114,7 +129,8 @@ BenchComparison compare_results(const BenchResults& before, const BenchResults& 
   }
   for (const std::string key : {"device_cpu", "device_cuda", "compiler", "cuda", "threads"}) {
     const auto first = before.context.find(key), second = after.context.find(key);
-    const std::string was = first == before.context.end() ? "none" : first->second, is = second == after.context.end() ? "none" : second->second;
+    const std::string was = first == before.context.end() ? "none" : first->second,
+                      is = second == after.context.end() ? "none" : second->second;
     if (was != is) comparison.differing_context.push_back(key + ": " + was + ", then " + is);
   }
   return comparison;
@@ -129,17 +145,24 @@ std::string duration(double nanoseconds) {
 
 std::string describe(const BenchComparison& comparison) {
   std::string text;
-  for (const std::string& line : comparison.differing_context) text += "measured under other conditions: " + line + "\n";
+  for (const std::string& line : comparison.differing_context)
+    text += "measured under other conditions: " + line + "\n";
   std::vector<std::vector<std::string>> rows{{"benchmark", "before", "after", "after/before", "p", "n", "verdict"}};
   for (const BenchChange& change : comparison.changes)
-    rows.push_back({change.name, duration(change.before_ns), duration(change.after_ns), number(change.ratio, 4), number(change.probability, 2),
-                    std::to_string(change.samples_before) + "+" + std::to_string(change.samples_after), name_of(change.verdict)});
+    rows.push_back({change.name, duration(change.before_ns), duration(change.after_ns), number(change.ratio, 4),
+                    number(change.probability, 2),
+                    std::to_string(change.samples_before) + "+" + std::to_string(change.samples_after),
+                    name_of(change.verdict)});
   text += table(rows, 1);
   for (const std::string& name : comparison.only_before) text += "only before: " + name + "\n";
   for (const std::string& name : comparison.only_after) text += "only after: " + name + "\n";
   if (!comparison.is_of_processes)
-    text += "Samples are repetitions inside one process: what differs from start to start (placement of memory) looks like a change. Measure with --processes 8.\n";
-  return text + "before, after: medians of the samples, which are the processes' medians. after/before: median of all quotients. p: Mann-Whitney, two-sided, corrected by Holm for " +
+    text +=
+        "Samples are repetitions inside one process: what differs from start to start (placement of memory) looks like "
+        "a change. Measure with --processes 8.\n";
+  return text +
+         "before, after: medians of the samples, which are the processes' medians. after/before: median of all "
+         "quotients. p: Mann-Whitney, two-sided, corrected by Holm for " +
          counted(comparison.changes.size(), "comparison") + ";\na change is one below " + number(significance) +
          ". Measure both files on one machine that does nothing else.\n";
 }

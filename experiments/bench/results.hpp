@@ -12,9 +12,10 @@ namespace ogc::experiments {
 
 /// One file.
 struct BenchResults {
-  std::map<std::string, std::vector<double>> times;  ///< by name [ns]: each process' median; of a single process each repetition
+  /// by name [ns]: each process' median; of a single process each repetition
+  std::map<std::string, std::vector<double>> times;
   int processes = 1;
-  std::map<std::string, std::string> context;        ///< "device_cpu", "commit", …
+  std::map<std::string, std::string> context;  ///< "device_cpu", "commit", …
 };
 
 /// Throws compare::InputError that names the file: missing, no JSON, no result of a benchmark.
@@ -26,24 +27,26 @@ Json parse_results(const std::filesystem::path& file);
 struct BenchChange {
   std::string name;
   std::size_t samples_before = 0, samples_after = 0;
-  double before_ns = 0, after_ns = 0;   ///< medians
-  double ratio = 1;                     ///< after / before (typical_ratio)
-  double probability = 1;               ///< of Mann–Whitney, corrected by Holm over all benchmarks of the comparison
+  double before_ns = 0, after_ns = 0;  ///< medians
+  double ratio = 1;                    ///< after / before (typical_ratio)
+  double probability = 1;              ///< of Mann–Whitney, corrected by Holm over all benchmarks of the comparison
   enum class Verdict { faster, slower, none_found, too_few } verdict = Verdict::none_found;
 };
 
 struct BenchComparison {
-  std::vector<BenchChange> changes;             ///< by name
+  std::vector<BenchChange> changes;  ///< by name
   std::vector<std::string> only_before, only_after;
-  std::vector<std::string> differing_context;   ///< "device_cpu: 2 threads, then 16 threads"
-  bool is_of_processes = true;                  ///< false: one of the files is of a single process, and p knows nothing of what differs between starts
+  std::vector<std::string> differing_context;  ///< "device_cpu: 2 threads, then 16 threads"
+  /// false: one of the files is of a single process, and p knows nothing of what differs between starts
+  bool is_of_processes = true;
   bool has_slower() const;
 };
 
 /// A benchmark changed where its corrected probability is below this.
 inline constexpr double significance = 0.01;
 
-/// How noise is judged: experiments/bench/rank_test.hpp. `too_few`: no order of so many repetitions could be significant.
+/// How noise is judged: experiments/bench/rank_test.hpp. `too_few`: no order of so many repetitions could be
+/// significant.
 BenchComparison compare_results(const BenchResults& before, const BenchResults& after);
 
 std::string describe(const BenchComparison& comparison);

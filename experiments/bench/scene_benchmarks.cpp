@@ -95,7 +95,8 @@ struct Work {
 
 Work sweep_work(const Rows& rows, const fast::SweepWork& work, const std::optional<MachineLimits>& machine) {
   const auto flop = [&](const StepMetrics& row) {
-    return work.flop + static_cast<double>(row.vertex_facet_contacts) * work.flop_vertex_facet + static_cast<double>(row.edge_edge_contacts) * work.flop_edge_edge;
+    return work.flop + static_cast<double>(row.vertex_facet_contacts) * work.flop_vertex_facet +
+           static_cast<double>(row.edge_edge_contacts) * work.flop_edge_edge;
   };
   const auto bytes = [&](const StepMetrics& row) {
     return work.bytes + static_cast<double>(row.vertex_facet_contacts + row.edge_edge_contacts) * work.bytes_contact;
@@ -103,11 +104,14 @@ Work sweep_work(const Rows& rows, const fast::SweepWork& work, const std::option
   const auto of_step = [&](const auto& of_iteration) {
     return mean(rows, [&](const StepMetrics& row) { return static_cast<double>(row.iterations) * of_iteration(row); });
   };
-  const auto floor = [&](const StepMetrics& row) { return machine ? sweep_floor(*machine, work, flop(row), bytes(row)) : 0; };
+  const auto floor = [&](const StepMetrics& row) {
+    return machine ? sweep_floor(*machine, work, flop(row), bytes(row)) : 0;
+  };
   return {of_step(flop), of_step(bytes), of_step(floor)};
 }
 
-Work search_work(benchmark::State& state, double each_step, const fast::SearchWork& work, const std::optional<MachineLimits>& machine) {
+Work search_work(benchmark::State& state, double each_step, const fast::SearchWork& work,
+                 const std::optional<MachineLimits>& machine) {
   state.counters["nodes"] = each_step * work.nodes;
   state.counters["candidates"] = each_step * work.candidates;
   state.counters["distances"] = each_step * work.distances;
@@ -117,20 +121,25 @@ Work search_work(benchmark::State& state, double each_step, const fast::SearchWo
 void count_work(benchmark::State& state, const Rows& rows, Windows& windows, Counted counted, double mean_ms) {
   const std::optional<MachineLimits> machine = limits_of(windows.device());
   const Work sweep = counted == Counted::searches ? Work{} : sweep_work(rows, windows.work(), machine);
-  const Work searches = counted == Counted::sweep ? Work{} : search_work(state, mean(rows, detections), windows.searches(), machine);
+  const Work searches = counted == Counted::sweep
+                            ? Work{}
+                            : search_work(state, mean(rows, detections), windows.searches(), machine);
   state.counters["flop"] = sweep.flop + searches.flop;
   state.counters["bytes"] = sweep.bytes + searches.bytes;
   if (machine && mean_ms > 0) state.counters["share_of_floor"] = (sweep.floor + searches.floor) / (1e-3 * mean_ms);
 }
 
 void count_steps(benchmark::State& state, const Rows& rows) {
-  state.counters["contacts"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.vertex_facet_contacts + row.edge_edge_contacts); });
+  state.counters["contacts"] = mean(rows, [](const StepMetrics& row) {
+    return static_cast<double>(row.vertex_facet_contacts + row.edge_edge_contacts);
+  });
   state.counters["detections"] = mean(rows, detections);
   state.counters["repeats"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.repeats); });
 }
 
 /// `stage`: its place among the times of a row; none for the whole step.
-void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage, Counted counted) {
+void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage,
+             Counted counted) {
   const Rows& rows = windows.repetition(repetition);
   const auto milliseconds = [&](const StepMetrics& row) { return stage ? row.stage_ms[*stage] : row.wall_ms; };
   if (static_cast<benchmark::IterationCount>(rows.size()) < state.max_iterations) {
@@ -150,7 +159,8 @@ class Registrar {
   void add(const std::string& label, const std::function<BenchScene()>& make) const {
     for (const fast::Backend backend : options_.backends) {
       add_one("step/" + label, make, backend, std::nullopt);
-      for (std::size_t stage = 0; stage < stages.size(); ++stage) add_one("part/" + std::string(stages[stage]) + "/" + label, make, backend, stage);
+      for (std::size_t stage = 0; stage < stages.size(); ++stage)
+        add_one("part/" + std::string(stages[stage]) + "/" + label, make, backend, stage);
     }
   }
 
@@ -158,22 +168,31 @@ class Registrar {
   /// As the fast path calls them, in its order; checked when they are measured.
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
-  void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend, std::optional<std::size_t> stage) const {
+  void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend,
+               std::optional<std::size_t> stage) const {
     const Counted counted = stage ? counted_of(stages[*stage]) : Counted::both;
     const std::string key = name.substr(stage ? name.find('/', 5) : 4) + name_of(backend) + (stage ? "profiled" : "");
-    const auto body = [=, steps = options_.steps, repetition = std::make_shared<std::size_t>(0)](benchmark::State& state) {
-      Windows& windows = windows_of(key, [&] { return std::make_unique<Windows>(make(), backend, stage.has_value(), steps); });
-      if (stage && windows.stage_names().at(*stage) != stages[*stage]) throw std::logic_error("the parts of a step have other names");
+    const auto body = [=, steps = options_.steps,
+                       repetition = std::make_shared<std::size_t>(0)](benchmark::State& state) {
+      Windows& windows = windows_of(
+          key, [&] { return std::make_unique<Windows>(make(), backend, stage.has_value(), steps); });
+      if (stage && windows.stage_names().at(*stage) != stages[*stage])
+        throw std::logic_error("the parts of a step have other names");
       measure(state, windows, (*repetition)++, stage, counted);
     };
     benchmark::RegisterBenchmark((name + "/" + name_of(backend)).c_str(), body)
-        ->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(options_.steps)->Repetitions(options_.repetitions);
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(options_.steps)
+        ->Repetitions(options_.repetitions);
   }
 
   const BenchOptions& options_;
 };
 
-std::filesystem::path run_of(const std::string& frame) { return std::filesystem::path(frame).parent_path().parent_path(); }
+std::filesystem::path run_of(const std::string& frame) {
+  return std::filesystem::path(frame).parent_path().parent_path();
+}
 
 }  // namespace
 
@@ -183,7 +202,8 @@ BenchScene scene_at_frame(const std::string& frame) {
   compare::Frame state = compare::read_frame(frame);
   BenchScene result{compare::RunReader(run_of(frame)).scene(), compare::Snapshot{}};
   if (state.positions.size() != result.scene.mesh.positions.size())
-    throw compare::InputError(frame + ": has another number of vertices than the scene of " + run_of(frame).string() + ": give a frame where its run left it");
+    throw compare::InputError(frame + ": has another number of vertices than the scene of " + run_of(frame).string() +
+                              ": give a frame where its run left it");
   result.start->step = state.step;
   result.start->positions = std::move(state.positions);
   result.start->velocities = std::move(state.velocities);
@@ -197,11 +217,13 @@ std::string frame_label(const std::string& frame) {
 
 void register_scene_benchmarks(const BenchOptions& options) {
   const Registrar registrar(options);
-  for (const std::string& frame : options.states) registrar.add(frame_label(frame), [frame] { return scene_at_frame(frame); });
+  for (const std::string& frame : options.states)
+    registrar.add(frame_label(frame), [frame] { return scene_at_frame(frame); });
   if (!options.states.empty()) return;
   for (const SceneInfo& info : scenes())
-    registrar.add(std::string(info.name) + "/" + options.scale,
-                  [name = info.name, scale = parse_scale(options.scale)] { return BenchScene{make_scene(name, scale), std::nullopt}; });
+    registrar.add(std::string(info.name) + "/" + options.scale, [name = info.name, scale = parse_scale(options.scale)] {
+      return BenchScene{make_scene(name, scale), std::nullopt};
+    });
 }
 
 }  // namespace ogc::experiments

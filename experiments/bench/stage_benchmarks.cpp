@@ -37,7 +37,8 @@ std::vector<TestCase> generic_cases(Stage stage, std::uint64_t count) {
   for (const compare::Generator& row : generators(stage)) {
     if (!row.generic) continue;
     const auto wanted = static_cast<std::uint64_t>(static_cast<double>(count) * row.share / shares) + 1;
-    for (std::uint64_t i = 0; i < wanted && cases.size() < count; ++i) cases.push_back(generate(row, {stage, std::string(row.name), seed, i, "", {}}));
+    for (std::uint64_t i = 0; i < wanted && cases.size() < count; ++i)
+      cases.push_back(generate(row, {stage, std::string(row.name), seed, i, "", {}}));
   }
   if (cases.empty()) throw std::logic_error("a stage without generic cases");
   return cases;
@@ -55,10 +56,13 @@ Call pair_call(Stage stage, const Contestant& contestant) {
   switch (stage) {
     case Stage::closest_face: return call_of(face_question(cases), contestant.closest_face, n);
     case Stage::closest_points: return call_of(points_question(cases), contestant.closest_points, n);
-    case Stage::initial_guess: return call_of(case_question(cases, &compare::InitialGuessIn::cases), contestant.initial_guess, n);
+    case Stage::initial_guess:
+      return call_of(case_question(cases, &compare::InitialGuessIn::cases), contestant.initial_guess, n);
     case Stage::activation: return call_of(activation_question(cases), contestant.activation, n);
-    case Stage::contact_force: return call_of(case_question(cases, &compare::ContactForceIn::cases), contestant.contact_force, n);
-    case Stage::friction_force: return call_of(case_question(cases, &compare::FrictionForceIn::cases), contestant.friction_force, n);
+    case Stage::contact_force:
+      return call_of(case_question(cases, &compare::ContactForceIn::cases), contestant.contact_force, n);
+    case Stage::friction_force:
+      return call_of(case_question(cases, &compare::FrictionForceIn::cases), contestant.friction_force, n);
     case Stage::membrane: return call_of(case_question(cases, &compare::MembraneIn::cases), contestant.membrane, n);
     case Stage::bending: return call_of(case_question(cases, &compare::BendingIn::cases), contestant.bending, n);
     case Stage::spring: return call_of(case_question(cases, &compare::SpringIn::cases), contestant.spring, n);
@@ -76,7 +80,10 @@ struct SceneData {
   compare::DetectEdgeEdgeOut edge_edge;
 
   explicit SceneData(compare::Scene from)
-      : scene(std::move(from)), topology(build_topology(scene)), left_out(exclusions(scene)), positions(compare::to_single(scene.mesh.positions)) {}
+      : scene(std::move(from)),
+        topology(build_topology(scene)),
+        left_out(exclusions(scene)),
+        positions(compare::to_single(scene.mesh.positions)) {}
   compare::DetectIn detect() const {
     const auto radius = static_cast<float>(scene.settings.contact_radius);
     return {&topology, left_out, positions, radius, static_cast<float>(scene.settings.query_radius_cap) * radius};
@@ -94,7 +101,8 @@ Call scene_call(Stage stage, const Contestant& contestant, compare::Scene scene)
   const auto data = std::make_shared<SceneData>(std::move(scene));
   const auto n = static_cast<std::int64_t>(data->positions.size());
   switch (stage) {
-    case Stage::rest_state: return owned(call_of(compare::RestStateIn{&data->scene, &data->topology}, contestant.rest_state, n), data);
+    case Stage::rest_state:
+      return owned(call_of(compare::RestStateIn{&data->scene, &data->topology}, contestant.rest_state, n), data);
     case Stage::step: return owned(call_of(compare::StepIn{&data->scene, &data->topology}, contestant.step, n), data);
     case Stage::detect_vertex_facet: return owned(call_of(data->detect(), contestant.detect_vertex_facet, n), data);
     case Stage::detect_edge_edge: return owned(call_of(data->detect(), contestant.detect_edge_edge, n), data);
@@ -102,7 +110,8 @@ Call scene_call(Stage stage, const Contestant& contestant, compare::Scene scene)
   }
   data->vertex_facet = contestant.detect_vertex_facet(data->detect());
   data->edge_edge = contestant.detect_edge_edge(data->detect());
-  const compare::BoundIn in{&data->topology, data->vertex_facet.d_min_vertex, data->edge_edge.d_min_edge, data->vertex_facet.d_min_triangle,
+  const compare::BoundIn in{&data->topology, data->vertex_facet.d_min_vertex, data->edge_edge.d_min_edge,
+                            data->vertex_facet.d_min_triangle,
                             static_cast<float>(data->scene.settings.bound_relaxation)};
   return owned(call_of(in, contestant.bound, n), data);
 }
@@ -114,8 +123,11 @@ Call case_call(Stage stage, const Contestant& contestant) {
     const compare::BlockIn in = block_question(*test);
     return owned(call_of(in, contestant.block, static_cast<std::int64_t>(in.questions.size())), test);
   }
-  const auto question = std::make_shared<compare::SweepQuestion>(std::get<compare::SweepCase>(test->data), reference::authority());
-  return owned(owned(call_of(question->in(), contestant.sweep, static_cast<std::int64_t>(question->in().colour.size())), question), test);
+  const auto question = std::make_shared<compare::SweepQuestion>(std::get<compare::SweepCase>(test->data),
+                                                                 reference::authority());
+  return owned(owned(call_of(question->in(), contestant.sweep, static_cast<std::int64_t>(question->in().colour.size())),
+                     question),
+               test);
 }
 
 bool takes_scene(Stage stage) { return is_mesh_stage(stage) && stage != Stage::block && stage != Stage::sweep; }
@@ -131,8 +143,10 @@ Call make_call(Stage stage, const Contestant& contestant, const std::string& sca
 void register_stage_benchmarks(const BenchOptions& options) {
   for (const fast::Backend backend : options.backends) {
     for (const Stage stage : compare::all_stages) {
-      const std::string name = "stage/" + std::string(stage_name(stage)) + (takes_scene(stage) ? "/" + options.scale : "") + "/" + name_of(backend);
-      const auto body = [stage, backend, scale = options.scale, call = std::make_shared<std::optional<Call>>()](benchmark::State& state) {
+      const std::string name = "stage/" + std::string(stage_name(stage)) +
+                               (takes_scene(stage) ? "/" + options.scale : "") + "/" + name_of(backend);
+      const auto body = [stage, backend, scale = options.scale,
+                         call = std::make_shared<std::optional<Call>>()](benchmark::State& state) {
         if (!*call) *call = make_call(stage, fast::contestant(backend), scale);
         (*call)->ask();
         for (auto _ : state) (*call)->ask();

@@ -8,7 +8,9 @@ namespace {
 
 /// A face as the plug-in wrote it.
 Face face(std::int32_t kind, std::int32_t index) {
-  if (kind < 0 || kind > 2) throw ContestantFailure("a contact names a face of kind " + std::to_string(kind) + "; known: 0 vertex, 1 edge, 2 triangle");
+  if (kind < 0 || kind > 2)
+    throw ContestantFailure("a contact names a face of kind " + std::to_string(kind) +
+                            "; known: 0 vertex, 1 edge, 2 triangle");
   return {static_cast<FaceKind>(kind), index};
 }
 
@@ -21,13 +23,14 @@ QuestionSizes sizes_of(std::size_t cases) {
 }
 
 QuestionSizes sizes_of(const Topology& topology) {
-  return {0, topology.vertex_count, static_cast<std::int32_t>(topology.edges.size()), static_cast<std::int32_t>(topology.triangles.size())};
+  return {0, topology.vertex_count, static_cast<std::int32_t>(topology.edges.size()),
+          static_cast<std::int32_t>(topology.triangles.size())};
 }
 
 std::vector<Bytes> inputs_of(const Topology& topology) {
   std::vector<Bytes> inputs{bytes_of(topology.edges), bytes_of(topology.triangles), bytes_of(topology.triangle_edges)};
-  for (const CompressedRows* rows : {&topology.vertex_edges, &topology.vertex_triangles, &topology.vertex_neighbours, &topology.edge_triangles,
-                                     &topology.edge_opposite}) {
+  for (const CompressedRows* rows : {&topology.vertex_edges, &topology.vertex_triangles, &topology.vertex_neighbours,
+                                     &topology.edge_triangles, &topology.edge_opposite}) {
     inputs.push_back(bytes_of(rows->offsets));
     inputs.push_back(bytes_of(rows->items));
   }

@@ -1,4 +1,5 @@
-// What all stages of a plug-in share on the judge's side: a topology as arrays, and arrays that come back as vectors and contacts.
+// What all stages of a plug-in share on the judge's side: a topology as arrays, and arrays that come back as vectors
+// and contacts.
 #pragma once
 
 #include <cstring>

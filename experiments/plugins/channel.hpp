@@ -93,6 +93,8 @@ class Channel {
 };
 
 /// A text as it is sent and as it comes back.
-inline std::string text_of(const std::vector<std::byte>& block) { return {reinterpret_cast<const char*>(block.data()), block.size()}; }
+inline std::string text_of(const std::vector<std::byte>& block) {
+  return {reinterpret_cast<const char*>(block.data()), block.size()};
+}
 
 }  // namespace ogc::experiments

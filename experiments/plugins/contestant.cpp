@@ -16,13 +16,20 @@ using namespace ogc::compare;
 
 // One layout on both sides: a question's structures are the plug-in's.
 static_assert(sizeof(Vec3f) == sizeof(ogc_vec3));
-static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) && offsetof(MembraneCase, damping_form) == offsetof(ogc_membrane_case, damping_form));
-static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) && offsetof(BendingCase, damping_form) == offsetof(ogc_bending_case, damping_form));
-static_assert(sizeof(SpringCase) == sizeof(ogc_spring_case) && offsetof(SpringCase, damping_form) == offsetof(ogc_spring_case, damping_form));
-static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) && offsetof(ContactForceCase, together) == offsetof(ogc_contact_force_case, together));
-static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) && offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
-static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) && offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
-static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) && offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));
+static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) &&
+              offsetof(MembraneCase, damping_form) == offsetof(ogc_membrane_case, damping_form));
+static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) &&
+              offsetof(BendingCase, damping_form) == offsetof(ogc_bending_case, damping_form));
+static_assert(sizeof(SpringCase) == sizeof(ogc_spring_case) &&
+              offsetof(SpringCase, damping_form) == offsetof(ogc_spring_case, damping_form));
+static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) &&
+              offsetof(ContactForceCase, together) == offsetof(ogc_contact_force_case, together));
+static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) &&
+              offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
+static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) &&
+              offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
+static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) &&
+              offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));
 
 using Plugin = std::shared_ptr<PluginProcess>;
 
@@ -38,7 +45,8 @@ ClosestPointsOut ask_closest_points(PluginProcess& plugin, const ClosestPointsIn
   const std::vector<Bytes> inputs{bytes_of(in.first), bytes_of(in.second)};
   const auto answer = plugin.ask("closest_points", sizes_of(in.first.size()), inputs);
   ClosestPointsOut out;
-  Outputs(answer).to(out.first_feature, out.second_feature, out.nearly_parallel, out.parameters, out.contact_distance, out.distance_below);
+  Outputs(answer).to(out.first_feature, out.second_feature, out.nearly_parallel, out.parameters, out.contact_distance,
+                     out.distance_below);
   return out;
 }
 
@@ -75,7 +83,8 @@ DetectEdgeEdgeOut ask_detect_edge_edge(PluginProcess& plugin, const DetectIn& in
 
 BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   std::vector<Bytes> inputs = inputs_of(*in.topology);
-  for (const auto& distances : {in.d_min_vertex, in.d_min_edge, in.d_min_triangle}) inputs.push_back(bytes_of(distances));
+  for (const auto& distances : {in.d_min_vertex, in.d_min_edge, in.d_min_triangle})
+    inputs.push_back(bytes_of(distances));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.bound_relaxation;
   const auto answer = plugin.ask("bound", sizes, inputs);
@@ -85,7 +94,8 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
 }
 
 ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
-  const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness), bytes_of(in.activation)};
+  const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness),
+                                  bytes_of(in.activation)};
   const auto answer = plugin.ask("activation", sizes_of(in.distance.size()), inputs);
   ActivationOut out;
   Outputs(answer).to(out.energy, out.slope, out.curvature);
@@ -130,8 +140,8 @@ BlockOut ask_block(PluginProcess& plugin, const BlockIn& in) {
 }
 
 template <class Out, class In>
-std::function<Out(const In&)> timed(std::function<Out(const In&)> plugin, const std::function<Out(const In&)>& ours, std::string name,
-                                    std::shared_ptr<Times> times) {
+std::function<Out(const In&)> timed(std::function<Out(const In&)> plugin, const std::function<Out(const In&)>& ours,
+                                    std::string name, std::shared_ptr<Times> times) {
   if (!plugin || !ours) return plugin;
   return [plugin, ours, name, times](const In& in) {
     Out answer = plugin(in);
@@ -171,7 +181,8 @@ Contestant plugin_contestant(Plugin plugin) {
 }
 
 Contestant timed_beside(Contestant plugin, const Contestant& ours, std::shared_ptr<Times> times) {
-  visit_stages([&](const char* name, auto member) { plugin.*member = timed(plugin.*member, ours.*member, name, times); });
+  visit_stages(
+      [&](const char* name, auto member) { plugin.*member = timed(plugin.*member, ours.*member, name, times); });
   return plugin;
 }
 

@@ -17,6 +17,7 @@ compare::Contestant plugin_contestant(std::shared_ptr<PluginProcess> plugin);
 using Times = std::map<std::string, double, std::less<>>;
 
 /// The plug-in, and, asked the same question right after it, ours, whose answer is timed and thrown away.
-compare::Contestant timed_beside(compare::Contestant plugin, const compare::Contestant& ours, std::shared_ptr<Times> times);
+compare::Contestant timed_beside(compare::Contestant plugin, const compare::Contestant& ours,
+                                 std::shared_ptr<Times> times);
 
 }  // namespace ogc::experiments

@@ -1,5 +1,6 @@
-// The driver's interface is declared here by hand: the few functions that move bytes have not changed since CUDA 4, and so a host build can judge a CUDA
-// plug-in, too. The context is the primary one, which the runtime library of the plug-in uses.
+// The driver's interface is declared here by hand: the few functions that move bytes have not changed since CUDA 4, and
+// so a host build can judge a CUDA plug-in, too. The context is the primary one, which the runtime library of the
+// plug-in uses.
 #include <dlfcn.h>
 
 #include <cstring>
@@ -29,7 +30,8 @@ struct Driver {
 
   Driver() {
     void* const library = dlopen("libcuda.so.1", RTLD_NOW);
-    if (!library) throw std::runtime_error("it asks for device memory, and there is no NVIDIA driver here (libcuda.so.1)");
+    if (!library)
+      throw std::runtime_error("it asks for device memory, and there is no NVIDIA driver here (libcuda.so.1)");
     find(library, "cuInit", init);
     find(library, "cuDeviceGet", device_get);
     find(library, "cuDevicePrimaryCtxRetain", retain);
@@ -59,7 +61,8 @@ struct Driver {
   template <class Function>
   static void find(void* library, const char* name, Function& function) {
     void* const symbol = dlsym(library, name);
-    if (!symbol) throw std::runtime_error(std::string("the NVIDIA driver here lacks ") + name + "; a newer one is needed");
+    if (!symbol)
+      throw std::runtime_error(std::string("the NVIDIA driver here lacks ") + name + "; a newer one is needed");
     std::memcpy(&function, &symbol, sizeof symbol);
   }
 };
@@ -76,7 +79,8 @@ class DeviceMemory final : public PluginMemory {
   const void* input(Bytes content) override {
     const DevicePointer at = take(content.size());
     inputs_.push_back(at);
-    if (!content.empty()) driver_.check(driver_.to_device(at, content.data(), content.size()), "copying to the device failed");
+    if (!content.empty())
+      driver_.check(driver_.to_device(at, content.data(), content.size()), "copying to the device failed");
     return reinterpret_cast<const void*>(at);
   }
 
@@ -99,7 +103,9 @@ class DeviceMemory final : public PluginMemory {
     return get(output.base + guard_bytes + output.bytes, guard_bytes) == zone ? Damage::none : Damage::behind;
   }
 
-  std::vector<std::byte> content(std::size_t k, std::size_t bytes) override { return get(outputs_[k].base + guard_bytes, bytes); }
+  std::vector<std::byte> content(std::size_t k, std::size_t bytes) override {
+    return get(outputs_[k].base + guard_bytes, bytes);
+  }
 
   void release() override {
     for (const DevicePointer at : inputs_) driver_.check(driver_.free(at), "freeing device memory failed");
@@ -121,7 +127,8 @@ class DeviceMemory final : public PluginMemory {
     return at;
   }
   void put(DevicePointer at, const std::vector<std::byte>& bytes) {
-    if (!bytes.empty()) driver_.check(driver_.to_device(at, bytes.data(), bytes.size()), "copying to the device failed");
+    if (!bytes.empty())
+      driver_.check(driver_.to_device(at, bytes.data(), bytes.size()), "copying to the device failed");
   }
   std::vector<std::byte> get(DevicePointer at, std::size_t bytes) {
     std::vector<std::byte> copy(bytes);

@@ -25,7 +25,8 @@ constexpr std::size_t untouchable = 16u << 20;
 class Pages {
  public:
   explicit Pages(std::size_t bytes) : bytes_(whole_pages(bytes)) {
-    void* const mapped = mmap(nullptr, bytes_ + 2 * untouchable, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void* const mapped = mmap(nullptr, bytes_ + 2 * untouchable, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,
+                              -1, 0);
     if (mapped == MAP_FAILED) throw std::bad_alloc();
     base_ = static_cast<std::byte*>(mapped);
     protect(PROT_READ | PROT_WRITE);
@@ -84,7 +85,9 @@ class HostMemory final : public PluginMemory {
     return holds_pattern({output.data + output.bytes, guard_bytes}) ? Damage::none : Damage::behind;
   }
 
-  std::vector<std::byte> content(std::size_t k, std::size_t bytes) override { return {outputs_[k].data, outputs_[k].data + bytes}; }
+  std::vector<std::byte> content(std::size_t k, std::size_t bytes) override {
+    return {outputs_[k].data, outputs_[k].data + bytes};
+  }
 
   void release() override {
     inputs_.clear();

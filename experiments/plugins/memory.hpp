@@ -1,5 +1,6 @@
-// The arrays that a plug-in sees. Each lies alone: inputs can't be written, and their end is the end of a page, so that reading on crashes; around outputs
-// lie guard zones, and all of it is filled with a pattern, so that what was written beyond an end, or never written, can be told.
+// The arrays that a plug-in sees. Each lies alone: inputs can't be written, and their end is the end of a page, so that
+// reading on crashes; around outputs lie guard zones, and all of it is filled with a pattern, so that what was written
+// beyond an end, or never written, can be told.
 #pragma once
 
 #include <cstddef>
@@ -31,14 +32,15 @@ class PluginMemory {
   /// The first `bytes` of the k-th output.
   virtual std::vector<std::byte> content(std::size_t k, std::size_t bytes) = 0;
   virtual void release() = 0;
-  /// Whether the process can be asked again after a call that broke the rules: not where it may have written anywhere in the process, nor where the device
-  /// has given up.
+  /// Whether the process can be asked again after a call that broke the rules: not where it may have written anywhere
+  /// in the process, nor where the device has given up.
   virtual bool can_go_on() = 0;
 };
 
 std::unique_ptr<PluginMemory> host_memory();
 
-/// Memory of CUDA device 0, through the driver's library, so that no build of `ogc` needs to know it. Throws std::runtime_error that says what is missing.
+/// Memory of CUDA device 0, through the driver's library, so that no build of `ogc` needs to know it. Throws
+/// std::runtime_error that says what is missing.
 std::unique_ptr<PluginMemory> device_memory();
 
 /// `bytes` of the pattern.

@@ -18,13 +18,13 @@ using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
 struct Greeting {
   LoadStatus status = LoadStatus::loaded;
-  std::string text;                ///< the plug-in's name, or why it was not loaded
-  std::vector<std::uint8_t> has;   ///< of plugin_stages(), where it was loaded: 1 where the library has the stage
+  std::string text;               ///< the plug-in's name, or why it was not loaded
+  std::vector<std::uint8_t> has;  ///< of plugin_stages(), where it was loaded: 1 where the library has the stage
 };
 
 struct WorkerAnswer {
   CallResult result;
-  std::string why;                              ///< where it was not answered
+  std::string why;  ///< where it was not answered
   std::vector<std::vector<std::byte>>
       outputs;  ///< of the stage, in its order, as long as the counts and the question's sizes say
 };

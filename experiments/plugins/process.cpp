@@ -35,10 +35,12 @@ constexpr const char* lost_socket =
 
 std::string in_seconds(unsigned seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
 
-/// Starts `program plugin-worker file` with one end of a socket as worker_descriptor; returns the process and the other end.
+/// Starts `program plugin-worker file` with one end of a socket as worker_descriptor; returns the process and the other
+/// end.
 pid_t spawn(const PluginOptions& options, Channel& channel) {
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw compare::ResourceError("plug-in: no socket: " + std::string(std::strerror(errno)));
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw compare::ResourceError("plug-in: no socket: " + std::string(std::strerror(errno)));
   channel = Channel(ends[0]);
   const Channel other(ends[1]);
   posix_spawn_file_actions_t actions;
@@ -84,10 +86,12 @@ int end_group(pid_t process) {
 
 }  // namespace
 
-PluginProcess::PluginProcess(PluginOptions options) : options_(std::move(options)), limit_seconds_(options_.limit_seconds) {
+PluginProcess::PluginProcess(PluginOptions options)
+    : options_(std::move(options)), limit_seconds_(options_.limit_seconds) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(options_.file, error))
-    throw compare::InputError(options_.file.string() + ": there is no such file; give the shared library that holds your kernels");
+    throw compare::InputError(options_.file.string() +
+                              ": there is no such file; give the shared library that holds your kernels");
   options_.file = std::filesystem::absolute(options_.file);  // dlopen looks elsewhere for a bare name
   start();
 }
@@ -135,7 +139,8 @@ double PluginProcess::seconds(std::string_view stage) const {
   return at == seconds_.end() ? 0 : at->second;
 }
 
-PluginProcess::Answer PluginProcess::ask(std::string_view stage_name, const QuestionSizes& sizes, std::span<const Bytes> inputs) {
+PluginProcess::Answer PluginProcess::ask(std::string_view stage_name, const QuestionSizes& sizes,
+                                         std::span<const Bytes> inputs) {
   if (!channel_.is_open()) start();
   const std::size_t number = find_plugin_stage(stage_name).value();
   const PluginStage& stage = plugin_stages()[number];
@@ -174,7 +179,8 @@ std::string PluginProcess::ending(Transfer how) {
   const int status = end_group(std::exchange(process_, -1));
   if (!by_itself) return lost_socket;
   if (WIFEXITED(status) && WEXITSTATUS(status) == worker_lost_socket) return lost_socket;
-  if (WIFSIGNALED(status)) return "it crashed: signal " + std::to_string(WTERMSIG(status)) + ", " + strsignal(WTERMSIG(status));
+  if (WIFSIGNALED(status))
+    return "it crashed: signal " + std::to_string(WTERMSIG(status)) + ", " + strsignal(WTERMSIG(status));
   return "it ended the process, exit status " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -188,18 +194,23 @@ void PluginProcess::note(const PluginStage& stage, const Answer& answer) {
     const OutputInfo& info = stage.outputs[k];
     std::uint64_t unwritten = 0, not_a_number = 0;
     if (info.element == Element::byte) {
-      unwritten = static_cast<std::uint64_t>(std::count(answer.outputs[k].begin(), answer.outputs[k].end(), std::byte{unwritten_byte}));
+      unwritten = static_cast<std::uint64_t>(
+          std::count(answer.outputs[k].begin(), answer.outputs[k].end(), std::byte{unwritten_byte}));
     } else {
       std::vector<std::uint32_t> words(answer.outputs[k].size() / 4);
       std::memcpy(words.data(), answer.outputs[k].data(), 4 * words.size());
       unwritten = static_cast<std::uint64_t>(std::count(words.begin(), words.end(), unwritten_word));
       if (info.element == Element::number)
-        not_a_number = static_cast<std::uint64_t>(std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return std::isnan(std::bit_cast<float>(w)); })) - unwritten;
+        not_a_number = static_cast<std::uint64_t>(
+                           std::count_if(words.begin(), words.end(),
+                                         [](std::uint32_t w) { return std::isnan(std::bit_cast<float>(w)); })) -
+                       unwritten;
     }
     const std::string name = std::string(stage.name) + "." + std::string(info.name);
     if (unwritten > 0 && info.list != List::none)
-      throw ContestantFailure("it counted " + std::to_string(answer.counts[static_cast<std::size_t>(info.list)]) + " " + std::string(list_name(info.list)) +
-                              ", and did not write all of them" + " (`" + std::string(info.name) + "`)");
+      throw ContestantFailure("it counted " + std::to_string(answer.counts[static_cast<std::size_t>(info.list)]) + " " +
+                              std::string(list_name(info.list)) + ", and did not write all of them" + " (`" +
+                              std::string(info.name) + "`)");
     if (unwritten > 0) notes_.unwritten[name] += unwritten;
     if (not_a_number > 0) notes_.not_a_number[name] += not_a_number;
   }

@@ -16,20 +16,22 @@
 namespace ogc::experiments {
 
 struct PluginOptions {
-  std::filesystem::path file;                            ///< the shared library
-  std::filesystem::path program = "/proc/self/exe";      ///< `ogc`, which is the worker, too
-  unsigned limit_seconds = 10;                           ///< for each call, and for loading
+  std::filesystem::path file;                        ///< the shared library
+  std::filesystem::path program = "/proc/self/exe";  ///< `ogc`, which is the worker, too
+  unsigned limit_seconds = 10;                       ///< for each call, and for loading
 };
 
-/// What is no failure of the process, but worth saying at the end: by output, how many elements were no number, or were never written.
+/// What is no failure of the process, but worth saying at the end: by output, how many elements were no number, or were
+/// never written.
 struct PluginNotes {
   std::map<std::string, std::uint64_t, std::less<>> not_a_number, unwritten;
 };
 
 class PluginProcess {
  public:
-  /// Loads the library. Throws InputError where there is no such file, it can't be loaded, is no plug-in or of another version, ResourceError where the
-  /// device that it asks for is missing, and ContestantFailure where it crashed or hung while it was loaded.
+  /// Loads the library. Throws InputError where there is no such file, it can't be loaded, is no plug-in or of another
+  /// version, ResourceError where the device that it asks for is missing, and ContestantFailure where it crashed or
+  /// hung while it was loaded.
   explicit PluginProcess(PluginOptions options);
   ~PluginProcess() { stop(); }
   PluginProcess(const PluginProcess&) = delete;

@@ -17,8 +17,8 @@ struct PluginSeen {
   PluginNotes notes;
 };
 
-/// A table of times (the plug-in's functions alone; ours with its copies to and from the backend), then a line for each output that held NaN or was not
-/// written.
+/// A table of times (the plug-in's functions alone; ours with its copies to and from the backend), then a line for each
+/// output that held NaN or was not written.
 std::string plugin_text(const PluginSeen& seen, std::span<const compare::StageReport> reports);
 Json plugin_json(const PluginSeen& seen, std::span<const compare::StageReport> reports);
 

@@ -1,4 +1,5 @@
-// Scenes and rest states as arrays in single precision (a judged scene is rounded, so nothing is lost), in the order of stages.cpp; traces as events.
+// Scenes and rest states as arrays in single precision (a judged scene is rounded, so nothing is lost), in the order of
+// stages.cpp; traces as events.
 #include "experiments/plugins/scenes.hpp"
 
 #include <algorithm>
@@ -16,29 +17,57 @@ static_assert(sizeof(Hinge) == sizeof(ogc_hinge) && offsetof(Hinge, opposite) ==
 float single(double x) { return static_cast<float>(x); }
 
 ogc_settings settings_of(const Settings& s) {
-  return {single(s.time_step),         single(s.contact_radius),    single(s.query_radius_cap), single(s.bound_relaxation),
-          single(s.redetect_fraction), single(s.friction_velocity), s.iterations,               s.redetect_every,
-          s.guess_rounds,              s.lanes,                     static_cast<std::int64_t>(s.activation), static_cast<std::int64_t>(s.damping)};
+  return {single(s.time_step),
+          single(s.contact_radius),
+          single(s.query_radius_cap),
+          single(s.bound_relaxation),
+          single(s.redetect_fraction),
+          single(s.friction_velocity),
+          s.iterations,
+          s.redetect_every,
+          s.guess_rounds,
+          s.lanes,
+          static_cast<std::int64_t>(s.activation),
+          static_cast<std::int64_t>(s.damping)};
 }
 
 ogc_body body_of(const Body& b) {
   const Material& m = b.material;
-  return {b.first_vertex, b.vertex_count, b.first_triangle, b.triangle_count, b.fixed,
-          static_cast<std::int32_t>(m.membrane), static_cast<std::int32_t>(m.bending),
-          single(m.density), single(m.lame_lambda), single(m.lame_mu), single(m.membrane_damping), single(m.bending_stiffness), single(m.bending_damping),
-          single(m.contact_stiffness), single(m.friction)};
+  return {b.first_vertex,
+          b.vertex_count,
+          b.first_triangle,
+          b.triangle_count,
+          b.fixed,
+          static_cast<std::int32_t>(m.membrane),
+          static_cast<std::int32_t>(m.bending),
+          single(m.density),
+          single(m.lame_lambda),
+          single(m.lame_mu),
+          single(m.membrane_damping),
+          single(m.bending_stiffness),
+          single(m.bending_damping),
+          single(m.contact_stiffness),
+          single(m.friction)};
 }
 
 /// The arrays of ogc_scene.
 class SceneArrays {
  public:
   SceneArrays(const Scene& scene, const Topology& topology)
-      : topology_(topology), settings_(scene.settings), gravity_(to_single({scene.gravity})[0]), rest_(to_single(scene.rest_positions)),
-        groups_(rigid_groups(scene)), partners_(partner_rows(rest_.size(), scene.excluded_pairs)) {
+      : topology_(topology),
+        settings_(scene.settings),
+        gravity_(to_single({scene.gravity})[0]),
+        rest_(to_single(scene.rest_positions)),
+        groups_(rigid_groups(scene)),
+        partners_(partner_rows(rest_.size(), scene.excluded_pairs)) {
     for (const Body& body : scene.bodies) bodies_.push_back(body_of(body));
     if (partners_.rows() == 0) partners_ = rows_by_vertex(nullptr, rest_.size());
     for (const Spring& s : scene.springs)
-      springs_.push_back({{s.first, s.second, s.third}, single(s.stiffness), single(s.rest_length), single(s.damping), single(s.ratio)});
+      springs_.push_back({{s.first, s.second, s.third},
+                          single(s.stiffness),
+                          single(s.rest_length),
+                          single(s.damping),
+                          single(s.ratio)});
   }
 
   QuestionSizes sizes() const {
@@ -53,8 +82,8 @@ class SceneArrays {
 
   std::vector<Bytes> inputs() const {
     std::vector<Bytes> inputs = inputs_of(topology_);
-    for (const Bytes& array : {bytes_of(topology_.hinges), bytes_of(bodies_), bytes_of(springs_), bytes_of(rest_), bytes_of(groups_),
-                              bytes_of(partners_.offsets), bytes_of(partners_.items)})
+    for (const Bytes& array : {bytes_of(topology_.hinges), bytes_of(bodies_), bytes_of(springs_), bytes_of(rest_),
+                               bytes_of(groups_), bytes_of(partners_.offsets), bytes_of(partners_.items)})
       inputs.push_back(array);
     return inputs;
   }
@@ -106,25 +135,35 @@ struct RestArrays {
 
   template <class Visit>
   void visit(Visit visit) {
-    visit(mass, corner, triangle_body, area, gradient, hinge_vertex, hinge_body, rest_angle, hinge_stiffness, weight, edge_length_squared, meeting_stiffness,
-          meeting_friction);
+    visit(mass, corner, triangle_body, area, gradient, hinge_vertex, hinge_body, rest_angle, hinge_stiffness, weight,
+          edge_length_squared, meeting_stiffness, meeting_friction);
   }
 
   RestStateOut rest() const {
     RestStateOut rest;
     rest.mass = mass;
-    for (std::size_t t = 0; t < corner.size(); ++t) rest.triangles.push_back({corner[t], triangle_body[t], area[t], gradient[t]});
-    for (std::size_t h = 0; h < hinge_vertex.size(); ++h) rest.hinges.push_back({hinge_vertex[h], hinge_body[h], rest_angle[h], hinge_stiffness[h], weight[h]});
+    for (std::size_t t = 0; t < corner.size(); ++t)
+      rest.triangles.push_back({corner[t], triangle_body[t], area[t], gradient[t]});
+    for (std::size_t h = 0; h < hinge_vertex.size(); ++h)
+      rest.hinges.push_back({hinge_vertex[h], hinge_body[h], rest_angle[h], hinge_stiffness[h], weight[h]});
     rest.edge_length_squared = edge_length_squared;
-    for (std::size_t i = 0; i < meeting_stiffness.size(); ++i) rest.meetings.push_back({meeting_stiffness[i], meeting_friction[i]});
+    for (std::size_t i = 0; i < meeting_stiffness.size(); ++i)
+      rest.meetings.push_back({meeting_stiffness[i], meeting_friction[i]});
     return rest;
   }
 };
 
-ogc_vertex_facet_contact plain(const VertexFacetContact& c) { return {c.vertex, static_cast<std::int32_t>(c.face.kind), c.face.index, c.owner}; }
+ogc_vertex_facet_contact plain(const VertexFacetContact& c) {
+  return {c.vertex, static_cast<std::int32_t>(c.face.kind), c.face.index, c.owner};
+}
 
 ogc_edge_edge_contact plain(const EdgeEdgeContact& c) {
-  return {static_cast<std::int32_t>(c.first.kind), c.first.index, static_cast<std::int32_t>(c.second.kind), c.second.index, c.first_edge, c.second_edge};
+  return {static_cast<std::int32_t>(c.first.kind),
+          c.first.index,
+          static_cast<std::int32_t>(c.second.kind),
+          c.second.index,
+          c.first_edge,
+          c.second_edge};
 }
 
 /// Where prescribed vertices are to be after the step; of others where they are.
@@ -141,7 +180,7 @@ std::vector<Vec3f> prescribed_of(const Scene& scene) {
 struct Trace {
   std::vector<float> query_radius;
   std::vector<Index> kind, cut;
-  std::vector<Vec3f> position;  ///< of all events
+  std::vector<Vec3f> position;                                         ///< of all events
   std::vector<float> d_min_vertex, bound, d_min_triangle, d_min_edge;  ///< of all detections
   std::vector<Index> vertex_facet_end, edge_edge_end;
   std::vector<ogc_vertex_facet_contact> vertex_facet;
@@ -155,13 +194,15 @@ std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length
   return {first, first + static_cast<std::ptrdiff_t>(length)};
 }
 
-/// The entries of all detections between the ends of the k-th and of the one before it, in canonical order, in which sweeps are asked about them.
+/// The entries of all detections between the ends of the k-th and of the one before it, in canonical order, in which
+/// sweeps are asked about them.
 template <class Contact, class Plain>
 std::vector<Contact> contacts_of(const std::vector<Plain>& all, const std::vector<Index>& ends, std::size_t k) {
   const std::int64_t begin = k == 0 ? 0 : ends[k - 1], end = ends[k];
   if (begin > end || begin < 0 || end > static_cast<std::int64_t>(all.size()))
-    throw ContestantFailure("the contacts of detection " + std::to_string(k) + " are said to end at " + std::to_string(end) + ", those before it at " +
-                            std::to_string(begin) + ", of " + std::to_string(all.size()));
+    throw ContestantFailure("the contacts of detection " + std::to_string(k) + " are said to end at " +
+                            std::to_string(end) + ", those before it at " + std::to_string(begin) + ", of " +
+                            std::to_string(all.size()));
   std::vector<Contact> contacts;
   for (std::int64_t i = begin; i < end; ++i) contacts.push_back(contact_of(all[static_cast<std::size_t>(i)]));
   std::sort(contacts.begin(), contacts.end());
@@ -174,19 +215,25 @@ std::vector<StepEvent> events_of(const Trace& trace, const Topology& topology) {
   std::size_t detections = 0;
   for (std::size_t i = 0; i < trace.kind.size(); ++i) {
     if (trace.kind[i] < OGC_DETECTION || trace.kind[i] > OGC_SWEEP)
-      throw ContestantFailure("event " + std::to_string(i) + " is of kind " + std::to_string(trace.kind[i]) + "; known: 0 detection, 1 guess, 2 sweep");
-    StepEvent event{static_cast<StepEventKind>(trace.kind[i]), part(trace.position, i, vertices), trace.cut[i], {}, {}, {}};
+      throw ContestantFailure("event " + std::to_string(i) + " is of kind " + std::to_string(trace.kind[i]) +
+                              "; known: 0 detection, 1 guess, 2 sweep");
+    StepEvent event{
+        static_cast<StepEventKind>(trace.kind[i]), part(trace.position, i, vertices), trace.cut[i], {}, {}, {}};
     if (event.kind == StepEventKind::detection) {
       const std::size_t k = detections++;
-      if (k >= trace.vertex_facet_end.size()) throw ContestantFailure("it has more events of detection than it counts detections");
-      event.vertex_facet = {contacts_of<VertexFacetContact>(trace.vertex_facet, trace.vertex_facet_end, k), part(trace.d_min_vertex, k, vertices),
+      if (k >= trace.vertex_facet_end.size())
+        throw ContestantFailure("it has more events of detection than it counts detections");
+      event.vertex_facet = {contacts_of<VertexFacetContact>(trace.vertex_facet, trace.vertex_facet_end, k),
+                            part(trace.d_min_vertex, k, vertices),
                             part(trace.d_min_triangle, k, topology.triangles.size())};
-      event.edge_edge = {contacts_of<EdgeEdgeContact>(trace.edge_edge, trace.edge_edge_end, k), part(trace.d_min_edge, k, topology.edges.size())};
+      event.edge_edge = {contacts_of<EdgeEdgeContact>(trace.edge_edge, trace.edge_edge_end, k),
+                         part(trace.d_min_edge, k, topology.edges.size())};
       event.bound = part(trace.bound, k, vertices);
     }
     events.push_back(std::move(event));
   }
-  if (detections != trace.vertex_facet_end.size()) throw ContestantFailure("it counts more detections than it has events of detection");
+  if (detections != trace.vertex_facet_end.size())
+    throw ContestantFailure("it counts more detections than it has events of detection");
   return events;
 }
 
@@ -215,8 +262,8 @@ SweepOut ask_sweep(PluginProcess& plugin, const SweepIn& in) {
   sizes.edge_edge = static_cast<std::int64_t>(edge_edge.size());
   std::vector<Bytes> inputs = scene.inputs();
   rest.visit([&](const auto&... items) { (inputs.push_back(bytes_of(items)), ...); });
-  for (const Bytes& array : {bytes_of(in.colour), bytes_of(in.old), bytes_of(in.start), bytes_of(in.target), bytes_of(in.previous), bytes_of(in.bound),
-                             bytes_of(vertex_facet), bytes_of(edge_edge)})
+  for (const Bytes& array : {bytes_of(in.colour), bytes_of(in.old), bytes_of(in.start), bytes_of(in.target),
+                             bytes_of(in.previous), bytes_of(in.bound), bytes_of(vertex_facet), bytes_of(edge_edge)})
     inputs.push_back(array);
   const auto answer = plugin.ask("sweep", sizes, inputs);
   SweepOut out;
@@ -228,7 +275,8 @@ SweepOut ask_sweep(PluginProcess& plugin, const SweepIn& in) {
 
 StepOut ask_step(PluginProcess& plugin, const StepIn& in) {
   const SceneArrays scene(*in.scene, *in.topology);
-  const std::vector<Vec3f> start = to_single(in.scene->mesh.positions), velocity = to_single(in.scene->velocities), prescribed = prescribed_of(*in.scene);
+  const std::vector<Vec3f> start = to_single(in.scene->mesh.positions), velocity = to_single(in.scene->velocities),
+                           prescribed = prescribed_of(*in.scene);
   std::vector<Bytes> inputs = scene.inputs();
   for (const auto* array : {&start, &velocity, &prescribed}) inputs.push_back(bytes_of(*array));
   const auto answer = plugin.ask("step", scene.sizes(), inputs);
@@ -237,8 +285,9 @@ StepOut ask_step(PluginProcess& plugin, const StepIn& in) {
   Trace t;
   Outputs outputs(answer);
   rest.visit([&](auto&... items) { outputs.to(items...); });
-  outputs.to(out.colour, t.query_radius, out.target, out.position, out.velocity, t.kind, t.cut, t.position, t.d_min_vertex, t.bound, t.d_min_triangle,
-             t.d_min_edge, t.vertex_facet_end, t.edge_edge_end, t.vertex_facet, t.edge_edge);
+  outputs.to(out.colour, t.query_radius, out.target, out.position, out.velocity, t.kind, t.cut, t.position,
+             t.d_min_vertex, t.bound, t.d_min_triangle, t.d_min_edge, t.vertex_facet_end, t.edge_edge_end,
+             t.vertex_facet, t.edge_edge);
   out.rest = rest.rest();
   out.query_radius = t.query_radius.at(0);
   out.events = events_of(t, *in.topology);

@@ -6,7 +6,8 @@
 
 namespace ogc::experiments {
 
-/// The plug-in's answers. Throw compare::ContestantFailure where there is none, and ask_step where the lists of a trace do not fit together.
+/// The plug-in's answers. Throw compare::ContestantFailure where there is none, and ask_step where the lists of a trace
+/// do not fit together.
 compare::RestStateOut ask_rest_state(PluginProcess& plugin, const compare::RestStateIn& in);
 compare::SweepOut ask_sweep(PluginProcess& plugin, const compare::SweepIn& in);
 compare::StepOut ask_step(PluginProcess& plugin, const compare::StepIn& in);

@@ -19,20 +19,25 @@ int call(void* function, const In& in, Out& out) {
 ogc_rows rows(CallArrays& a) { return {a.in(), a.in()}; }
 constexpr std::size_t topology_inputs = 13;
 ogc_topology topology(CallArrays& a) {
-  return {a.sizes.vertices, a.sizes.edges, a.sizes.triangles, a.in(), a.in(), a.in(), rows(a), rows(a), rows(a), rows(a), rows(a)};
+  return {a.sizes.vertices, a.sizes.edges, a.sizes.triangles, a.in(),  a.in(), a.in(),
+          rows(a),          rows(a),       rows(a),           rows(a), rows(a)};
 }
 
-constexpr std::array face_outputs{OutputInfo{"feature", Element::byte, 1, Per::item}, OutputInfo{"weights", Element::number, 3, Per::item},
-                                  OutputInfo{"distance", Element::number, 1, Per::item}, OutputInfo{"distance_below", Element::number, 1, Per::item}};
+constexpr std::array face_outputs{
+    OutputInfo{"feature", Element::byte, 1, Per::item}, OutputInfo{"weights", Element::number, 3, Per::item},
+    OutputInfo{"distance", Element::number, 1, Per::item}, OutputInfo{"distance_below", Element::number, 1, Per::item}};
 int call_closest_face(void* function, CallArrays& a) {
   const ogc_closest_face_in in{a.sizes.cases, a.in(), a.in()};
   ogc_closest_face_out out{a.out(), a.out(), a.out(), a.out()};
   return call(function, in, out);
 }
 
-constexpr std::array points_outputs{OutputInfo{"first_feature", Element::byte, 1, Per::item},      OutputInfo{"second_feature", Element::byte, 1, Per::item},
-                                    OutputInfo{"nearly_parallel", Element::byte, 1, Per::item},    OutputInfo{"parameters", Element::number, 2, Per::item},
-                                    OutputInfo{"contact_distance", Element::number, 1, Per::item}, OutputInfo{"distance_below", Element::number, 1, Per::item}};
+constexpr std::array points_outputs{OutputInfo{"first_feature", Element::byte, 1, Per::item},
+                                    OutputInfo{"second_feature", Element::byte, 1, Per::item},
+                                    OutputInfo{"nearly_parallel", Element::byte, 1, Per::item},
+                                    OutputInfo{"parameters", Element::number, 2, Per::item},
+                                    OutputInfo{"contact_distance", Element::number, 1, Per::item},
+                                    OutputInfo{"distance_below", Element::number, 1, Per::item}};
 int call_closest_points(void* function, CallArrays& a) {
   const ogc_closest_points_in in{a.sizes.cases, a.in(), a.in()};
   ogc_closest_points_out out{a.out(), a.out(), a.out(), a.out(), a.out(), a.out()};
@@ -42,7 +47,8 @@ int call_closest_points(void* function, CallArrays& a) {
 ogc_detect_in detect_in(CallArrays& a) { return {topology(a), a.in(), rows(a), a.in(), a.sizes.first, a.sizes.second}; }
 
 constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::one, List::vertex_facet},
-                                   OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex}, OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle}};
+                                   OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex},
+                                   OutputInfo{"d_min_triangle", Element::number, 1, Per::triangle}};
 int call_detect_vertex_facet(void* function, CallArrays& a) {
   const ogc_detect_in in = detect_in(a);
   ogc_detect_vertex_facet_out out{a.out(), a.capacity(List::vertex_facet), -1, a.out(), a.out()};
@@ -68,7 +74,8 @@ int call_bound(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-constexpr std::array activation_outputs{OutputInfo{"energy", Element::number, 1, Per::item}, OutputInfo{"slope", Element::number, 1, Per::item},
+constexpr std::array activation_outputs{OutputInfo{"energy", Element::number, 1, Per::item},
+                                        OutputInfo{"slope", Element::number, 1, Per::item},
                                         OutputInfo{"curvature", Element::number, 1, Per::item}};
 int call_activation(void* function, CallArrays& a) {
   const ogc_activation_in in{a.sizes.cases, a.in(), a.in(), a.in(), a.in()};
@@ -76,14 +83,16 @@ int call_activation(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-constexpr std::array truncate_outputs{OutputInfo{"position", Element::number, 3, Per::item}, OutputInfo{"exceeded", Element::byte, 1, Per::item}};
+constexpr std::array truncate_outputs{OutputInfo{"position", Element::number, 3, Per::item},
+                                      OutputInfo{"exceeded", Element::byte, 1, Per::item}};
 int call_truncate(void* function, CallArrays& a) {
   const ogc_truncate_in in{a.sizes.cases, a.in(), a.in(), a.in()};
   ogc_truncate_out out{a.out(), a.out()};
   return call(function, in, out);
 }
 
-constexpr std::array force_outputs{OutputInfo{"force", Element::number, 3, Per::item}, OutputInfo{"block", Element::number, 6, Per::item}};
+constexpr std::array force_outputs{OutputInfo{"force", Element::number, 3, Per::item},
+                                   OutputInfo{"block", Element::number, 6, Per::item}};
 template <class In>
 int call_force(void* function, CallArrays& a) {
   const In in{a.sizes.cases, a.in()};
@@ -91,7 +100,8 @@ int call_force(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-constexpr std::array guess_outputs{OutputInfo{"target", Element::number, 3, Per::item}, OutputInfo{"position", Element::number, 3, Per::item},
+constexpr std::array guess_outputs{OutputInfo{"target", Element::number, 3, Per::item},
+                                   OutputInfo{"position", Element::number, 3, Per::item},
                                    OutputInfo{"cut", Element::byte, 1, Per::item}};
 int call_initial_guess(void* function, CallArrays& a) {
   const ogc_initial_guess_in in{a.sizes.cases, a.in()};
@@ -109,7 +119,8 @@ int call_block(void* function, CallArrays& a) {
 // Of a scene, after its topology.
 constexpr std::size_t scene_inputs = topology_inputs + 7;
 ogc_scene scene(CallArrays& a) {
-  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs, a.in(), a.in(), a.in(), a.in(), a.in(), rows(a), a.sizes.settings, a.sizes.gravity};
+  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs, a.in(),           a.in(),
+          a.in(),      a.in(),         a.in(),         rows(a),         a.sizes.settings, a.sizes.gravity};
 }
 
 constexpr std::array rest_outputs{
@@ -128,8 +139,15 @@ constexpr std::array rest_outputs{
     OutputInfo{"meeting_friction", Element::number, 1, Per::two_bodies},
 };
 ogc_rest_state_out rest_out(CallArrays& a) {
-  return {a.out(), a.capacity(List::triangles), -1, a.capacity(List::hinges), -1, a.out(), a.out(), a.out(), a.out(),
-          a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.out()};
+  return {a.out(), a.capacity(List::triangles),
+          -1,      a.capacity(List::hinges),
+          -1,      a.out(),
+          a.out(), a.out(),
+          a.out(), a.out(),
+          a.out(), a.out(),
+          a.out(), a.out(),
+          a.out(), a.out(),
+          a.out()};
 }
 void take_counts(CallArrays& a, const ogc_rest_state_out& out) {
   a.count(List::triangles) = out.triangle_count;
@@ -145,12 +163,29 @@ int call_rest_state(void* function, CallArrays& a) {
 
 constexpr std::size_t rest_inputs = rest_outputs.size();
 ogc_rest rest(CallArrays& a) {
-  return {a.in(), a.sizes.rest_triangles, a.sizes.rest_hinges, a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in()};
+  return {a.in(),
+          a.sizes.rest_triangles,
+          a.sizes.rest_hinges,
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in()};
 }
 
-constexpr std::array sweep_outputs{OutputInfo{"position", Element::number, 3, Per::vertex}, OutputInfo{"cut", Element::index, 1, Per::one}};
+constexpr std::array sweep_outputs{OutputInfo{"position", Element::number, 3, Per::vertex},
+                                   OutputInfo{"cut", Element::index, 1, Per::one}};
 int call_sweep(void* function, CallArrays& a) {
-  const ogc_sweep_in in{scene(a), rest(a), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.sizes.vertex_facet, a.sizes.edge_edge, a.in(), a.in()};
+  const ogc_sweep_in in{
+      scene(a),          rest(a), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.sizes.vertex_facet,
+      a.sizes.edge_edge, a.in(),  a.in()};
   ogc_sweep_out out{a.out(), a.out()};
   return call(function, in, out);
 }
@@ -174,7 +209,8 @@ constexpr std::array trace_outputs{
     OutputInfo{"edge_edge", Element::index, 6, Per::one, List::edge_edge},
 };
 template <std::size_t N, std::size_t M>
-constexpr std::array<OutputInfo, N + M> joined(const std::array<OutputInfo, N>& first, const std::array<OutputInfo, M>& second) {
+constexpr std::array<OutputInfo, N + M> joined(const std::array<OutputInfo, N>& first,
+                                               const std::array<OutputInfo, M>& second) {
   std::array<OutputInfo, N + M> all{};
   for (std::size_t k = 0; k < N + M; ++k) all[k] = k < N ? first[k] : second[k - N];
   return all;
@@ -182,8 +218,31 @@ constexpr std::array<OutputInfo, N + M> joined(const std::array<OutputInfo, N>& 
 constexpr std::array step_outputs = joined(rest_outputs, trace_outputs);
 int call_step(void* function, CallArrays& a) {
   const ogc_step_in in{scene(a), a.in(), a.in(), a.in()};
-  ogc_step_out out{rest_out(a), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::events), -1, a.out(), a.out(), a.out(),
-                   a.capacity(List::detections), -1, a.out(), a.out(), a.out(), a.out(), a.out(), a.out(), a.capacity(List::vertex_facet), -1, a.capacity(List::edge_edge), -1, a.out(), a.out()};
+  ogc_step_out out{rest_out(a),
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.capacity(List::events),
+                   -1,
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.capacity(List::detections),
+                   -1,
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.out(),
+                   a.capacity(List::vertex_facet),
+                   -1,
+                   a.capacity(List::edge_edge),
+                   -1,
+                   a.out(),
+                   a.out()};
   const int status = call(function, in, out);
   take_counts(a, out.rest);
   a.count(List::events) = out.event_count;
@@ -229,9 +288,11 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Contacts: a guess. Events and detections: all that Algorithm 3 can have, a detection before each round and each iteration.
+// Contacts: a guess. Events and detections: all that Algorithm 3 can have, a detection before each round and each
+// iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
-  const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges), rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
+  const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
+                     rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
   return {1, contacts, contacts, sizes.triangles, sizes.hinges, 2 * rounds + 1, rounds + 1};
 }
 
@@ -253,7 +314,8 @@ ListSizes most_entries(const QuestionSizes& sizes) {
 }
 
 std::string_view list_name(List list) {
-  constexpr std::array<std::string_view, list_count> names{"", "contacts", "contacts", "triangles", "hinges", "events", "detections"};
+  constexpr std::array<std::string_view, list_count> names{"",       "contacts", "contacts",  "triangles",
+                                                           "hinges", "events",   "detections"};
   return names[static_cast<std::size_t>(list)];
 }
 

@@ -1,5 +1,5 @@
-// The stages that a plug-in can have: their arrays, how the worker makes the C structures of compare/plugin.h from them, and what it
-// expects back. The judge's side (contestant.cpp) names the same arrays in the same order.
+// The stages that a plug-in can have: their arrays, how the worker makes the C structures of compare/plugin.h from
+// them, and what it expects back. The judge's side (contestant.cpp) names the same arrays in the same order.
 #pragma once
 
 #include <array>
@@ -17,8 +17,9 @@ struct QuestionSizes {
   std::int64_t cases = 0;
   std::int32_t vertices = 0, edges = 0, triangles = 0;
   float first = 0, second = 0;
-  std::int32_t hinges = 0, bodies = 0, springs = 0, rest_triangles = 0, rest_hinges = 0;  ///< of a scene, and of its rest state
-  std::int64_t vertex_facet = 0, edge_edge = 0;                                           ///< contacts that are given
+  /// of a scene, and of its rest state
+  std::int32_t hinges = 0, bodies = 0, springs = 0, rest_triangles = 0, rest_hinges = 0;
+  std::int64_t vertex_facet = 0, edge_edge = 0;  ///< contacts that are given
   ogc_settings settings{};
   ogc_vec3 gravity{};
 };
@@ -65,7 +66,8 @@ class CallArrays {
     }
   };
 
-  CallArrays(const QuestionSizes& of, std::span<const void* const> inputs, std::span<void* const> outputs, const ListSizes& room)
+  CallArrays(const QuestionSizes& of, std::span<const void* const> inputs, std::span<void* const> outputs,
+             const ListSizes& room)
       : sizes(of), capacities(room), inputs_(inputs), outputs_(outputs) {}
   Any<const void> in() { return {inputs_[next_input_++]}; }
   Any<void> out() { return {outputs_[next_output_++]}; }
@@ -84,8 +86,8 @@ class CallArrays {
 };
 
 struct PluginStage {
-  std::string_view name;    ///< of the stage; its function is ogc_NAME
-  std::size_t inputs;       ///< how many arrays
+  std::string_view name;  ///< of the stage; its function is ogc_NAME
+  std::size_t inputs;     ///< how many arrays
   std::span<const OutputInfo> outputs;
   int (*call)(void* function, CallArrays& arrays);  ///< what the function returned
 };

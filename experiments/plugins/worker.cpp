@@ -54,18 +54,24 @@ class Library {
     if (!library) throw Refusal(std::string("it can't be loaded: ") + dlerror());
     const ogc_plugin_info* (*describe)() = nullptr;
     void* const symbol = dlsym(library, "ogc_plugin");
-    if (!symbol) throw Refusal("it has no function ogc_plugin, so it is no plug-in; write OGC_PLUGIN(\"name\", OGC_HOST_MEMORY) into it (compare/plugin.h)");
+    if (!symbol)
+      throw Refusal(
+          "it has no function ogc_plugin, so it is no plug-in; write OGC_PLUGIN(\"name\", OGC_HOST_MEMORY) into it "
+          "(compare/plugin.h)");
     std::memcpy(&describe, &symbol, sizeof symbol);
     const ogc_plugin_info* const info = describe();
     end_if_copy();
     if (!info) throw Refusal("ogc_plugin() returns a null pointer");
     if (info->version != OGC_PLUGIN_VERSION)
-      throw Refusal("it was built for version " + std::to_string(info->version) + " of compare/plugin.h, and this program knows version " +
-                    std::to_string(OGC_PLUGIN_VERSION) + "; build it with this program's header");
+      throw Refusal("it was built for version " + std::to_string(info->version) +
+                    " of compare/plugin.h, and this program knows version " + std::to_string(OGC_PLUGIN_VERSION) +
+                    "; build it with this program's header");
     if (info->memory != OGC_HOST_MEMORY && info->memory != OGC_DEVICE_MEMORY)
-      throw Refusal("it asks for memory " + std::to_string(info->memory) + "; known: OGC_HOST_MEMORY (0), OGC_DEVICE_MEMORY (1)");
+      throw Refusal("it asks for memory " + std::to_string(info->memory) +
+                    "; known: OGC_HOST_MEMORY (0), OGC_DEVICE_MEMORY (1)");
     name = info->name ? info->name : "";
-    for (const PluginStage& stage : plugin_stages()) functions.push_back(dlsym(library, ("ogc_" + std::string(stage.name)).c_str()));
+    for (const PluginStage& stage : plugin_stages())
+      functions.push_back(dlsym(library, ("ogc_" + std::string(stage.name)).c_str()));
     memory = info->memory == OGC_HOST_MEMORY ? host_memory() : device_memory();
   }
 
@@ -78,7 +84,11 @@ class Library {
 class Call {
  public:
   Call(Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs)
-      : library_(library), memory_(*library.memory), stage_(plugin_stages()[request.stage]), function_(library.functions[request.stage]), request_(request) {
+      : library_(library),
+        memory_(*library.memory),
+        stage_(plugin_stages()[request.stage]),
+        function_(library.functions[request.stage]),
+        request_(request) {
     capacities_ = first_capacities(request.sizes);
     for (const auto& input : inputs) inputs_.push_back(memory_.input(input));
   }
@@ -99,14 +109,16 @@ class Call {
     for (std::size_t k = 0; k < list_count; ++k) capacities_[k] = std::max(capacities_[k], first[k]);
     result = attempt();
     if (const auto k = too_long(result))
-      throw std::runtime_error("it found " + counted(first, *k) + ", and, given room for as many, " + counted(result.counts, *k));
+      throw std::runtime_error("it found " + counted(first, *k) + ", and, given room for as many, " +
+                               counted(result.counts, *k));
     return result;
   }
 
   std::vector<std::vector<std::byte>> outputs(const CallResult& result) {
     std::vector<std::vector<std::byte>> all;
     for (std::size_t k = 0; k < stage_.outputs.size(); ++k)
-      all.push_back(memory_.content(first_ + k, group_bytes(stage_.outputs[k]) * groups(stage_.outputs[k], request_.sizes, result.counts)));
+      all.push_back(memory_.content(
+          first_ + k, group_bytes(stage_.outputs[k]) * groups(stage_.outputs[k], request_.sizes, result.counts)));
     return all;
   }
 
@@ -116,14 +128,17 @@ class Call {
     first_ += made_;
     made_ = stage_.outputs.size();
     for (const OutputInfo& info : stage_.outputs)
-      outputs.push_back(memory_.output(group_bytes(info) * groups(info, request_.sizes, capacities_), bytes_of(info.element)));
+      outputs.push_back(
+          memory_.output(group_bytes(info) * groups(info, request_.sizes, capacities_), bytes_of(info.element)));
     CallArrays arrays(request_.sizes, inputs_, outputs, capacities_);
     memory_.synchronize();
     const auto start = std::chrono::steady_clock::now();
     const int status = stage_.call(function_, arrays);
     memory_.synchronize();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (status != 0) throw std::runtime_error("ogc_" + std::string(stage_.name) + " returned " + std::to_string(status) + " instead of 0");
+    if (status != 0)
+      throw std::runtime_error("ogc_" + std::string(stage_.name) + " returned " + std::to_string(status) +
+                               " instead of 0");
     check_guards();
     check_counts(arrays.counts);
     return {CallResult::Status::answered, arrays.counts, seconds};
@@ -136,7 +151,9 @@ class Call {
     return std::nullopt;
   }
 
-  static std::string counted(const ListSizes& counts, std::size_t k) { return std::to_string(counts[k]) + " " + std::string(list_name(static_cast<List>(k))); }
+  static std::string counted(const ListSizes& counts, std::size_t k) {
+    return std::to_string(counts[k]) + " " + std::string(list_name(static_cast<List>(k)));
+  }
 
   void check_counts(const ListSizes& counts) const {
     const ListSizes most = most_entries(request_.sizes);
@@ -154,8 +171,10 @@ class Call {
     for (std::size_t k = 0; k < stage_.outputs.size(); ++k) {
       const Damage damage = memory_.damage(first_ + k);
       if (damage == Damage::none) continue;
-      throw std::runtime_error("it wrote out of range: " + std::string(damage == Damage::before ? "before the beginning of `" : "behind the end of `") +
-                               std::string(stage_.outputs[k].name) + "`");
+      throw std::runtime_error(
+          "it wrote out of range: " +
+          std::string(damage == Damage::before ? "before the beginning of `" : "behind the end of `") +
+          std::string(stage_.outputs[k].name) + "`");
     }
   }
 
@@ -172,7 +191,8 @@ class Call {
 bool sent(Channel& channel, Bytes block) { return channel.send(block) == Transfer::whole; }
 bool sent_text(Channel& channel, const std::string& text) { return sent(channel, bytes_of(short_enough(text))); }
 
-bool answer(Channel& channel, Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs) {
+bool answer(Channel& channel, Library& library, const CallRequest& request,
+            const std::vector<std::vector<std::byte>>& inputs) {
   CallResult result;
   std::vector<std::vector<std::byte>> outputs;
   std::string why;
@@ -251,7 +271,8 @@ int work(const std::string& file) {
 
 void add_plugin_worker_command(CLI::App& app, CommandContext& context) {
   auto file = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("plugin-worker", "Answers `ogc compare --plugin`; not to be called by hand")->group("");
+  CLI::App* command =
+      app.add_subcommand("plugin-worker", "Answers `ogc compare --plugin`; not to be called by hand")->group("");
   command->add_option("FILE", *file, "The shared library")->required();
   command->callback([file, &context] { context.status = work(*file); });
 }

@@ -1,5 +1,6 @@
-// The process in which a plug-in lives: `ogc plugin-worker FILE`, started by PluginProcess and by nobody else. It loads the library, says what it found, and
-// answers questions until the other side closes the socket. What the library breaks, it breaks here.
+// The process in which a plug-in lives: `ogc plugin-worker FILE`, started by PluginProcess and by nobody else. It loads
+// the library, says what it found, and answers questions until the other side closes the socket. What the library
+// breaks, it breaks here.
 #pragma once
 
 #include <array>
@@ -21,9 +22,10 @@ enum class LoadStatus : std::uint8_t {
 
 /// What a call came to. A block of text follows (why it failed), then, where it was answered, the outputs.
 struct CallResult {
-  enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;  ///< broken: a fresh process is needed
-  ListSizes counts{1};        ///< of the lists that the stage has
-  double seconds = 0;         ///< of the plug-in's function, the device's work included
+  /// broken: a fresh process is needed
+  enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;
+  ListSizes counts{1};  ///< of the lists that the stage has
+  double seconds = 0;   ///< of the plug-in's function, the device's work included
 };
 
 /// The question: a stage of plugin_stages(), sizes, time limit; its arrays follow.

@@ -1,4 +1,5 @@
-// Numbers: the paper's Table 1, a radius as in cloth_on_sphere. Iterations: as many as a step may need, since each ends at its tolerance.
+// Numbers: the paper's Table 1, a radius as in cloth_on_sphere. Iterations: as many as a step may need, since each ends
+// at its tolerance.
 #include "experiments/scenes/activation_drop.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"
@@ -9,7 +10,8 @@ namespace ogc::experiments {
 compare::Scene activation_drop(const ActivationDropSizes& sizes) {
   compare::Scene scene = cloth_on_sphere({sizes.vertices_a_side, sizes.sphere_subdivisions, sizes.steps});
   scene.name = "activation_drop";
-  append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()}, ground(sizes.vertices_a_side, -0.272));
+  append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()},
+              ground(sizes.vertices_a_side, -0.272));
   scene.settings.iterations = sizes.iterations;
   scene.settings.redetect_fraction = 0;
   scene.settings.newton_iterations = 200;

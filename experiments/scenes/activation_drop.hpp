@@ -13,8 +13,8 @@ struct ActivationDropSizes {
   std::int64_t iterations = 500;  ///< of vbd
 };
 
-/// cloth_on_sphere with the ground: a fixed mesh of 4 m × 4 m at y = −0.272 m, its triangles at most a hundred times as large as the cloth's. Steps are solved
-/// to convergence: detection as soon as one vertex is cut.
+/// cloth_on_sphere with the ground: a fixed mesh of 4 m × 4 m at y = −0.272 m, its triangles at most a hundred times as
+/// large as the cloth's. Steps are solved to convergence: detection as soon as one vertex is cut.
 compare::Scene activation_drop(const ActivationDropSizes& sizes = {});
 
 }  // namespace ogc::experiments

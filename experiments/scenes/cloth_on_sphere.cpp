@@ -14,7 +14,8 @@ compare::Material sphere_scene_material() {
 }
 
 void append_sphere(compare::Scene& scene, int subdivisions, double radius) {
-  append_body(scene, {.name = "sphere", .fixed = true, .material = sphere_scene_material()}, icosphere(subdivisions, radius, {-0.15, 0, 0}));
+  append_body(scene, {.name = "sphere", .fixed = true, .material = sphere_scene_material()},
+              icosphere(subdivisions, radius, {-0.15, 0, 0}));
 }
 
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {

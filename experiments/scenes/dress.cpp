@@ -1,5 +1,6 @@
-// Panels are cut from surfaces that can be laid flat, so that the rest shapes are exact. Vertices of different panels at one place are stitched to each other,
-// each to each: then all pairs of faces that touch at the start are between direct partners.
+// Panels are cut from surfaces that can be laid flat, so that the rest shapes are exact. Vertices of different panels
+// at one place are stitched to each other, each to each: then all pairs of faces that touch at the start are between
+// direct partners.
 #include "experiments/scenes/dress.hpp"
 
 #include <algorithm>
@@ -19,9 +20,9 @@ using compare::Mesh;
 using compare::Scene;
 using compare::Vec3;
 
-constexpr Index quarters = 4;                  // panels around the body
-constexpr double stitch_stiffness = 1000;      // [N/m]
-constexpr double chest_radius = 0.145;         // [m]
+constexpr Index quarters = 4;                                              // panels around the body
+constexpr double stitch_stiffness = 1000;                                  // [N/m]
+constexpr double chest_radius = 0.145;                                     // [m]
 constexpr double shoulders = 1.30, waist = 1.00, hips = 0.80, hem = 0.60;  // heights [m]
 constexpr double hips_radius = 0.24, hem_radius = 0.30;                    // [m]
 
@@ -58,9 +59,12 @@ Index append_panel(Scene& scene, const std::string& name, const Mesh& worn, cons
   return first;
 }
 
-void stitch(Scene& scene, Index first, Index second, Index third = -1, double ratio = 0) { add_stitch(scene, first, second, third, ratio, stitch_stiffness); }
+void stitch(Scene& scene, Index first, Index second, Index third = -1, double ratio = 0) {
+  add_stitch(scene, first, second, third, ratio, stitch_stiffness);
+}
 
-/// Piece of a cone, or of a cylinder, laid flat: `down` [m] along it from the edge of radius `upper`, `turn` [rad] around its axis; `slant` is its length.
+/// Piece of a cone, or of a cylinder, laid flat: `down` [m] along it from the edge of radius `upper`, `turn` [rad]
+/// around its axis; `slant` is its length.
 Vec3 laid_flat(double upper, double lower, double slant, double down, double turn) {
   const double widening = (lower - upper) / slant;
   if (widening == 0) return {upper * turn, down, 0};
@@ -74,8 +78,8 @@ struct Place {
   double ratio;
 };
 
-/// Four panels around the body, from one height to a lower one. A slot is a place around it, counted from +z to +x over all panels; where panels meet it
-/// has two vertices.
+/// Four panels around the body, from one height to a lower one. A slot is a place around it, counted from +z to +x over
+/// all panels; where panels meet it has two vertices.
 class Band {
  public:
   Band(const char* name, std::array<Index, 2> cells, std::array<double, 2> heights, std::array<double, 2> radii)
@@ -90,14 +94,17 @@ class Band {
       const double slant = std::hypot(heights_[0] - heights_[1], radii_[1] - radii_[0]);
       for (Index i = 0; i <= rows_; ++i) {
         for (Index j = 0; j <= columns_; ++j) {
-          worn.positions.push_back(i == 0 && above ? above->between(scene, place_above(*above, panel * columns_ + j)) : on_cone(i, panel * columns_ + j));
-          flat.push_back(laid_flat(radii_[0], radii_[1], slant, slant * i / rows_, std::numbers::pi / 2 * j / columns_));
+          worn.positions.push_back(i == 0 && above ? above->between(scene, place_above(*above, panel * columns_ + j))
+                                                   : on_cone(i, panel * columns_ + j));
+          flat.push_back(
+              laid_flat(radii_[0], radii_[1], slant, slant * i / rows_, std::numbers::pi / 2 * j / columns_));
         }
       }
       first_.push_back(append_panel(scene, name_ + std::to_string(panel + 1), worn, flat));
     }
     for (Index panel = 0; panel < quarters; ++panel) {
-      for (Index i = 0; i <= rows_; ++i) stitch(scene, vertex(panel, i, columns_), vertex((panel + 1) % quarters, i, 0));
+      for (Index i = 0; i <= rows_; ++i)
+        stitch(scene, vertex(panel, i, columns_), vertex((panel + 1) % quarters, i, 0));
     }
     if (above) stitch_to(scene, *above);
   }
@@ -116,7 +123,8 @@ class Band {
   Vec3 on_cone(Index row, Index slot) const {
     const double share = static_cast<double>(row) / rows_, radius = radii_[0] + share * (radii_[1] - radii_[0]);
     const double angle = 2 * std::numbers::pi * (slot % slots()) / slots();
-    return tidy({radius * std::sin(angle), heights_[0] + share * (heights_[1] - heights_[0]), radius * std::cos(angle)});
+    return tidy(
+        {radius * std::sin(angle), heights_[0] + share * (heights_[1] - heights_[0]), radius * std::cos(angle)});
   }
 
   Place place_above(const Band& above, Index slot) const {
@@ -125,7 +133,8 @@ class Band {
   }
 
   Vec3 between(const Scene& scene, const Place& place) const {
-    const Vec3 &a = scene.mesh.positions[at(vertices_at(rows_, place.second)[0])], &b = scene.mesh.positions[at(vertices_at(rows_, place.second + 1)[0])];
+    const Vec3 &a = scene.mesh.positions[at(vertices_at(rows_, place.second)[0])],
+               &b = scene.mesh.positions[at(vertices_at(rows_, place.second + 1)[0])];
     if (place.ratio == 0) return a;
     return tidy({a.x + place.ratio * (b.x - a.x), a.y, a.z + place.ratio * (b.z - a.z)});
   }
@@ -138,7 +147,8 @@ class Band {
           for (const Index u : above.vertices_at(above.rows_, second)) stitch(scene, v, u);
         } else {
           const Index panel = second / above.columns_, column = second % above.columns_;
-          stitch(scene, v, above.vertex(panel, above.rows_, column), above.vertex(panel, above.rows_, column + 1), ratio);
+          stitch(scene, v, above.vertex(panel, above.rows_, column), above.vertex(panel, above.rows_, column + 1),
+                 ratio);
         }
       }
     }
@@ -150,10 +160,13 @@ class Band {
   std::vector<Index> first_;  ///< vertex by panel
 };
 
-/// Half a cone about an axis along x, over the shoulder from the bodice's upper edge in front to that behind; `side`: −1 or 1. Its columns stand on the slots.
+/// Half a cone about an axis along x, over the shoulder from the bodice's upper edge in front to that behind; `side`:
+/// −1 or 1. Its columns stand on the slots.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
-  const auto slot_at = [&](double radians) { return static_cast<Index>(std::lround(around * radians / (2 * std::numbers::pi))); };
+  const auto slot_at = [&](double radians) {
+    return static_cast<Index>(std::lround(around * radians / (2 * std::numbers::pi)));
+  };
   const Index inner = slot_at(0.436), outer = std::max(inner + 1, slot_at(0.85)), columns = outer - inner;
   const auto front = [&](Index j) { return (around + side * (inner + j)) % around; };
   const auto back = [&](Index j) { return (around + around / 2 - side * (inner + j)) % around; };
@@ -167,7 +180,8 @@ void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
     const double turn = std::numbers::pi * i / cells;
     for (Index j = 0; j <= columns; ++j) {
       const double radius = chest_radius * std::cos(angle(j));
-      const Vec3 over = tidy({side * chest_radius * std::sin(angle(j)), shoulders + radius * std::sin(turn), radius * std::cos(turn)});
+      const Vec3 over = tidy(
+          {side * chest_radius * std::sin(angle(j)), shoulders + radius * std::sin(turn), radius * std::cos(turn)});
       const bool is_end = i == 0 || i == cells;
       worn.positions.push_back(is_end ? scene.mesh.positions[at(edge(i == 0 ? front(j) : back(j)))] : over);
       flat.push_back(laid_flat(upper, lower, slant, slant * j / columns, turn));
@@ -180,7 +194,8 @@ void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   }
 }
 
-/// Lengths below 2⁻²⁰ m, which no scene may have (method.md §2.4), are 0; all others stay as published, so that places that differ go on to.
+/// Lengths below 2⁻²⁰ m, which no scene may have (method.md §2.4), are 0; all others stay as published, so that places
+/// that differ go on to.
 Vec3 without_dust(const Vec3& v) {
   const auto swept = [](double x) { return std::abs(x) < 0x1p-20 ? 0 : x; };
   return {swept(v.x), swept(v.y), swept(v.z)};
@@ -198,7 +213,9 @@ void append_panel(Scene& scene, const DressData& data, Index number, std::vector
   std::vector<Vec3> flat;
   for (std::size_t v = 0; v < is_in.size(); ++v) {
     if (!is_in[v]) continue;
-    if (renumbered[v] >= 0) throw compare::InputError("stage.obj: vertex " + std::to_string(v + 1) + " is of two panels; give one panel a vertex of its own");
+    if (renumbered[v] >= 0)
+      throw compare::InputError("stage.obj: vertex " + std::to_string(v + 1) +
+                                " is of two panels; give one panel a vertex of its own");
     renumbered[v] = first + static_cast<Index>(worn.positions.size());
     worn.positions.push_back(without_dust(data.garment.positions[v]));
     flat.push_back(without_dust({data.pattern[v][0], data.pattern[v][1], 0}));
@@ -215,7 +232,8 @@ void append_character(Scene& scene, const DressData& data) {
   constexpr double frame_seconds = 0.04;
   compare::PrescribedMotion motion;
   motion.name = "character";
-  for (std::size_t v = 0; v < data.body.positions.size(); ++v) motion.vertices.push_back(static_cast<Index>(scene.mesh.positions.size() + v));
+  for (std::size_t v = 0; v < data.body.positions.size(); ++v)
+    motion.vertices.push_back(static_cast<Index>(scene.mesh.positions.size() + v));
   for (std::size_t k = 0; k < data.motion.size(); ++k) {
     motion.keyframes.times.push_back(frame_seconds * static_cast<double>(k));
     std::vector<Vec3> frame = data.motion[k];
@@ -227,8 +245,8 @@ void append_character(Scene& scene, const DressData& data) {
   scene.motions.push_back(std::move(motion));
 }
 
-/// Vertices that are stitched to the same one and start nearer to each other than `within` [m]: where seams meet. They are drawn together as well, so they are
-/// no contacts either; neighbours in a panel go on to be what they are.
+/// Vertices that are stitched to the same one and start nearer to each other than `within` [m]: where seams meet. They
+/// are drawn together as well, so they are no contacts either; neighbours in a panel go on to be what they are.
 void exclude_junctions(Scene& scene, double within) {
   const compare::Topology topology = build_topology(scene);
   const compare::Exclusions direct = exclusions(scene);
@@ -250,15 +268,20 @@ Scene dress(const DressSizes& sizes) {
   Scene scene;
   const double radius = 2e-3 * 40 / sizes.bodice[0];
   set_up(scene, radius, sizes.steps);
-  Band chest("bodice", sizes.bodice, {shoulders, waist}, {chest_radius, chest_radius}), skirt("hips", sizes.hips, {waist, hips}, {chest_radius, hips_radius}),
+  Band chest("bodice", sizes.bodice, {shoulders, waist}, {chest_radius, chest_radius}),
+      skirt("hips", sizes.hips, {waist, hips}, {chest_radius, hips_radius}),
       lowest("hem", sizes.hem, {hips, hem}, {hips_radius, hem_radius});
   chest.append(scene, nullptr);
   skirt.append(scene, &chest);
   lowest.append(scene, &skirt);
   for (const int side : {-1, 1}) append_strap(scene, chest, sizes.strap, side);
   constexpr double inside_hips = 0.191;  // of the largest ball about (0, 0.86 m, 0) in the cone of the hips [m]
-  append_mannequin(scene, {.shoulders = shoulders, .torso_radius = chest_radius - 1.5 * radius, .pelvis_radius = inside_hips - 1.5 * radius,
-                           .spacing = sizes.body_spacing}, driven_surface());
+  append_mannequin(scene,
+                   {.shoulders = shoulders,
+                    .torso_radius = chest_radius - 1.5 * radius,
+                    .pelvis_radius = inside_hips - 1.5 * radius,
+                    .spacing = sizes.body_spacing},
+                   driven_surface());
   return scene;
 }
 

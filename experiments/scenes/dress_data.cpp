@@ -1,4 +1,5 @@
-// A reader of its own: stage.obj has statements that no other mesh has (stitch, seam), and of its faces it matters which group they are in.
+// A reader of its own: stage.obj has statements that no other mesh has (stitch, seam), and of its faces it matters
+// which group they are in.
 #include "experiments/scenes/dress_data.hpp"
 
 #include <algorithm>
@@ -42,7 +43,9 @@ class ObjReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": line " + std::to_string(line_) + ": " + what + "; " + remedy); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ": line " + std::to_string(line_) + ": " + what + "; " + remedy);
+  }
 
   std::string_view word() {
     constexpr std::string_view blanks = " \t\r";
@@ -98,23 +101,27 @@ class ObjReader {
 };
 
 /// The first of these places that exists; the error names the most usual one.
-std::filesystem::path found(const std::filesystem::path& folder, const std::string& subfolder, const std::string& name) {
+std::filesystem::path found(const std::filesystem::path& folder, const std::string& subfolder,
+                            const std::string& name) {
   for (const std::filesystem::path& place : {folder / subfolder / name, folder / name}) {
     if (std::filesystem::exists(place)) return place;
   }
-  throw InputError((folder / subfolder / name).string() + ": does not exist, nor does " + (folder / name).string() + "; " + remedy);
+  throw InputError((folder / subfolder / name).string() + ": does not exist, nor does " + (folder / name).string() +
+                   "; " + remedy);
 }
 
 void check_count(const std::filesystem::path& file, const char* what, std::size_t count, std::size_t wanted) {
   if (count != wanted)
-    throw InputError(file.string() + ": has " + std::to_string(count) + " " + what + " instead of " + std::to_string(wanted) + "; " + remedy);
+    throw InputError(file.string() + ": has " + std::to_string(count) + " " + what + " instead of " +
+                     std::to_string(wanted) + "; " + remedy);
 }
 
 void check_corners(const std::filesystem::path& file, const std::vector<Triangle>& triangles, std::size_t vertices) {
   for (const Triangle& triangle : triangles) {
     for (const Index v : triangle) {
       if (v < 0 || static_cast<std::size_t>(v) >= vertices)
-        throw InputError(file.string() + ": a face names vertex " + std::to_string(v + 1) + " of " + std::to_string(vertices) + "; " + remedy);
+        throw InputError(file.string() + ": a face names vertex " + std::to_string(v + 1) + " of " +
+                         std::to_string(vertices) + "; " + remedy);
     }
   }
 }
@@ -126,17 +133,22 @@ void check_stage(const std::filesystem::path& file, const Obj& stage, const Dres
   check_count(file, "panels (g)", static_cast<std::size_t>(stage.panels), counts.panels);
   check_count(file, "stitches", stage.stitches.size(), counts.stitches);
   check_corners(file, stage.triangles, counts.vertices);
-  if (stage.triangles != stage.pattern_triangles) throw InputError(file.string() + ": vertices and points of the pattern are numbered differently; " + remedy);
-  if (std::ranges::count(stage.panel, -1) > 0) throw InputError(file.string() + ": has faces before its first panel (g); " + remedy);
+  if (stage.triangles != stage.pattern_triangles)
+    throw InputError(file.string() + ": vertices and points of the pattern are numbered differently; " + remedy);
+  if (std::ranges::count(stage.panel, -1) > 0)
+    throw InputError(file.string() + ": has faces before its first panel (g); " + remedy);
   for (const Stitch& s : stage.stitches) {
-    const std::string text = "stitch " + std::to_string(s.first) + " " + std::to_string(s.second) + " " + std::to_string(s.third);
+    const std::string text = "stitch " + std::to_string(s.first) + " " + std::to_string(s.second) + " " +
+                             std::to_string(s.third);
     for (const Index v : {s.first, s.second, s.third}) {
       if (v < 0 || static_cast<std::size_t>(v) >= counts.vertices)
-        throw InputError(file.string() + ": " + text + " names a vertex that does not exist; they are numbered from 0 to " +
+        throw InputError(file.string() + ": " + text +
+                         " names a vertex that does not exist; they are numbered from 0 to " +
                          std::to_string(counts.vertices - 1) + "; " + remedy);
     }
     if (s.first == s.second || s.first == s.third || s.second == s.third || !(s.ratio >= 0 && s.ratio <= 1))
-      throw InputError(file.string() + ": " + text + " does not join a vertex to a point between two others; " + remedy);
+      throw InputError(file.string() + ": " + text + " does not join a vertex to a point between two others; " +
+                       remedy);
   }
 }
 
@@ -146,7 +158,8 @@ void take_start(DressData& data, const std::filesystem::path& file, const Obj& s
   check_count(file, "vertices", drape.positions.size(), counts.vertices + counts.body_vertices);
   check_count(file, "faces", drape.triangles.size(), counts.triangles + counts.body_triangles);
   check_corners(file, drape.triangles, drape.positions.size());
-  const auto vertices = static_cast<std::ptrdiff_t>(counts.vertices), faces = static_cast<std::ptrdiff_t>(counts.triangles);
+  const auto vertices = static_cast<std::ptrdiff_t>(counts.vertices),
+             faces = static_cast<std::ptrdiff_t>(counts.triangles);
   if (!std::equal(stage.triangles.begin(), stage.triangles.end(), drape.triangles.begin()))
     throw InputError(file.string() + ": does not begin with the faces of stage.obj; " + remedy);
   data.garment = {{drape.positions.begin(), drape.positions.begin() + vertices}, stage.triangles, {}};
@@ -154,7 +167,8 @@ void take_start(DressData& data, const std::filesystem::path& file, const Obj& s
   for (auto face = drape.triangles.begin() + faces; face != drape.triangles.end(); ++face) {
     const auto first = static_cast<Index>(counts.vertices);
     const auto& [a, b, c] = *face;
-    if (std::min({a, b, c}) < first) throw InputError(file.string() + ": a face of the body has a vertex of the garment; " + remedy);
+    if (std::min({a, b, c}) < first)
+      throw InputError(file.string() + ": a face of the body has a vertex of the garment; " + remedy);
     data.body.triangles.push_back({a - first, b - first, c - first});
   }
 }
@@ -165,11 +179,14 @@ Vec3 translation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, con
   Vec3 mean;
   const double share = 1.0 / static_cast<double>(from.size());
   for (std::size_t v = 0; v < from.size(); ++v)
-    mean = {mean.x + share * (to[v].x - from[v].x), mean.y + share * (to[v].y - from[v].y), mean.z + share * (to[v].z - from[v].z)};
+    mean = {mean.x + share * (to[v].x - from[v].x), mean.y + share * (to[v].y - from[v].y),
+            mean.z + share * (to[v].z - from[v].z)};
   for (std::size_t v = 0; v < from.size(); ++v) {
-    const double off = std::max({std::abs(to[v].x - from[v].x - mean.x), std::abs(to[v].y - from[v].y - mean.y), std::abs(to[v].z - from[v].z - mean.z)});
+    const double off = std::max({std::abs(to[v].x - from[v].x - mean.x), std::abs(to[v].y - from[v].y - mean.y),
+                                 std::abs(to[v].z - from[v].z - mean.z)});
     if (!(off <= printed))
-      throw InputError(file.string() + ": vertex " + std::to_string(v + 1) + " is not where the body of drape.obj has it, moved like all others; " + remedy);
+      throw InputError(file.string() + ": vertex " + std::to_string(v + 1) +
+                       " is not where the body of drape.obj has it, moved like all others; " + remedy);
   }
   return mean;
 }

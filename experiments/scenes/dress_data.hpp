@@ -1,4 +1,5 @@
-// Codimensional IPC's dress, as published (github.com/ipc-sim/Codim-IPC, Projects/FEMShell/input; its data are not part of this repository).
+// Codimensional IPC's dress, as published (github.com/ipc-sim/Codim-IPC, Projects/FEMShell/input; its data are not part
+// of this repository).
 #pragma once
 
 #include <filesystem>
@@ -21,17 +22,19 @@ struct DressCounts {
 };
 
 struct DressData {
-  std::vector<std::array<double, 2>> pattern;       ///< rest shape by vertex [m]
-  compare::Mesh garment;                            ///< at the start [m]
-  std::vector<compare::Index> panel_of_triangle;    ///< from 0
+  std::vector<std::array<double, 2>> pattern;     ///< rest shape by vertex [m]
+  compare::Mesh garment;                          ///< at the start [m]
+  std::vector<compare::Index> panel_of_triangle;  ///< from 0
   std::vector<Stitch> stitches;
-  compare::Mesh body;                               ///< at the start [m]
-  std::vector<std::vector<compare::Vec3>> motion;   ///< by frame, the body's vertices, moved to where the start has them [m]
+  compare::Mesh body;  ///< at the start [m]
+  /// by frame, the body's vertices, moved to where the start has them [m]
+  std::vector<std::vector<compare::Vec3>> motion;
 };
 
-/// Reads stage.obj (pattern in `vt`, panels, stitches), drape.obj (start: the garment, then the body) and shell0.obj … (the body every 0.04 s) from `folder`, or
-/// from its dress_knife and Rumba_Dancing. Throws compare::InputError that names the file: missing, unreadable, of other counts, a stitch to a vertex that
-/// does not exist, a motion that does not begin with the body of the start but for a translation.
+/// Reads stage.obj (pattern in `vt`, panels, stitches), drape.obj (start: the garment, then the body) and shell0.obj …
+/// (the body every 0.04 s) from `folder`, or from its dress_knife and Rumba_Dancing. Throws compare::InputError that
+/// names the file: missing, unreadable, of other counts, a stitch to a vertex that does not exist, a motion that does
+/// not begin with the body of the start but for a translation.
 DressData read_dress_data(const std::filesystem::path& folder, const DressCounts& counts = {});
 
 }  // namespace ogc::experiments

@@ -1,4 +1,5 @@
-// Numbers: the paper's Table 1 and the authors' published parameters. The ground is a mesh, so that contact, bounds and audit need no special code.
+// Numbers: the paper's Table 1 and the authors' published parameters. The ground is a mesh, so that contact, bounds and
+// audit need no special code.
 #include "experiments/scenes/fifty_layers.hpp"
 
 #include "compare/judge/random.hpp"
@@ -33,9 +34,12 @@ compare::Mesh layer(const FiftyLayersSizes& sizes, compare::Index number) {
 compare::Scene fifty_layers(const FiftyLayersSizes& sizes) {
   compare::Scene scene;
   scene.name = sizes.name;
-  for (compare::Index k = 0; k < sizes.layers; ++k) append_body(scene, {.name = "layer_" + std::to_string(k + 1), .material = layer_cloth()}, layer(sizes, k));
-  append_body(scene, {.name = "cylinder", .fixed = true, .material = layer_cloth()}, cylinder(sizes.cylinder, 0.25, 0.5, {-0.18, 0, 0}));
-  append_body(scene, {.name = "ground", .fixed = true, .material = ground_material()}, ground(sizes.vertices_a_side, -0.60));
+  for (compare::Index k = 0; k < sizes.layers; ++k)
+    append_body(scene, {.name = "layer_" + std::to_string(k + 1), .material = layer_cloth()}, layer(sizes, k));
+  append_body(scene, {.name = "cylinder", .fixed = true, .material = layer_cloth()},
+              cylinder(sizes.cylinder, 0.25, 0.5, {-0.18, 0, 0}));
+  append_body(scene, {.name = "ground", .fixed = true, .material = ground_material()},
+              ground(sizes.vertices_a_side, -0.60));
   scene.settings.time_step = 1.0 / 1200;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 40;
@@ -44,6 +48,8 @@ compare::Scene fifty_layers(const FiftyLayersSizes& sizes) {
   return scene;
 }
 
-FiftyLayersSizes fifty_layers_1m_sizes() { return {.name = "fifty_layers_1m", .vertices_a_side = 141, .contact_radius = 2e-3}; }
+FiftyLayersSizes fifty_layers_1m_sizes() {
+  return {.name = "fifty_layers_1m", .vertices_a_side = 141, .contact_radius = 2e-3};
+}
 
 }  // namespace ogc::experiments

@@ -6,7 +6,8 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's at 246,000 vertices. Heights follow the contact radius; the ground's triangles follow the cloth's.
+/// Defaults: the paper's at 246,000 vertices. Heights follow the contact radius; the ground's triangles follow the
+/// cloth's.
 struct FiftyLayersSizes {
   std::string name = "fifty_layers";
   compare::Index layers = 50;
@@ -14,12 +15,14 @@ struct FiftyLayersSizes {
   double contact_radius = 3e-3;  ///< r [m]
   double shift = 3e-3;           ///< standard deviation of each layer's shift in x and in z [m]
   CylinderCells cylinder{};
-  std::int64_t steps = 4800;     ///< 4 s; until everything rests it takes more, which no setting can say: ogc run --steps
-  std::uint64_t seed = 0;        ///< of the shifts
+  /// 4 s; until everything rests it takes more, which no setting can say: ogc run --steps
+  std::int64_t steps = 4800;
+  std::uint64_t seed = 0;  ///< of the shifts
 };
 
-/// 1 m × 1 m each, 1.05 r apart from y = 0.30 m on, above a cylinder of radius 0.25 m and length 0.5 m along z about (−0.18, 0, 0) and a ground of
-/// 4 m × 4 m at y = −0.60 m. One body a layer, the lowest first. Start and rest shape are the same, intersection-free by construction.
+/// 1 m × 1 m each, 1.05 r apart from y = 0.30 m on, above a cylinder of radius 0.25 m and length 0.5 m along z about
+/// (−0.18, 0, 0) and a ground of 4 m × 4 m at y = −0.60 m. One body a layer, the lowest first. Start and rest shape are
+/// the same, intersection-free by construction.
 compare::Scene fifty_layers(const FiftyLayersSizes& sizes = {});
 
 /// The sizes of Table 1's row of 1M vertices: 50 × (141 × 141), r = 2 mm.

@@ -1,5 +1,5 @@
-// Numbers: the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, so that the noise of a normal where the curve is
-// nearly straight leaves no trace.
+// Numbers: the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, so that the noise of a
+// normal where the curve is nearly straight leaves no trace.
 #include "experiments/scenes/knot.hpp"
 
 #include <algorithm>
@@ -22,7 +22,9 @@ Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 Vec3 unit(const Vec3& a) { return 1 / length(a) * a; }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
 /// A point of a coil of radius 0.09 m and step 0.12 m about an axis along x; `turn` in turns.
 Vec3 coil(const Vec3& axis, double turn) {
@@ -36,8 +38,8 @@ std::vector<Vec3> control_points() {
   for (int third = 4; third < 12; ++third) points.push_back(coil({-0.9, -0.3, 0.035}, third / 3.0));
   points.insert(points.end(), {{-0.3, -0.3, 0}, {0.1, -0.3, 0}});
   for (int i = 0; i < 4; ++i) {
-    for (const Vec3& p : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 1.5}, Vec3{1, 1, 1}, Vec3{1, 1, -0.75},
-                          Vec3{0, 0, -0.75}, Vec3{0, 0, 1.25}, Vec3{-1, 0, 1.5}, Vec3{-2, 0, 0}}) {
+    for (const Vec3& p : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 1.5}, Vec3{1, 1, 1},
+                          Vec3{1, 1, -0.75}, Vec3{0, 0, -0.75}, Vec3{0, 0, 1.25}, Vec3{-1, 0, 1.5}, Vec3{-2, 0, 0}}) {
       points.push_back(0.07 * (p + Vec3{-3.5 * i, 0, 0}));
     }
   }
@@ -55,7 +57,8 @@ class Curve {
     points_.insert(points_.end(), through.begin(), through.end());
     points_.push_back(2 * through.back() - through[through.size() - 2]);
     knots_.push_back(0);
-    for (std::size_t i = 1; i < points_.size(); ++i) knots_.push_back(knots_.back() + std::sqrt(length(points_[i] - points_[i - 1])));
+    for (std::size_t i = 1; i < points_.size(); ++i)
+      knots_.push_back(knots_.back() + std::sqrt(length(points_[i] - points_[i - 1])));
   }
 
   /// For `s` from 0 to segments(): each control point is at an integer.
@@ -63,7 +66,9 @@ class Curve {
     const std::size_t i = std::min(static_cast<std::size_t>(s), segments() - 1);
     const std::array<double, 4> k{knots_[i], knots_[i + 1], knots_[i + 2], knots_[i + 3]};
     const double t = k[1] + (s - static_cast<double>(i)) * (k[2] - k[1]);
-    const auto blend = [&](const Vec3& a, const Vec3& b, double from, double to) { return (to - t) / (to - from) * a + (t - from) / (to - from) * b; };
+    const auto blend = [&](const Vec3& a, const Vec3& b, double from, double to) {
+      return (to - t) / (to - from) * a + (t - from) / (to - from) * b;
+    };
     const Vec3 a = blend(points_[i], points_[i + 1], k[0], k[1]), b = blend(points_[i + 1], points_[i + 2], k[1], k[2]);
     const Vec3 c = blend(points_[i + 2], points_[i + 3], k[2], k[3]);
     return blend(blend(a, b, k[0], k[2]), blend(b, c, k[1], k[3]), k[1], k[2]);
@@ -75,24 +80,29 @@ class Curve {
   std::vector<double> knots_;
 };
 
-/// `count` points of the curve, equally far apart along it: its length is that of a polyline of 48,000 points, and linear between them.
+/// `count` points of the curve, equally far apart along it: its length is that of a polyline of 48,000 points, and
+/// linear between them.
 std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   constexpr int fine = 48'000;
   const auto parameter = [&](int k) { return static_cast<double>(curve.segments()) * k / (fine - 1); };
   std::vector<double> along{0};
-  for (int k = 1; k < fine; ++k) along.push_back(along.back() + length(curve.at(parameter(k)) - curve.at(parameter(k - 1))));
+  for (int k = 1; k < fine; ++k)
+    along.push_back(along.back() + length(curve.at(parameter(k)) - curve.at(parameter(k - 1))));
   std::vector<Vec3> points;
   for (Index i = 0; i < count; ++i) {
     const double wanted = along.back() * i / (count - 1);
-    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(along.begin(), along.end(), wanted) - along.begin(), 1, fine - 1);
+    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(along.begin(), along.end(), wanted) - along.begin(),
+                                                 1, fine - 1);
     const double before = along[static_cast<std::size_t>(next - 1)], after = along[static_cast<std::size_t>(next)];
     const double share = (wanted - before) / (after - before);
-    points.push_back(curve.at((1 - share) * parameter(static_cast<int>(next - 1)) + share * parameter(static_cast<int>(next))));
+    points.push_back(
+        curve.at((1 - share) * parameter(static_cast<int>(next - 1)) + share * parameter(static_cast<int>(next))));
   }
   return points;
 }
 
-/// Across the strip, by row: normal × tangent, the normal being the change of the unit chords, without jumps of its sign.
+/// Across the strip, by row: normal × tangent, the normal being the change of the unit chords, without jumps of its
+/// sign.
 std::vector<Vec3> across(const std::vector<Vec3>& centres) {
   std::vector<Vec3> chords;
   for (std::size_t i = 1; i < centres.size(); ++i) chords.push_back(unit(centres[i] - centres[i - 1]));
@@ -113,7 +123,8 @@ compare::Mesh laid_along(const std::vector<Vec3>& centres, Index columns) {
   const std::vector<Vec3> directions = across(centres);
   compare::Mesh mesh;
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    for (Index j = 0; j < columns; ++j) mesh.positions.push_back(tidy(centres[i] + rest_width * j / (columns - 1) * directions[i]));
+    for (Index j = 0; j < columns; ++j)
+      mesh.positions.push_back(tidy(centres[i] + rest_width * j / (columns - 1) * directions[i]));
   }
   mesh.triangles = cross_diagonals(static_cast<Index>(centres.size()), columns);
   return mesh;
@@ -144,10 +155,12 @@ compare::PrescribedMotion pull(const char* name, Index row, const KnotSizes& siz
 compare::Scene knot(const KnotSizes& sizes) {
   compare::Scene scene;
   scene.name = "knot";
-  append_body(scene, {.name = "strip", .material = cloth()}, laid_along(equally_spaced(Curve(control_points()), sizes.rows), sizes.columns));
+  append_body(scene, {.name = "strip", .material = cloth()},
+              laid_along(equally_spaced(Curve(control_points()), sizes.rows), sizes.columns));
   for (Index i = 0; i < sizes.rows; ++i) {
     for (Index j = 0; j < sizes.columns; ++j)
-      scene.rest_positions[static_cast<std::size_t>(i * sizes.columns + j)] = {rest_length * i / (sizes.rows - 1), 0, rest_width * j / (sizes.columns - 1)};
+      scene.rest_positions[static_cast<std::size_t>(i * sizes.columns + j)] = {rest_length * i / (sizes.rows - 1), 0,
+                                                                               rest_width * j / (sizes.columns - 1)};
   }
   scene.gravity = {};
   scene.settings.time_step = 1.0 / 300;

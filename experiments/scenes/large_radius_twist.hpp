@@ -5,7 +5,8 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's. The contact radius follows the spacing, so that every size has the regime of r = 5 mm on 200 × 200: r is 0.995 edges.
+/// Defaults: the paper's. The contact radius follows the spacing, so that every size has the regime of r = 5 mm on 200
+/// × 200: r is 0.995 edges.
 struct LargeRadiusTwistSizes {
   compare::Index vertices_a_side = 200;
   std::int64_t steps = 1200;  ///< a relative half turn in 4 s

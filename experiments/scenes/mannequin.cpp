@@ -23,7 +23,7 @@ struct Limb {
   Vec3 from, to;  ///< [m]
   double radius;  ///< [m]
   Joint joint;
-  int side;       ///< −1, 1; 0: in the middle
+  int side;  ///< −1, 1; 0: in the middle
 };
 
 std::vector<Limb> limbs(const MannequinSizes& sizes) {
@@ -38,14 +38,17 @@ std::vector<Limb> limbs(const MannequinSizes& sizes) {
     all.push_back({{0.40 * s, top - 0.02, 0}, {0.62 * s, top - 0.10, 0.04}, 0.030, Joint::shoulder, side});
     all.push_back({{0.075 * s, hip_height, 0}, {0.085 * s, knee_height, 0}, 0.065, Joint::hip, side});
     all.push_back({{0.085 * s, knee_height, 0}, {0.085 * s, ankle_height, -0.01}, 0.045, Joint::hip, side});
-    all.push_back({{0.085 * s, ankle_height - 0.03, 0}, {0.095 * s, ankle_height - 0.04, 0.15}, 0.035, Joint::hip, side});
+    all.push_back(
+        {{0.085 * s, ankle_height - 0.03, 0}, {0.095 * s, ankle_height - 0.04, 0.15}, 0.035, Joint::hip, side});
   }
   return all;
 }
 
 compare::Mesh surface_of(const Limb& limb, double spacing) {
   const double length = std::hypot(limb.to.x - limb.from.x, limb.to.y - limb.from.y, limb.to.z - limb.from.z);
-  const auto cells = [&](double size, Index least) { return std::max(least, static_cast<Index>(std::lround(size / spacing))); };
+  const auto cells = [&](double size, Index least) {
+    return std::max(least, static_cast<Index>(std::lround(size / spacing)));
+  };
   const double quarter = std::numbers::pi / 2 * limb.radius;
   return capsule({cells(4 * quarter, 6), cells(length, 1), cells(quarter, 2)}, limb.radius, limb.from, limb.to);
 }
@@ -66,7 +69,9 @@ Vec3 posed(Vec3 p, const Limb& limb, const MannequinSizes& sizes, double t) {
   return {c * p.x + s * p.z, p.y, c * p.z - s * p.x};
 }
 
-compare::Vec3f narrowed(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+compare::Vec3f narrowed(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 }  // namespace
 
@@ -88,7 +93,8 @@ void append_mannequin(compare::Scene& scene, const MannequinSizes& sizes, const 
   for (int k = 0; k <= frames; ++k) {
     motion.keyframes.times.push_back(frame_seconds * k);
     for (std::size_t v = 0; v < whole.positions.size(); ++v)
-      motion.keyframes.positions.push_back(narrowed(tidy(posed(whole.positions[v], limb_of[v], sizes, frame_seconds * k))));
+      motion.keyframes.positions.push_back(
+          narrowed(tidy(posed(whole.positions[v], limb_of[v], sizes, frame_seconds * k))));
   }
   append_body(scene, {.name = "body", .material = surface}, whole);
   scene.motions.push_back(std::move(motion));

@@ -12,7 +12,8 @@ struct OneIterationDropSizes {
   std::int64_t steps = 800;
 };
 
-/// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.10 m about (−0.15, 0, 0). One sweep of OGC, one iteration of IPC a step, neither to a tolerance.
+/// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.10 m about (−0.15, 0, 0). One sweep of OGC, one
+/// iteration of IPC a step, neither to a tolerance.
 compare::Scene one_iteration_drop(const OneIterationDropSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -29,8 +29,10 @@ compare::Scene cloth_on_sphere_at(Scale scale) {
   return cloth_on_sphere();
 }
 
-/// The paper's, with fewer layers of `vertices_a_side` vertices and a coarser cylinder; radius and shift follow the spacing.
-compare::Scene fewer_layers(FiftyLayersSizes sizes, compare::Index layers, compare::Index vertices_a_side, CylinderCells cylinder, std::int64_t steps) {
+/// The paper's, with fewer layers of `vertices_a_side` vertices and a coarser cylinder; radius and shift follow the
+/// spacing.
+compare::Scene fewer_layers(FiftyLayersSizes sizes, compare::Index layers, compare::Index vertices_a_side,
+                            CylinderCells cylinder, std::int64_t steps) {
   const double coarser = static_cast<double>(sizes.vertices_a_side - 1) / (vertices_a_side - 1);
   sizes.layers = layers;
   sizes.vertices_a_side = vertices_a_side;
@@ -61,7 +63,8 @@ compare::Scene fifty_layers_1m_at(Scale scale) {
 
 compare::Scene three_cloths_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 24, .iterations = 40});
+    case Scale::smoke:
+      return three_cloths_on_sphere({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 24, .iterations = 40});
     case Scale::small: return three_cloths_on_sphere({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 40});
     case Scale::paper: break;
   }
@@ -70,7 +73,8 @@ compare::Scene three_cloths_at(Scale scale) {
 
 compare::Scene activation_drop_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return activation_drop({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 30, .iterations = 40});
+    case Scale::smoke:
+      return activation_drop({.vertices_a_side = 12, .sphere_subdivisions = 2, .steps = 30, .iterations = 40});
     case Scale::small: return activation_drop({.vertices_a_side = 28, .sphere_subdivisions = 3, .steps = 38});
     case Scale::paper: break;
   }
@@ -79,8 +83,11 @@ compare::Scene activation_drop_at(Scale scale) {
 
 compare::Scene dress_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return dress({.bodice = {8, 6}, .hips = {6, 7}, .hem = {5, 10}, .strap = 10, .body_spacing = 0.0743, .steps = 60});
-    case Scale::small: return dress({.bodice = {20, 15}, .hips = {14, 19}, .hem = {13, 24}, .strap = 25, .body_spacing = 0.0297});
+    case Scale::smoke:
+      return dress(
+          {.bodice = {8, 6}, .hips = {6, 7}, .hem = {5, 10}, .strap = 10, .body_spacing = 0.0743, .steps = 60});
+    case Scale::small:
+      return dress({.bodice = {20, 15}, .hips = {14, 19}, .hem = {13, 24}, .strap = 25, .body_spacing = 0.0297});
     case Scale::paper: break;
   }
   return dress();
@@ -127,9 +134,23 @@ compare::Scene one_iteration_drop_at(Scale scale) {
 compare::Scene robot_shirt_at(Scale scale) {
   switch (scale) {
     case Scale::smoke:
-      return robot_shirt({.across = 12, .length = 22, .sleeve_rows = 5, .sleeve_columns = 5, .neck_columns = 2, .front_neck = 2, .back_neck = 1, .steps = 240});
+      return robot_shirt({.across = 12,
+                          .length = 22,
+                          .sleeve_rows = 5,
+                          .sleeve_columns = 5,
+                          .neck_columns = 2,
+                          .front_neck = 2,
+                          .back_neck = 1,
+                          .steps = 240});
     case Scale::small:
-      return robot_shirt({.across = 28, .length = 52, .sleeve_rows = 10, .sleeve_columns = 13, .neck_columns = 5, .front_neck = 4, .back_neck = 1, .steps = 1800});
+      return robot_shirt({.across = 28,
+                          .length = 52,
+                          .sleeve_rows = 10,
+                          .sleeve_columns = 13,
+                          .neck_columns = 5,
+                          .front_neck = 4,
+                          .back_neck = 1,
+                          .steps = 1800});
     case Scale::paper: break;
   }
   return robot_shirt();
@@ -145,16 +166,22 @@ compare::Scene twist_at(Scale scale) {
 }
 
 constexpr std::array<SceneInfo, 11> table{{
-    {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence", activation_drop_at},
+    {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence",
+     activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
-    {"dress", "Fig. 13", "a dress of 14 stitched panels on a walking body; --set data=DIR: Codimensional IPC's dress and dancer", dress_at, dress_of},
+    {"dress", "Fig. 13",
+     "a dress of 14 stitched panels on a walking body; --set data=DIR: Codimensional IPC's dress and dancer", dress_at,
+     dress_of},
     {"fifty_layers", "Fig. 10, 1", "fifty square cloths fall off-centre onto a fixed cylinder", fifty_layers_at},
     {"fifty_layers_1m", "Table 1", "the same with a million vertices", fifty_layers_1m_at},
     {"knot", "Fig. 11, 1", "a long strip with four overhand knots, pulled at both ends", knot_at},
-    {"large_radius_twist", "Fig. 2", "half a turn of a cloth whose contact radius is as large as its edges", large_radius_twist_at},
-    {"one_iteration_drop", "Fig. 20", "a square cloth falls onto a small sphere, one iteration a step", one_iteration_drop_at},
+    {"large_radius_twist", "Fig. 2", "half a turn of a cloth whose contact radius is as large as its edges",
+     large_radius_twist_at},
+    {"one_iteration_drop", "Fig. 20", "a square cloth falls onto a small sphere, one iteration a step",
+     one_iteration_drop_at},
     {"robot_shirt", "Fig. 14", "two grippers lift, shake and fold a T-shirt", robot_shirt_at},
-    {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere", three_cloths_at},
+    {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere",
+     three_cloths_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
 }};
 
@@ -170,7 +197,8 @@ compare::Scene make_scene(std::string_view name, Scale scale, const std::filesys
     names.push_back(info.name);
     if (info.name != name) continue;
     if (!data.empty() && !info.generate_of)
-      throw compare::InputError("data=" + data.string() + ": " + std::string(name) + " is made of no files; leave it out");
+      throw compare::InputError("data=" + data.string() + ": " + std::string(name) +
+                                " is made of no files; leave it out");
     compare::Scene scene = data.empty() ? info.generate(scale) : info.generate_of(scale, data);
     compare::round_to_single(scene);
     return scene;

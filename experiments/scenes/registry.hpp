@@ -15,14 +15,15 @@ enum class Scale { smoke, small, paper };
 struct SceneInfo {
   std::string_view name, figure, summary;
   compare::Scene (*generate)(Scale);
-  compare::Scene (*generate_of)(Scale, const std::filesystem::path&) = nullptr;  ///< the same of a published data set in this folder, where there is one
+  /// the same of a published data set in this folder, where there is one
+  compare::Scene (*generate_of)(Scale, const std::filesystem::path&) = nullptr;
 };
 
 /// In order of name.
 std::span<const SceneInfo> scenes();
 
-/// Generates a scene, of a data set where `data` names its folder, rounded to single precision. Throws compare::InputError that lists the known names, or says
-/// what is wrong with the data, or that the scene has none.
+/// Generates a scene, of a data set where `data` names its folder, rounded to single precision. Throws
+/// compare::InputError that lists the known names, or says what is wrong with the data, or that the scene has none.
 compare::Scene make_scene(std::string_view name, Scale scale, const std::filesystem::path& data = {});
 
 /// "smoke", "small", "paper"; throws compare::InputError.

@@ -1,4 +1,5 @@
-// Grid points of the shirt are places on the table; whether front and back share a vertex there decides where the shirt is open.
+// Grid points of the shirt are places on the table; whether front and back share a vertex there decides where the shirt
+// is open.
 #include "experiments/scenes/robot_shirt.hpp"
 
 #include <algorithm>
@@ -17,16 +18,17 @@ using compare::Scene;
 using compare::Triangle;
 using compare::Vec3;
 
-constexpr double shirt_width = 0.45;         // [m]
-constexpr double stitch_stiffness = 100;     // [N/m]
-constexpr double table_edge = -0.06;         // z [m]
+constexpr double shirt_width = 0.45;      // [m]
+constexpr double stitch_stiffness = 100;  // [N/m]
+constexpr double table_edge = -0.06;      // z [m]
 
 enum class Layer { back, front };
 
 /// The shirt as a map of cells: column i from −across/2 − sleeve on, row j from the shoulders down.
 class Pattern {
  public:
-  Pattern(const RobotShirtSizes& sizes, double spacing, double radius) : sizes_(sizes), side_(sizes.across / 2), spacing_(spacing), radius_(radius) {}
+  Pattern(const RobotShirtSizes& sizes, double spacing, double radius)
+      : sizes_(sizes), side_(sizes.across / 2), spacing_(spacing), radius_(radius) {}
 
   void append(Scene& scene, const compare::Material& material) {
     const Index widest = side_ + sizes_.sleeve_columns;
@@ -56,7 +58,9 @@ class Pattern {
     const Index out = std::abs(p);
     return out >= side_ && (q == 0 || (out == side_ && q >= sizes_.sleeve_rows) || q == sizes_.sleeve_rows);
   }
-  bool is_shoulder(Index p, Index q) const { return q == 0 && std::abs(p) >= sizes_.neck_columns && std::abs(p) < side_; }
+  bool is_shoulder(Index p, Index q) const {
+    return q == 0 && std::abs(p) >= sizes_.neck_columns && std::abs(p) < side_;
+  }
 
   Index vertex(Layer layer, Index p, Index q) {
     const bool joined = is_joined(p, q);
@@ -69,9 +73,11 @@ class Pattern {
 
   /// Both layers are cut along the same diagonals: others would cross each other beside the joints, half a gap apart.
   void add_cell(Layer layer, Index i, Index j) {
-    const Index a = vertex(layer, i, j), b = vertex(layer, i, j + 1), c = vertex(layer, i + 1, j + 1), d = vertex(layer, i + 1, j);
+    const Index a = vertex(layer, i, j), b = vertex(layer, i, j + 1), c = vertex(layer, i + 1, j + 1),
+                d = vertex(layer, i + 1, j);
     const bool even = (i + j) % 2 == 0;
-    for (const Triangle& t : {even ? Triangle{a, b, c} : Triangle{a, b, d}, even ? Triangle{a, c, d} : Triangle{b, c, d}})
+    for (const Triangle& t :
+         {even ? Triangle{a, b, c} : Triangle{a, b, d}, even ? Triangle{a, c, d} : Triangle{b, c, d}})
       mesh_.triangles.push_back(layer == Layer::back ? t : Triangle{t[0], t[2], t[1]});
   }
 
@@ -91,11 +97,13 @@ compare::Material cloth() {
 compare::Mesh table(double spacing) {
   constexpr double half_width = 0.65, depth = 1.30;
   const double cell = 5 * spacing;  // fifty times the area of the shirt's triangles
-  const auto rows = static_cast<Index>(std::ceil(2 * half_width / cell)), columns = static_cast<Index>(std::ceil(depth / cell));
+  const auto rows = static_cast<Index>(std::ceil(2 * half_width / cell)),
+             columns = static_cast<Index>(std::ceil(depth / cell));
   compare::Mesh mesh;
   for (Index i = 0; i <= rows; ++i) {
     for (Index j = 0; j <= columns; ++j)
-      mesh.positions.push_back({half_width * (2.0 * i / rows - 1), 0, table_edge + depth * (static_cast<double>(j) / columns - 1)});
+      mesh.positions.push_back(
+          {half_width * (2.0 * i / rows - 1), 0, table_edge + depth * (static_cast<double>(j) / columns - 1)});
   }
   mesh.triangles = cross_diagonals(rows + 1, columns + 1);
   return mesh;
@@ -116,16 +124,20 @@ class Trajectory {
  public:
   explicit Trajectory(double radius) {
     const double open = 0.03 + 4 * radius, shut = 2.2 * radius, low = 0.05 + 4 * radius;
-    points_ = {{0.0, {0, 0, open}},         {0.3, {0, 0, 4 * radius}},   {0.5, {0, 0, shut}},         {2.0, {0.32, 0, shut}},     {3.0, {0.32, 0, shut}},
-               {3.7, {0.32, -0.15, shut}},  {4.5, {0.20, -0.27, shut}},  {5.3, {low, -0.17, shut}},   {5.5, {low, -0.17, open}},  {5.95, {low, -0.03, open}}};
+    points_ = {{0.0, {0, 0, open}},        {0.3, {0, 0, 4 * radius}}, {0.5, {0, 0, shut}},
+               {2.0, {0.32, 0, shut}},     {3.0, {0.32, 0, shut}},    {3.7, {0.32, -0.15, shut}},
+               {4.5, {0.20, -0.27, shut}}, {5.3, {low, -0.17, shut}}, {5.5, {low, -0.17, open}},
+               {5.95, {low, -0.03, open}}};
   }
 
   Pose at(double t) const {
-    const auto next = std::find_if(points_.begin() + 1, points_.end() - 1, [&](const Waypoint& w) { return t <= w.time; });
+    const auto next = std::find_if(points_.begin() + 1, points_.end() - 1,
+                                   [&](const Waypoint& w) { return t <= w.time; });
     const Waypoint &from = *(next - 1), &to = *next;
     const double u = std::clamp((t - from.time) / (to.time - from.time), 0.0, 1.0), s = u * u * (3 - 2 * u);
     const auto between = [&](double a, double b) { return a + s * (b - a); };
-    return {between(from.pose.y, to.pose.y), between(from.pose.z, to.pose.z) + shake(t), between(from.pose.opening, to.pose.opening)};
+    return {between(from.pose.y, to.pose.y), between(from.pose.z, to.pose.z) + shake(t),
+            between(from.pose.opening, to.pose.opening)};
   }
 
  private:
@@ -148,20 +160,23 @@ void append_gripper(Scene& scene, const char* name, double centre, double spacin
   const Pose start = trajectory.at(0);
   compare::Mesh jaws = box(cut, {centre - half, -thickness, inner}, {centre + half, 0, outer});
   const std::size_t lower = jaws.positions.size();
-  const compare::Mesh upper = box(cut, {centre - half, start.opening, inner}, {centre + half, start.opening + thickness, outer});
+  const compare::Mesh upper = box(cut, {centre - half, start.opening, inner},
+                                  {centre + half, start.opening + thickness, outer});
   jaws.positions.insert(jaws.positions.end(), upper.positions.begin(), upper.positions.end());
   const auto first = static_cast<Index>(lower);
   for (const auto& [a, b, c] : upper.triangles) jaws.triangles.push_back({first + a, first + b, first + c});
   compare::PrescribedMotion motion;
   motion.name = name;
-  for (std::size_t v = 0; v < jaws.positions.size(); ++v) motion.vertices.push_back(static_cast<Index>(scene.mesh.positions.size() + v));
+  for (std::size_t v = 0; v < jaws.positions.size(); ++v)
+    motion.vertices.push_back(static_cast<Index>(scene.mesh.positions.size() + v));
   for (int k = 0; k <= std::lround(seconds / frame_seconds); ++k) {
     motion.keyframes.times.push_back(frame_seconds * k);
     const Pose pose = trajectory.at(frame_seconds * k);
     for (std::size_t v = 0; v < jaws.positions.size(); ++v) {
       const Vec3& x = jaws.positions[v];
       const double rise = pose.y + (v < lower ? 0 : pose.opening - start.opening);
-      motion.keyframes.positions.push_back({static_cast<float>(x.x), static_cast<float>(x.y + rise), static_cast<float>(x.z + pose.z)});
+      motion.keyframes.positions.push_back(
+          {static_cast<float>(x.x), static_cast<float>(x.y + rise), static_cast<float>(x.z + pose.z)});
     }
   }
   append_body(scene, {.name = name, .material = driven_surface()}, jaws);
@@ -179,7 +194,8 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   const Trajectory trajectory(radius);
   append_gripper(scene, "left_gripper", -0.15, spacing, trajectory);
   append_gripper(scene, "right_gripper", 0.15, spacing, trajectory);
-  scene.settings.time_step = 1.0 / 600 * 56 / sizes.across;  // so that a step of the jaws is the same part of r at every scale
+  // so that a step of the jaws is the same part of r at every scale
+  scene.settings.time_step = 1.0 / 600 * 56 / sizes.across;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;
   scene.settings.contact_radius = radius;

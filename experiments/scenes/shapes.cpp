@@ -25,12 +25,14 @@ Vec3 on_unit_sphere(const Vec3& v) {
 Mesh icosahedron() {
   const double g = (1 + std::sqrt(5.0)) / 2;
   Mesh mesh;
-  for (const Vec3& v : {Vec3{-1, g, 0}, Vec3{1, g, 0}, Vec3{-1, -g, 0}, Vec3{1, -g, 0}, Vec3{0, -1, g}, Vec3{0, 1, g},
-                        Vec3{0, -1, -g}, Vec3{0, 1, -g}, Vec3{g, 0, -1}, Vec3{g, 0, 1}, Vec3{-g, 0, -1}, Vec3{-g, 0, 1}}) {
+  for (const Vec3& v :
+       {Vec3{-1, g, 0}, Vec3{1, g, 0}, Vec3{-1, -g, 0}, Vec3{1, -g, 0}, Vec3{0, -1, g}, Vec3{0, 1, g}, Vec3{0, -1, -g},
+        Vec3{0, 1, -g}, Vec3{g, 0, -1}, Vec3{g, 0, 1}, Vec3{-g, 0, -1}, Vec3{-g, 0, 1}}) {
     mesh.positions.push_back(on_unit_sphere(v));
   }
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   return mesh;
 }
 
@@ -39,7 +41,8 @@ Mesh split_in_four(const Mesh& coarse) {
   fine.positions = coarse.positions;
   std::map<Edge, Index> middles;
   const auto middle = [&](Index a, Index b) {
-    const auto [entry, is_new] = middles.try_emplace(Edge{std::min(a, b), std::max(a, b)}, static_cast<Index>(fine.positions.size()));
+    const auto [entry, is_new] = middles.try_emplace(Edge{std::min(a, b), std::max(a, b)},
+                                                     static_cast<Index>(fine.positions.size()));
     if (is_new) {
       const Vec3 &p = coarse.positions[at(a)], &q = coarse.positions[at(b)];
       fine.positions.push_back(on_unit_sphere({p.x + q.x, p.y + q.y, p.z + q.z}));
@@ -48,12 +51,14 @@ Mesh split_in_four(const Mesh& coarse) {
   };
   for (const auto& [a, b, c] : coarse.triangles) {
     const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const Triangle& t : {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc}, Triangle{ab, bc, ca}}) fine.triangles.push_back(t);
+    for (const Triangle& t : {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc}, Triangle{ab, bc, ca}})
+      fine.triangles.push_back(t);
   }
   return fine;
 }
 
-/// `count` vertices of a circle about (centre.x, centre.y, z), against the clock as seen from +z. Sines are multiples of 2⁻⁴⁰, so that sin π is 0.
+/// `count` vertices of a circle about (centre.x, centre.y, z), against the clock as seen from +z. Sines are multiples
+/// of 2⁻⁴⁰, so that sin π is 0.
 void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double z) {
   const auto tidy = [](double sine) { return std::round(sine * 0x1p40) * 0x1p-40; };
   for (Index i = 0; i < count; ++i) {
@@ -62,7 +67,8 @@ void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double
   }
 }
 
-/// Two triangles a cell between rings of `count` vertices that begin at `from` and `to`; outward where the second ring lies towards +z, or inside.
+/// Two triangles a cell between rings of `count` vertices that begin at `from` and `to`; outward where the second ring
+/// lies towards +z, or inside.
 void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
@@ -97,13 +103,16 @@ void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& 
 std::array<Vec3, 2> across(const Vec3& axis) {
   const bool along_y = std::abs(axis.y) > 0.9;
   const Vec3 first = on_unit_sphere(along_y ? Vec3{0, -axis.z, axis.y} : Vec3{axis.z, 0, -axis.x});
-  return {first, {axis.y * first.z - axis.z * first.y, axis.z * first.x - axis.x * first.z, axis.x * first.y - axis.y * first.x}};
+  return {
+      first,
+      {axis.y * first.z - axis.z * first.y, axis.z * first.x - axis.x * first.z, axis.x * first.y - axis.y * first.x}};
 }
 
 /// Numbers the lattice points of a box's surface as they are first asked for.
 class BoxSurface {
  public:
-  BoxSurface(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high) : cells_(cells), low_(low), high_(high) {}
+  BoxSurface(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high)
+      : cells_(cells), low_(low), high_(high) {}
 
   /// The two sides across `axis`, with axes u, v so that (u, v, axis) is right-handed.
   void add_sides(int axis) {
@@ -130,8 +139,11 @@ class BoxSurface {
  private:
   Index vertex(const std::array<Index, 3>& place) {
     const auto [entry, is_new] = numbers_.try_emplace(place, static_cast<Index>(mesh.positions.size()));
-    const auto between = [&](double low, double high, int axis) { return low + (high - low) * place[at(axis)] / cells_[at(axis)]; };
-    if (is_new) mesh.positions.push_back({between(low_.x, high_.x, 0), between(low_.y, high_.y, 1), between(low_.z, high_.z, 2)});
+    const auto between = [&](double low, double high, int axis) {
+      return low + (high - low) * place[at(axis)] / cells_[at(axis)];
+    };
+    if (is_new)
+      mesh.positions.push_back({between(low_.x, high_.x, 0), between(low_.y, high_.y, 1), between(low_.z, high_.z, 2)});
     return entry->second;
   }
   std::array<Index, 3> cells_;
@@ -147,7 +159,8 @@ Mesh capsule(const CapsuleCells& cells, double radius, const Vec3& from, const V
   Mesh mesh;
   const auto add = [&](const Vec3& centre, double out, double up, double angle) {
     const double c = out * std::cos(angle), s = out * std::sin(angle);
-    mesh.positions.push_back(tidy({centre.x + c * sides[0].x + s * sides[1].x + up * axis.x, centre.y + c * sides[0].y + s * sides[1].y + up * axis.y,
+    mesh.positions.push_back(tidy({centre.x + c * sides[0].x + s * sides[1].x + up * axis.x,
+                                   centre.y + c * sides[0].y + s * sides[1].y + up * axis.y,
                                    centre.z + c * sides[0].z + s * sides[1].z + up * axis.z}));
   };
   const auto ring = [&](const Vec3& centre, double latitude) {

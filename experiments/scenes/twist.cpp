@@ -21,7 +21,8 @@ compare::Material cloth() {
 }
 
 // All vertices of column `column` of the sheet, turned about the x axis.
-compare::PrescribedMotion handle(const char* name, compare::Index column, compare::Index count, double angular_velocity) {
+compare::PrescribedMotion handle(const char* name, compare::Index column, compare::Index count,
+                                 double angular_velocity) {
   compare::PrescribedMotion motion;
   motion.name = name;
   for (compare::Index j = 0; j < count; ++j) motion.vertices.push_back(column * count + j);

@@ -1,5 +1,6 @@
-// The backend of fast/stages/backend.hpp on the host's threads. Work is done when a call returns, so `synchronize` has nothing to wait for; loops of
-// fewer items than a grain stay in the calling thread. All but `replay` may be called by several threads.
+// The backend of fast/stages/backend.hpp on the host's threads. Work is done when a call returns, so `synchronize` has
+// nothing to wait for; loops of fewer items than a grain stay in the calling thread. All but `replay` may be called by
+// several threads.
 #pragma once
 
 #include <algorithm>
@@ -50,9 +51,7 @@ class CpuBuffer {
     resize(n);
     std::copy_n(from, n, items_.get());
   }
-  void download(T* to, std::size_t n) const {
-    std::copy_n(items_.get(), n, to);
-  }
+  void download(T* to, std::size_t n) const { std::copy_n(items_.get(), n, to); }
   void fill_zero() {
     if (size_ > 0) std::memset(static_cast<void*>(items_.get()), 0, size_ * sizeof(T));
   }
@@ -67,8 +66,12 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
-inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) { return {f.view, f.first_slot, f.asks_late}; }
-inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) { return {f.view, f.first_slot, f.asks_late}; }
+inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
+inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
 
 /// Brings to the cache what f(i, team) is going to read where no processor expects it.
 template <class F>
@@ -78,7 +81,8 @@ template <class Gather>
 void look_ahead(const UpdateVertex<Gather>& f, int i) {
   constexpr std::size_t line = 64;
   const ContactRow row = f.view.contact_rows[f.first_slot + i];
-  const char *begin = reinterpret_cast<const char*>(f.view.contacts + row.begin), *end = reinterpret_cast<const char*>(f.view.contacts + row.begin + row.count);
+  const char *begin = reinterpret_cast<const char*>(f.view.contacts + row.begin),
+             *end = reinterpret_cast<const char*>(f.view.contacts + row.begin + row.count);
   for (const char* at = begin; at < end; at += line) __builtin_prefetch(at);
 }
 
@@ -161,7 +165,8 @@ class CpuBackend {
     for (int k = 0; k < times; ++k) {
       const auto start = std::chrono::steady_clock::now();
       body();
-      replay_milliseconds_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      replay_milliseconds_.push_back(
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
   }
   const std::vector<double>& replay_milliseconds() const { return replay_milliseconds_; }
@@ -191,7 +196,8 @@ class CpuBackend {
   static void for_each_range(int n, const Run& run) {
     constexpr int grain = 64;
     if (n <= grain) return run(0, n);
-    tbb::parallel_for(tbb::blocked_range<int>(0, n, grain), [&run](const tbb::blocked_range<int>& range) { run(range.begin(), range.end()); });
+    tbb::parallel_for(tbb::blocked_range<int>(0, n, grain),
+                      [&run](const tbb::blocked_range<int>& range) { run(range.begin(), range.end()); });
   }
 
   std::vector<double> replay_milliseconds_;

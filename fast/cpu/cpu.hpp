@@ -16,6 +16,7 @@ BackendInfo cpu_info();
 compare::Contestant cpu_contestant();
 
 /// For ContactFinder; `topology` must outlive the engine.
-std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology, const compare::ExclusionView& exclusions);
+std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
+                                                  const compare::ExclusionView& exclusions);
 
 }  // namespace ogc::fast

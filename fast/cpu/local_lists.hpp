@@ -1,5 +1,6 @@
-// What a thread finds goes to a list of its own first and from there to the common one, many at a time: one counter that all threads raise for each thing
-// found is what they would wait for, and beside it lie flags that all of them read.
+// What a thread finds goes to a list of its own first and from there to the common one, many at a time: one counter
+// that all threads raise for each thing found is what they would wait for, and beside it lie flags that all of them
+// read.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +67,8 @@ void run_range(const F& f, int begin, int end) {
   for (int i = begin; i < end; ++i) f(i);
 }
 
-/// Each pair is one contact at most. A contact without room is not counted for its bucket and its vertices, as FillBuckets would look for it there.
+/// Each pair is one contact at most. A contact without room is not counted for its bucket and its vertices, as
+/// FillBuckets would look for it there.
 inline void run_range(const CollectContacts& f, int begin, int end) {
   constexpr int room = 256;  // 4 KiB
   const ListsView& common = f.lists;
@@ -76,8 +78,9 @@ inline void run_range(const CollectContacts& f, int begin, int end) {
   const ContactFaces faces{f.edge_edge.surface};
   for (int first = begin; first < end; first += room) {
     for (int i = first; i < std::min(first + room, end); ++i) local(i);
-    list.flush(common.entered, common.capacity, common.cursor,
-               [&](const EnteredContact& contact) { common.count(contact.bucket, faces.vertices(contact.bucket, contact.second), -1); });
+    list.flush(common.entered, common.capacity, common.cursor, [&](const EnteredContact& contact) {
+      common.count(contact.bucket, faces.vertices(contact.bucket, contact.second), -1);
+    });
   }
 }
 

@@ -1,8 +1,9 @@
-// Several floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same order as on one float, each rounded
-// alike, so that the same bits come out. g++'s vector types; a few operations have better instructions where there is SSE2 or AVX2.
+// Several floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same
+// order as on one float, each rounded alike, so that the same bits come out. g++'s vector types; a few operations have
+// better instructions where there is SSE2 or AVX2.
 //
-// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker never merges code for a larger one into
-// a program that runs on a smaller one.
+// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker
+// never merges code for a larger one into a program that runs on a smaller one.
 #pragma once
 
 #include <bit>
@@ -73,13 +74,14 @@ struct PackOf {
   Numbers value{};
 
   PackOf() = default;
-  PackOf(Numbers packed) : value(packed) {}                        // NOLINT: formulas mix packs with constants
-  PackOf(float everywhere) : value(everywhere - Numbers{}) {}      // NOLINT: less +0 keeps even a zero's sign
+  PackOf(Numbers packed) : value(packed) {}                    // NOLINT: formulas mix packs with constants
+  PackOf(float everywhere) : value(everywhere - Numbers{}) {}  // NOLINT: less +0 keeps even a zero's sign
   explicit PackOf(const float* from) { std::memcpy(&value, from, sizeof value); }
   /// number(k) at place k.
   template <class F>
   static PackOf of_each(F number) {
-    return [&]<int... k>(std::integer_sequence<int, k...>) { return PackOf(Numbers{number(k)...}); }(std::make_integer_sequence<int, N>());
+    return [&]<int... k>(std::integer_sequence<int, k...>) { return PackOf(Numbers{number(k)...}); }
+    (std::make_integer_sequence<int, N>());
   }
 
   void store(float* to) const { std::memcpy(to, &value, sizeof value); }
@@ -95,7 +97,9 @@ struct PackOf {
   friend Mask operator<=(PackOf a, PackOf b) { return {a.value <= b.value}; }
 
   friend PackOf select(Mask condition, PackOf a, PackOf b) { return condition.bits ? a.value : b.value; }
-  friend PackOf absolute(PackOf a) { return std::bit_cast<Numbers>(std::bit_cast<typename Mask::Bits>(a.value) & 0x7fffffff); }
+  friend PackOf absolute(PackOf a) {
+    return std::bit_cast<Numbers>(std::bit_cast<typename Mask::Bits>(a.value) & 0x7fffffff);
+  }
   friend PackOf add(PackOf a, PackOf b) { return a + b; }
   friend PackOf rough_quotient(PackOf a, PackOf b) { return a / b; }
   friend PackOf rough_inverse_root(PackOf a) { return 1.0F / root(a); }
@@ -143,7 +147,8 @@ using WidePack = PackOf<4>;
 template <class P>
 typename P::Mask first_of(int count) {
   using Bits = typename P::Mask::Bits;
-  return [count]<int... k>(std::integer_sequence<int, k...>) { return typename P::Mask{Bits{k...} < count}; }(std::make_integer_sequence<int, P::width>());
+  return [count]<int... k>(std::integer_sequence<int, k...>) { return typename P::Mask{Bits{k...} < count}; }
+  (std::make_integer_sequence<int, P::width>());
 }
 
 /// In each 16 B of the result places p, q, r and s of those 16 B of a; from N on, of b.
@@ -152,7 +157,8 @@ PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {
     constexpr int from[4] = {p, q, r, s};
     return PackOf<N>(__builtin_shuffle(a.value, b.value, typename PackMaskOf<N>::Bits{k / 4 * 4 + from[k % 4]...}));
-  }(std::make_integer_sequence<int, N>());
+  }
+  (std::make_integer_sequence<int, N>());
 }
 
 /// Of the four numbers of each 16 B: the first ones of a, b, c and d, then their second ones, and so on.
@@ -164,12 +170,13 @@ template <int N>
 ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>& c, const PackOf<N>& d) {
   const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d);
   const PackOf<N> zw_ab = mixed<2, N + 2, 3, N + 3>(a, b), zw_cd = mixed<2, N + 2, 3, N + 3>(c, d);
-  return {mixed<0, 1, N, N + 1>(xy_ab, xy_cd), mixed<2, 3, N + 2, N + 3>(xy_ab, xy_cd), mixed<0, 1, N, N + 1>(zw_ab, zw_cd),
-          mixed<2, 3, N + 2, N + 3>(zw_ab, zw_cd)};
+  return {mixed<0, 1, N, N + 1>(xy_ab, xy_cd), mixed<2, 3, N + 2, N + 3>(xy_ab, xy_cd),
+          mixed<0, 1, N, N + 1>(zw_ab, zw_cd), mixed<2, 3, N + 2, N + 3>(zw_ab, zw_cd)};
 }
 using Columns = ColumnsOf<4>;
 
-/// Two halves as one; registers all the way, as a pack that is read back from two halves in memory waits for both to arrive there.
+/// Two halves as one; registers all the way, as a pack that is read back from two halves in memory waits for both to
+/// arrive there.
 #if defined(__AVX2__)
 inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
 #endif
@@ -179,8 +186,10 @@ template <class P>
 [[gnu::always_inline]] inline Vector<P> transposed(const Place* const* place) {
   const auto whole = [place](int k) { return Pack(std::bit_cast<Pack::Numbers>(*place[k])); };
   const auto column = [&whole](int k) {  // places k, k + 4, …
-    if constexpr (P::width == 4) return whole(k);
-    else return halves(whole(k), whole(k + 4));
+    if constexpr (P::width == 4)
+      return whole(k);
+    else
+      return halves(whole(k), whole(k + 4));
   };
   const auto all = transposed(column(0), column(1), column(2), column(3));
   return {all.x, all.y, all.z};

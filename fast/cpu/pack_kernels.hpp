@@ -17,7 +17,8 @@ struct OtherParts {
 };
 
 /// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs.
-using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const OtherParts& other);
+using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                                        const OtherParts& other);
 struct PackKernels {
   GatherInPacks gather_4, gather_8, gather_16, gather_32;
 
@@ -41,20 +42,24 @@ struct GatherPacked {
   const PackKernels& kernels = pack_kernels();
 
   template <int W>
-  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const SerialTeam<W>& team) const {
-    if constexpr (W < 4) return GatherDefault{}(view, slot, vertex, own, team);
-    else return kernels.template gather<W>()(view, slot, vertex, own, {});
+  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                           const SerialTeam<W>& team) const {
+    if constexpr (W < 4)
+      return GatherDefault{}(view, slot, vertex, own, team);
+    else
+      return kernels.template gather<W>()(view, slot, vertex, own, {});
   }
 };
 
-/// As GatherEveryModel: in packs but for springs and for triangles and hinges of bodies with other models than the default ones, which are computed one by
-/// one; as there with other activations.
+/// As GatherEveryModel: in packs but for springs and for triangles and hinges of bodies with other models than the
+/// default ones, which are computed one by one; as there with other activations.
 struct GatherPackedEveryModel {
   static constexpr int parts = GatherEveryModel::parts;
   const PackKernels& kernels = pack_kernels();
 
   template <int W>
-  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const SerialTeam<W>& team) const {
+  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                           const SerialTeam<W>& team) const {
     if constexpr (W >= 4) {
       if (view.activation == ContactActivation::ogc) {
         const SurfaceModels models = view.models[vertex.body];
@@ -64,14 +69,22 @@ struct GatherPackedEveryModel {
         ForceAndBlock triangles[W], hinges[W], springs[W];
         OtherParts other;
         if (by_vertex || models.membrane == compare::MembraneModel::stable_neo_hookean) {
-          const auto add = [&](int i, ForceAndBlock& sum) { add_any_membrane(view, view.membrane[i], material, models, at, sum); };
-          other.triangles = one_by_one(part(vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add), triangles);
+          const auto add = [&](int i, ForceAndBlock& sum) {
+            add_any_membrane(view, view.membrane[i], material, models, at, sum);
+          };
+          other.triangles = one_by_one(
+              part(
+                  vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add),
+              triangles);
         }
         if (by_vertex || models.bending == compare::BendingModel::isometric_quadratic) {
           const auto add = [&](int i, ForceAndBlock& sum) {
-            add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{}, material, models, at, sum);
+            add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{},
+                          material, models, at, sum);
           };
-          other.hinges = one_by_one(part(vertex.hinge_count, [&](int k) { return vertex.hinge_begin + k; }, add), hinges);
+          other.hinges = one_by_one(part(
+                                        vertex.hinge_count, [&](int k) { return vertex.hinge_begin + k; }, add),
+                                    hinges);
         }
         other.springs = one_by_one(spring_part(view, slot, models, at), springs);
         return kernels.template gather<W>()(view, slot, vertex, own, other);

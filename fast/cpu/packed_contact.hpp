@@ -1,6 +1,7 @@
-// A pack of contacts at a time, with the default activation: where contact_force.hpp, activation.hpp and friction_force.hpp branch, the same formulas with
-// both sides computed and one selected, so that the same bits come out (tests/fast/stages/sweep.cpp). Closest points of two proper segments and of a point
-// over a triangle are computed together, those of anything else one by one.
+// A pack of contacts at a time, with the default activation: where contact_force.hpp, activation.hpp and
+// friction_force.hpp branch, the same formulas with both sides computed and one selected, so that the same bits come
+// out (tests/fast/stages/sweep.cpp). Closest points of two proper segments and of a point over a triangle are computed
+// together, those of anything else one by one.
 #pragma once
 
 #include <bit>
@@ -37,7 +38,8 @@ P clamp_unit(P t) {
   return select(t > 0.0F, select(t < 1.0F, t, 1.0F), 0.0F);
 }
 
-/// closest_on_segments; `usual`: where the result is that. False for a segment of length zero and for nearly parallel ones.
+/// closest_on_segments; `usual`: where the result is that. False for a segment of length zero and for nearly parallel
+/// ones.
 template <class P>
 ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual) {
   const Vector<P> first = x[1] - x[0], second = x[3] - x[2], between = x[2] - x[0];
@@ -72,12 +74,14 @@ ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vecto
   ContactWeightsOf<P> weights = segments ? segment_weights<P>(x, usual) : triangle_weights<P>(x, usual);
   unsigned together = places(usual || !items.counted);
   for (int k = 0; k < P::width; ++k) {
-    if (items.at[k]->kind != (segments ? ContactKind::segment_segment : ContactKind::point_triangle)) together &= ~(1U << k);
+    if (items.at[k]->kind != (segments ? ContactKind::segment_segment : ContactKind::point_triangle))
+      together &= ~(1U << k);
   }
   unsigned alone = ~together & places(items.counted);
   if (alone == 0) return weights;
   float at[3][4][P::width], slot[4][P::width];  // [axis][slot][place]
-  for (int s = 0; s < 4; ++s) x[s].x.store(at[0][s]), x[s].y.store(at[1][s]), x[s].z.store(at[2][s]), weights.slot[s].store(slot[s]);
+  for (int s = 0; s < 4; ++s)
+    x[s].x.store(at[0][s]), x[s].y.store(at[1][s]), x[s].z.store(at[2][s]), weights.slot[s].store(slot[s]);
   for (; alone != 0; alone &= alone - 1) {
     const int k = std::countr_zero(alone);
     Vec of_one[4];
@@ -112,13 +116,15 @@ P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& 
 
 /// add_friction at items with friction.
 template <class P>
-void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights, const Vector<P>* x,
-              const Vector<P>& normal, P weight, P majorant, P normal_force, ForceAndBlockOf<P>& sum) {
+void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights,
+              const Vector<P>* x, const Vector<P>& normal, P weight, P majorant, P normal_force,
+              ForceAndBlockOf<P>& sum) {
   const P friction = items.each([](const ContactIncidence& i) { return i.friction; });
   const typename P::Mask slips = friction > 0.0F;
   if (is_false(slips)) return;
   const auto moved_by = [&](int s) {
-    return x[s] - items.each_place([&](const ContactIncidence& i) -> const Place& { return view.start.at[decoded(i.index[s])]; });
+    return x[s] - items.each_place(
+                      [&](const ContactIncidence& i) -> const Place& { return view.start.at[decoded(i.index[s])]; });
   };
   const Vector<P> moved[4] = {moved_by(0), moved_by(1), moved_by(2), moved_by(3)};
   const P* w = weights.slot;
@@ -132,17 +138,21 @@ void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, co
 template <class P>
 void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
   using Incidence = ContactIncidence;
-  const auto position = [&](int s) { return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[s])]; }); };
+  const auto position = [&](int s) {
+    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[s])]; });
+  };
   const Vector<P> x[4] = {position(0), position(1), position(2), position(3)};
   const ContactWeightsOf<P> weights = packed::weights(items, x);
   const Vector<P> separation = weighted_sum(weights, x);
   const P squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);
-  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.radius && (weight > 0.0F || weight < 0.0F);
+  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.radius &&
+                                (weight > 0.0F || weight < 0.0F);
   if (is_false(acts)) return;
   const ContactShapeOf<P> shape{(1.0F / distance) * separation, distance, acts};
   ForceAndBlockOf<P> term;
   const P majorant = majorants(items, weights);
-  const P normal_force = add_contact(ContactActivation::ogc, shape, weight, majorant, view.radius, items.each([](const Incidence& i) { return i.stiffness; }), term);
+  const P normal_force = add_contact(ContactActivation::ogc, shape, weight, majorant, view.radius,
+                                     items.each([](const Incidence& i) { return i.stiffness; }), term);
   add_slip(view, items, weights, x, shape.normal, weight, majorant, normal_force, term);
   sum += selected<P>(acts, term, {});
 }

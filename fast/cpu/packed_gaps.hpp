@@ -1,4 +1,5 @@
-// The gaps of a node's four lanes at once: g++ leaves a loop over them scalar, which doubles the time of a whole detection. Same operations, same bits.
+// The gaps of a node's four lanes at once: g++ leaves a loop over them scalar, which doubles the time of a whole
+// detection. Same operations, same bits.
 #pragma once
 
 #include <array>
@@ -10,8 +11,11 @@
 namespace ogc::fast {
 
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
-  const Pack box_lower(Pack::Numbers{box.lower.x, box.lower.y, box.lower.z, 0}), box_upper(Pack::Numbers{box.upper.x, box.upper.y, box.upper.z, 0});
-  Pack of[4];  // gaps along the axes, and the reach: the other number there is 0 minus the bits of a primitive's, which is not above it or no number
+  const Pack box_lower(Pack::Numbers{box.lower.x, box.lower.y, box.lower.z, 0}),
+      box_upper(Pack::Numbers{box.upper.x, box.upper.y, box.upper.z, 0});
+  // gaps along the axes, and the reach: the other number there is 0 minus the bits of a primitive's, which is not above
+  // it or no number
+  Pack of[4];
   for (int k = 0; k < 4; ++k) {
     const auto [lower, upper] = std::bit_cast<std::array<Pack::Numbers, 2>>(quad.lane[k]);
     of[k] = larger(larger(Pack(lower) - box_upper, box_lower - Pack(upper)), Pack{});

@@ -1,5 +1,5 @@
-// The sum over the stencils of a vertex, a pack of a team's lanes at a time. Lanes, their items and the order of every addition are those of SerialTeam, so
-// the bits are, too (tests/fast/stages/sweep.cpp).
+// The sum over the stencils of a vertex, a pack of a team's lanes at a time. Lanes, their items and the order of every
+// addition are those of SerialTeam, so the bits are, too (tests/fast/stages/sweep.cpp).
 #pragma once
 
 #include "fast/cpu/pack_kernels.hpp"
@@ -15,21 +15,26 @@ template <class P>
 ForceAndBlockOf<P> together(const ForceAndBlock* a) {
   const auto each = [a](auto number) { return P::of_each([&](int k) { return number(a[k]); }); };
   using Sum = const ForceAndBlock&;
-  return {{each([](Sum s) { return s.force.x; }), each([](Sum s) { return s.force.y; }), each([](Sum s) { return s.force.z; })},
-          {each([](Sum s) { return s.block.xx; }), each([](Sum s) { return s.block.xy; }), each([](Sum s) { return s.block.xz; }),
-           each([](Sum s) { return s.block.yy; }), each([](Sum s) { return s.block.yz; }), each([](Sum s) { return s.block.zz; })}};
+  return {{each([](Sum s) { return s.force.x; }), each([](Sum s) { return s.force.y; }),
+           each([](Sum s) { return s.force.z; })},
+          {each([](Sum s) { return s.block.xx; }), each([](Sum s) { return s.block.xy; }),
+           each([](Sum s) { return s.block.xz; }), each([](Sum s) { return s.block.yy; }),
+           each([](Sum s) { return s.block.yz; }), each([](Sum s) { return s.block.zz; })}};
 }
 
 template <class P>
-void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& items, const SurfaceMaterial& material, const Vector<P>& own,
-                          ForceAndBlockOf<P>& sum) {
+void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& items, const SurfaceMaterial& material,
+                   const Vector<P>& own, ForceAndBlockOf<P>& sum) {
   using Incidence = MembraneIncidence;
-  const MembraneStencilOf<P> stencil{
-      {items.each([](const Incidence& i) { return i.stencil.gradient_b[0]; }), items.each([](const Incidence& i) { return i.stencil.gradient_b[1]; })},
-      {items.each([](const Incidence& i) { return i.stencil.gradient_c[0]; }), items.each([](const Incidence& i) { return i.stencil.gradient_c[1]; })},
-      items.each([](const Incidence& i) { return i.stencil.area; })};
-  const Vector<P> b = items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[0])]; });
-  const Vector<P> c = items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[1])]; });
+  const MembraneStencilOf<P> stencil{{items.each([](const Incidence& i) { return i.stencil.gradient_b[0]; }),
+                                      items.each([](const Incidence& i) { return i.stencil.gradient_b[1]; })},
+                                     {items.each([](const Incidence& i) { return i.stencil.gradient_c[0]; }),
+                                      items.each([](const Incidence& i) { return i.stencil.gradient_c[1]; })},
+                                     items.each([](const Incidence& i) { return i.stencil.area; })};
+  const Vector<P> b = items.each_place(
+      [&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[0])]; });
+  const Vector<P> c = items.each_place(
+      [&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[1])]; });
   Symmetric2Of<P> start;
   if (material.membrane_damping > 0) {
     start = {items.each([&](const Incidence& i) { return view.strain_start[i.triangle].xx; }),
@@ -42,17 +47,20 @@ void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& ite
 }
 
 template <class P>
-void add_hinges(const SweepView& view, const Items<HingeIncidence, P>& items, const SurfaceMaterial& material, const Vector<P>& own,
-                       ForceAndBlockOf<P>& sum) {
+void add_hinges(const SweepView& view, const Items<HingeIncidence, P>& items, const SurfaceMaterial& material,
+                const Vector<P>& own, ForceAndBlockOf<P>& sum) {
   using Incidence = HingeIncidence;
   const typename P::Mask opposite = items.each([](const Incidence& i) { return i.hinge < 0 ? 1.0F : 0.0F; }) > P{};
-  const auto position = [&](int k) { return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[k])]; }); };
+  const auto position = [&](int k) {
+    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[k])]; });
+  };
   const Vector<P> p[3] = {position(0), position(1), position(2)};
   const HingeShapeOf<P> shape = hinge_shape_seen<P>(opposite, p, own);
   P start;
-  if (material.bending_damping > 0) start = items.each([&](const Incidence& i) { return view.angle_start[decoded(i.hinge)]; });
+  if (material.bending_damping > 0)
+    start = items.each([&](const Incidence& i) { return view.angle_start[decoded(i.hinge)]; });
   const HingeStencilOf<P> stencil{items.each([](const Incidence& i) { return i.stencil.stiffness; }),
-                                     items.each([](const Incidence& i) { return i.stencil.rest_angle; })};
+                                  items.each([](const Incidence& i) { return i.stencil.rest_angle; })};
   ForceAndBlockOf<P> with = sum;
   add_hinge(stencil, material.bending_damping, shape.angle, start, hinge_gradient(shape, opposite), with);
   sum = selected<P>(items.counted && shape.defined, with, sum);
@@ -76,7 +84,8 @@ struct Lanes {
 
   /// A part that was computed lane by lane.
   void add_part(const LaneSums& part) {
-    for (int first = 0; first < W && first < part.count; first += P::width) packs[first / P::width] += together<P>(part.lane + first);
+    for (int first = 0; first < W && first < part.count; first += P::width)
+      packs[first / P::width] += together<P>(part.lane + first);
   }
 
   /// All lanes, by the tree of SerialTeam.
@@ -86,18 +95,22 @@ struct Lanes {
     }
     const Vector<P>& f = packs[0].force;
     const Symmetric3Of<P>& b = packs[0].block;
-    return {{whole(f.x), whole(f.y), whole(f.z)}, {whole(b.xx), whole(b.xy), whole(b.xz), whole(b.yy), whole(b.yz), whole(b.zz)}};
+    return {{whole(f.x), whole(f.y), whole(f.z)},
+            {whole(b.xx), whole(b.xy), whole(b.xz), whole(b.yy), whole(b.yz), whole(b.zz)}};
   }
 
  private:
   static float whole(const P& a) {
-    if constexpr (P::width == 4) return (a[0] + a[2]) + (a[1] + a[3]);
-    else return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+    if constexpr (P::width == 4)
+      return (a[0] + a[2]) + (a[1] + a[3]);
+    else
+      return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
   }
 };
 
 template <int W>
-[[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const OtherParts& other) {
+[[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                                      const OtherParts& other) {
   using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
   const SurfaceMaterial material = view.materials[vertex.body];
   const Vector<P> here = everywhere<P>(own);
@@ -106,18 +119,24 @@ template <int W>
     lanes.add_part(other.triangles);
   } else {
     lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
-                   [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_triangles(view, items, material, here, sum); });
+                   [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) {
+                     add_triangles(view, items, material, here, sum);
+                   });
   }
   if (other.hinges.lane != nullptr) {
     lanes.add_part(other.hinges);
   } else {
     lanes.add_part(view.hinges + vertex.hinge_begin, vertex.hinge_count,
-                   [&](const Items<HingeIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_hinges(view, items, material, here, sum); });
+                   [&](const Items<HingeIncidence, P>& items, ForceAndBlockOf<P>& sum) {
+                     add_hinges(view, items, material, here, sum);
+                   });
   }
   lanes.add_part(other.springs);
   const ContactRow row = view.contact_rows[slot];
   const ContactIncidence* contacts = view.contacts + row.begin;
-  const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) { add_contacts(view, items, sum); };
+  const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
+    add_contacts(view, items, sum);
+  };
   lanes.add_part(contacts, row.vertex_facet, add);
   lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
   return lanes.total();

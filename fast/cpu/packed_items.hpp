@@ -39,8 +39,8 @@ template <class P>
 ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a, const ForceAndBlockOf<P>& b) {
   const Symmetric3Of<P>&p = a.block, &q = b.block;
   return {select(condition, a.force, b.force),
-          {select(condition, p.xx, q.xx), select(condition, p.xy, q.xy), select(condition, p.xz, q.xz), select(condition, p.yy, q.yy),
-           select(condition, p.yz, q.yz), select(condition, p.zz, q.zz)}};
+          {select(condition, p.xx, q.xx), select(condition, p.xy, q.xy), select(condition, p.xz, q.xz),
+           select(condition, p.yy, q.yy), select(condition, p.yz, q.yz), select(condition, p.zz, q.zz)}};
 }
 
 }  // namespace packed

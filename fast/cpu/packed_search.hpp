@@ -1,5 +1,5 @@
-// Searches of one thread that collect candidates and compute the lower bounds of their distances four at a time. Which pairs a search rejects changes no
-// answer, and these are the same bounds (tests/fast/cpu/pack.cpp).
+// Searches of one thread that collect candidates and compute the lower bounds of their distances four at a time. Which
+// pairs a search rejects changes no answer, and these are the same bounds (tests/fast/cpu/pack.cpp).
 #pragma once
 
 #include "fast/cpu/local_lists.hpp"
@@ -22,13 +22,16 @@ inline Pack separations(const DetectEdgeEdge& query, const Search& search, const
   for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[primitive[k]];
   const Places x = query.positions;
   return separation(EndsOf<Pack>{everywhere<Pack>(x[own.a]), everywhere<Pack>(x[own.b])},
-                    EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a), gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
+                    EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a),
+                                 gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
 inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* primitive) {
   const int* corner[Pack::width];
   for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
-  const auto at = [&](int i) { return gathered(query.positions, corner[0][i], corner[1][i], corner[2][i], corner[3][i]); };
+  const auto at = [&](int i) {
+    return gathered(query.positions, corner[0][i], corner[1][i], corner[2][i], corner[3][i]);
+  };
   return separation(everywhere<Pack>(search.box.lower), CornersOf<Pack>{at(0), at(1), at(2)});
 }
 
@@ -55,7 +58,8 @@ struct Waiting {
     float apart[Pack::width];
     separations(query, search, primitive).store(apart);
     for (int k = 0; k < count; ++k) {
-      if (!is_beyond(apart[k], within[k])) search.limit = smaller(search.limit, query.meet(search, primitive[k], gap[k]));
+      if (!is_beyond(apart[k], within[k]))
+        search.limit = smaller(search.limit, query.meet(search, primitive[k], gap[k]));
     }
     count = 0;
   }
@@ -75,7 +79,8 @@ void run_searches(const Searches<Query>& searches, int begin, int end) {
       continue;
     }
     Waiting<Query> waiting{query, notes, search, {}, 0, {}, {}};
-    for_each_near(searches.tree, search.box, search.from, search.limit, [&](const Offer& offer) { waiting.take(offer); });
+    for_each_near(searches.tree, search.box, search.from, search.limit,
+                  [&](const Offer& offer) { waiting.take(offer); });
     waiting.look();
   }
 }

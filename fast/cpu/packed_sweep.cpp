@@ -3,6 +3,7 @@
 
 namespace ogc::fast {
 
-const PackKernels OGC_FOR_PACKS(pack_kernels){&packed::gather<4>, &packed::gather<8>, &packed::gather<16>, &packed::gather<32>};
+const PackKernels OGC_FOR_PACKS(pack_kernels){&packed::gather<4>, &packed::gather<8>, &packed::gather<16>,
+                                              &packed::gather<32>};
 
 }  // namespace ogc::fast

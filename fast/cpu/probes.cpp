@@ -15,11 +15,14 @@ BackendInfo cpu_info() { return {true, true, std::to_string(tbb::info::default_c
 
 compare::Contestant cpu_contestant() {
   compare::Contestant contestant = probe_contestant("cpu", std::make_shared<CpuBackend>());
-  contestant.start = [](const compare::Scene& scene, const compare::SimulationOptions& options) { return start_cpu(scene, options); };
+  contestant.start = [](const compare::Scene& scene, const compare::SimulationOptions& options) {
+    return start_cpu(scene, options);
+  };
   return contestant;
 }
 
-std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology, const compare::ExclusionView& exclusions) {
+std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
+                                                  const compare::ExclusionView& exclusions) {
   static CpuBackend backend;
   return std::make_unique<BackendContactEngine<CpuBackend>>(backend, topology, exclusions);
 }

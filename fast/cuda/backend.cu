@@ -11,12 +11,13 @@ void CudaRecording::clear() noexcept {
   graph_ = nullptr;
 }
 
-CudaBackend::CudaBackend(const LaunchShape& shape) : block_threads_(shape.block_threads), multiprocessors_(shape.multiprocessors) {
+CudaBackend::CudaBackend(const LaunchShape& shape)
+    : block_threads_(shape.block_threads), multiprocessors_(shape.multiprocessors) {
   const BackendInfo info = cuda_info();
   if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
   if (block_threads_ % 32 != 0 || block_threads_ <= 0 || block_threads_ > cuda_block_size)
-    throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) + " threads a block; give a multiple of 32, at most " +
-                              std::to_string(cuda_block_size));
+    throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) +
+                              " threads a block; give a multiple of 32, at most " + std::to_string(cuda_block_size));
   if (multiprocessors_ <= 0) {
     int device = 0;
     OGC_CUDA_CHECK(cudaGetDevice(&device));
@@ -90,7 +91,8 @@ cudaGraphConditionalHandle CudaBackend::new_condition() {
   return handle;
 }
 
-// Adds a node after what `current_` has captured so far, and makes a stream that captures into the node's body the current one.
+// Adds a node after what `current_` has captured so far, and makes a stream that captures into the node's body the
+// current one.
 cudaStream_t CudaBackend::begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type) {
   cudaStreamCaptureStatus status = cudaStreamCaptureStatusNone;
   cudaGraph_t graph = nullptr;
@@ -108,7 +110,8 @@ cudaStream_t CudaBackend::begin_condition(cudaGraphConditionalHandle handle, cud
 
   const cudaStream_t outer = current_;
   OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&current_, cudaStreamNonBlocking));
-  OGC_CUDA_CHECK(cudaStreamBeginCaptureToGraph(current_, parameters.conditional.phGraph_out[0], nullptr, nullptr, 0, cudaStreamCaptureModeRelaxed));
+  OGC_CUDA_CHECK(cudaStreamBeginCaptureToGraph(current_, parameters.conditional.phGraph_out[0], nullptr, nullptr, 0,
+                                               cudaStreamCaptureModeRelaxed));
   follows_ = false;
   return outer;
 }
@@ -140,7 +143,8 @@ std::vector<double> CudaBackend::replay_milliseconds() const {
   std::vector<double> result;
   for (int k = 0; k < repetitions_; ++k) {
     float milliseconds = 0;
-    OGC_CUDA_CHECK(cudaEventElapsedTime(&milliseconds, events_[static_cast<std::size_t>(k)], events_[static_cast<std::size_t>(k) + 1]));
+    OGC_CUDA_CHECK(cudaEventElapsedTime(&milliseconds, events_[static_cast<std::size_t>(k)],
+                                        events_[static_cast<std::size_t>(k) + 1]));
     result.push_back(static_cast<double>(milliseconds));
   }
   return result;

@@ -5,10 +5,12 @@
 //   scratch_       temporary memory of scan and sort, shared by all of them: they run one after the other
 //   follows_       whether the last thing enqueued there is a kernel, which the next may follow (fast/cuda/follow.cuh)
 //
-// A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs. So `replay` records what a body
-// enqueues into a graph, once, and launches the graph once for each repetition. It records again when a Buffer has moved, since a graph holds pointers.
-// `when` becomes a conditional IF node there (4.1 to 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a
-// WHILE node. Outside a recording (probes, --profile) both read the flag on the host. Conditional nodes need a driver of CUDA 12.4; this runtime (13) asks for a newer one.
+// A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs.
+// So `replay` records what a body enqueues into a graph, once, and launches the graph once for each repetition. It
+// records again when a Buffer has moved, since a graph holds pointers. `when` becomes a conditional IF node there (4.1
+// to 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a WHILE node. Outside a recording
+// (probes, --profile) both read the flag on the host. Conditional nodes need a driver of CUDA 12.4; this runtime (13)
+// asks for a newer one.
 #pragma once
 
 #include <algorithm>
@@ -32,19 +34,20 @@ namespace ogc::fast {
 
 /// Threads of a block; tests take fewer (LaunchShape).
 inline constexpr int cuda_block_size = 128;
-/// What a multiprocessor can hold at once, twice: enough to keep it busy, few enough that a long count-limited loop costs little.
+/// What a multiprocessor can hold at once, twice: enough to keep it busy, few enough that a long count-limited loop
+/// costs little.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the order of their sums are the same;
-/// a build that contracts may contract the two kernels differently.
+/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the order
+/// of their sums are the same; a build that contracts may contract the two kernels differently.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
-/// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come one after the other anyway, neighbours in one
-/// block share more of what they read (measured: fast/PERFORMANCE.md).
+/// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come
+/// one after the other anyway, neighbours in one block share more of what they read (measured: fast/PERFORMANCE.md).
 inline constexpr int strided_blocks_per_multiprocessor = 5;
 
-/// Blocks of a loop's launch that a multiprocessor shall hold at once, as F::resident_blocks says: the compiler then takes no more registers than leave room for
-/// them. 0: as many registers as it likes.
+/// Blocks of a loop's launch that a multiprocessor shall hold at once, as F::resident_blocks says: the compiler then
+/// takes no more registers than leave room for them. 0: as many registers as it likes.
 template <class F>
 constexpr int resident_blocks() {
   if constexpr (requires { F::resident_blocks; }) return F::resident_blocks;
@@ -59,7 +62,8 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
 }
 
 template <class F>
-__global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>()) run_each_counted(const int* n, int capacity, F f) {
+__global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
+    run_each_counted(const int* n, int capacity, F f) {
   follow_launch();
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
   const int count = min(*n, capacity);
@@ -67,7 +71,8 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>()) run_eac
 }
 
 template <class F, class G>
-__global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>()) run_both(int m, F f, const int* n, int capacity, G g) {
+__global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
+    run_both(int m, F f, const int* n, int capacity, G g) {
   follow_launch();
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
   const int count = min(*n, capacity);
@@ -91,8 +96,8 @@ __global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }
 
-/// Likewise; a block is serial_block_size/W teams. `strided`: those of a warp are neighbours, those of its warps are far apart, so that items which take long and
-/// lie side by side are shared out.
+/// Likewise; a block is serial_block_size/W teams. `strided`: those of a warp are neighbours, those of its warps are
+/// far apart, so that items which take long and lie side by side are shared out.
 template <int W, class F>
 __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f, bool strided) {
   const int warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
@@ -150,12 +155,14 @@ class CudaBackend {
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
-    const bool serial = static_cast<std::int64_t>(n) * W >= std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
+    const bool serial = static_cast<std::int64_t>(n) * W >=
+                        std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
     const int teams = (serial ? serial_block_size : 32) / W;  // of a block
     const int blocks = (n + teams - 1) / teams;
     const bool early = start == Start::overlapping;
     if (serial) {
-      launch_kernel(current_, early, run_serial_teams<W, F>, blocks, serial_block_size, n, f, blocks <= multiprocessors_ * strided_blocks_per_multiprocessor);
+      launch_kernel(current_, early, run_serial_teams<W, F>, blocks, serial_block_size, n, f,
+                    blocks <= multiprocessors_ * strided_blocks_per_multiprocessor);
     } else {
       launch_kernel(current_, early, run_spread_teams<W, F>, blocks, 32 * F::parts, n, f);
     }
@@ -168,10 +175,12 @@ class CudaBackend {
     require_searchable(first.tree);
     require_searchable(second.tree);
     const int warps = std::min(search_warps, block_threads_ / 32);
-    const SearchGroups first_groups(first.count, search_group(first.count)), second_groups(second.count, search_group(second.count));
+    const SearchGroups first_groups(first.count, search_group(first.count)),
+        second_groups(second.count, search_group(second.count));
     const int first_blocks = first_groups.blocks(warps), blocks = first_blocks + second_groups.blocks(warps);
     if (blocks == 0) return;
-    follow(typeid(Searches<First>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks, second, second_groups);
+    follow(typeid(Searches<First>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks,
+           second, second_groups);
   }
 
   void exclusive_scans(const Scan& first, const Scan& second) {
@@ -211,8 +220,9 @@ class CudaBackend {
     end_condition(outer);
   }
 
-  /// Enqueues what `body` enqueues, `times` times over. `body` runs on the host only when `recording` is empty or stale, so it must enqueue the same
-  /// calls with the same arguments every time; what changes from step to step (numbers, targets) is counted on the device.
+  /// Enqueues what `body` enqueues, `times` times over. `body` runs on the host only when `recording` is empty or
+  /// stale, so it must enqueue the same calls with the same arguments every time; what changes from step to step
+  /// (numbers, targets) is counted on the device.
   template <class Body>
   void replay(Recording& recording, int times, Body body) {
     if (recording.graph_ == nullptr || recording.generation_ != buffer_generation) {
@@ -240,16 +250,19 @@ class CudaBackend {
     return static_cast<int>(std::min<std::int64_t>((threads + block_threads_ - 1) / block_threads_, most));
   }
   static void require_searchable(const TreeView& tree) {
-    if (tree.count > largest_searched_count) throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
+    if (tree.count > largest_searched_count)
+      throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
   }
-  /// Searches a warp: few while the device is not full (32 warps a multiprocessor), so that each is short; more spare it rounds that do not fill a warp.
+  /// Searches a warp: few while the device is not full (32 warps a multiprocessor), so that each is short; more spare
+  /// it rounds that do not fill a warp.
   int search_group(int searches) const {
     const std::int64_t warps = std::int64_t{multiprocessors_} * 32;
     return static_cast<int>(std::clamp<std::int64_t>((searches + warps - 1) / warps, 1, largest_group));
   }
   static void check_launch(const std::type_info& functor) {
     const cudaError_t error = cudaGetLastError();
-    if (error != cudaSuccess) throw_cuda_error(error, ("the launch of " + readable_type(functor.name())).c_str(), __FILE__, __LINE__);
+    if (error != cudaSuccess)
+      throw_cuda_error(error, ("the launch of " + readable_type(functor.name())).c_str(), __FILE__, __LINE__);
   }
   /// A kernel that begins with follow_launch. Only in a recording: elsewhere copies may stand between two launches.
   template <class Kernel, class... Arguments>

@@ -1,6 +1,6 @@
-// Resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default stream, which waits for a backend's
-// (blocking) stream and is waited for by it, so a copy sees all work enqueued before it; inside a capture such a copy is refused by the runtime, which
-// is what "outside a step" means.
+// Resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default stream,
+// which waits for a backend's (blocking) stream and is waited for by it, so a copy sees all work enqueued before it;
+// inside a capture such a copy is refused by the runtime, which is what "outside a step" means.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,8 @@
 
 namespace ogc::fast {
 
-/// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the size asked for, the size free and
-/// what to do.
+/// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the
+/// size asked for, the size free and what to do.
 void* device_allocate(std::size_t bytes);
 void device_free(void* memory) noexcept;
 

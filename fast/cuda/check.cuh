@@ -1,5 +1,6 @@
-// The one macro for CUDA calls. A failed call becomes an exception that says which call, where, and what the runtime calls the error; an error that an
-// earlier kernel left behind surfaces at the next call that waits, and the text says so.
+// The one macro for CUDA calls. A failed call becomes an exception that says which call, where, and what the runtime
+// calls the error; an error that an earlier kernel left behind surfaces at the next call that waits, and the text says
+// so.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace ogc::fast {
 
-/// Throws compare::ResourceError where device or memory is missing, std::runtime_error otherwise. `what` is the call or the kernel.
+/// Throws compare::ResourceError where device or memory is missing, std::runtime_error otherwise. `what` is the call or
+/// the kernel.
 [[noreturn]] void throw_cuda_error(cudaError_t error, const char* what, const char* file, int line);
 
 /// Readable name of a type: a failed launch names its functor, and with it the stage.
@@ -16,8 +18,8 @@ std::string readable_type(const char* mangled);
 
 }  // namespace ogc::fast
 
-#define OGC_CUDA_CHECK(call)                                                                        \
-  do {                                                                                              \
-    const cudaError_t ogc_error = (call);                                                           \
+#define OGC_CUDA_CHECK(call)                                                                           \
+  do {                                                                                                 \
+    const cudaError_t ogc_error = (call);                                                              \
     if (ogc_error != cudaSuccess) ::ogc::fast::throw_cuda_error(ogc_error, #call, __FILE__, __LINE__); \
   } while (false)

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <thrust/iterator/counting_iterator.h>
+#include <thrust/iterator/transform_iterator.h>
 #include <cub/block/block_scan.cuh>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
-#include <thrust/iterator/counting_iterator.h>
-#include <thrust/iterator/transform_iterator.h>
 
 #include "fast/cuda/buffer.cuh"
 #include "fast/cuda/check.cuh"
@@ -27,12 +27,12 @@ struct PaddedItems {
 };
 
 constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * scan_items;
-/// The last block of a short scan reads them all: 2 µs of what a multiprocessor gets from the second-level cache (64 B a cycle).
+/// The last block of a short scan reads them all: 2 µs of what a multiprocessor gets from the second-level cache (64 B
+/// a cycle).
 constexpr int longest_short_scan = 1 << 16;
 
-// A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two launches, and a detection has two
-// scans.
-// The first blocks scan the one, the others the other.
+// A scan in one launch without a memory of its own: each block adds up all that stands before its tile. CUB's takes two
+// launches, and a detection has two scans. The first blocks scan the one, the others the other.
 __global__ void __launch_bounds__(scan_threads) scan_short(Scan first_scan, int first_blocks, Scan second_scan) {
   follow_launch();
   const bool is_first = static_cast<int>(blockIdx.x) < first_blocks;
@@ -53,7 +53,8 @@ __global__ void __launch_bounds__(scan_threads) scan_short(Scan first_scan, int 
     before += (four.x + four.y) + (four.z + four.w);
   }
   Sums upto = 0, total = 0;
-  Scan(memory).ExclusiveSum(static_cast<Sums>(static_cast<unsigned>(before)) << 32 | static_cast<unsigned>(own), upto, total);
+  Scan(memory).ExclusiveSum(static_cast<Sums>(static_cast<unsigned>(before)) << 32 | static_cast<unsigned>(own), upto,
+                            total);
   int sum = static_cast<int>(total >> 32) + static_cast<int>(upto & 0xffffffffU);
   for (int k = 0; k < scan_items; sum += item[k], ++k) {
     if (first + k <= n) out[first + k] = sum;
@@ -61,7 +62,8 @@ __global__ void __launch_bounds__(scan_threads) scan_short(Scan first_scan, int 
 }
 
 bool is_short(const Scan& scan) {
-  return scan.count <= longest_short_scan && scan.in != scan.out && reinterpret_cast<std::uintptr_t>(scan.in) % alignof(int4) == 0;
+  return scan.count <= longest_short_scan && scan.in != scan.out &&
+         reinterpret_cast<std::uintptr_t>(scan.in) % alignof(int4) == 0;
 }
 
 // A count of −1: none.
@@ -73,7 +75,8 @@ void launch_short(cudaStream_t stream, bool early, const Scan& first, const Scan
 
 void exclusive_scan(cudaStream_t stream, Scratch& scratch, bool early, const Scan& scan) {
   if (is_short(scan)) return launch_short(stream, early, scan, {nullptr, nullptr, -1});
-  const auto padded = thrust::make_transform_iterator(thrust::counting_iterator<int>(0), PaddedItems{scan.in, scan.count});
+  const auto padded = thrust::make_transform_iterator(thrust::counting_iterator<int>(0),
+                                                      PaddedItems{scan.in, scan.count});
   std::size_t bytes = 0;
   OGC_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(nullptr, bytes, padded, scan.out, scan.count + 1, stream));
   void* temporary = scratch.request(std::max<std::size_t>(bytes, 1));
@@ -112,12 +115,15 @@ void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int*
   char* temporary = static_cast<char*>(scratch.request(key_bytes + value_bytes + std::max<std::size_t>(bytes, 1)));
   both_keys.d_buffers[1] = reinterpret_cast<std::uint64_t*>(temporary);
   both_values.d_buffers[1] = reinterpret_cast<int*>(temporary + key_bytes);
-  OGC_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(temporary + key_bytes + value_bytes, bytes, both_keys, both_values, n, 0, 64, stream));
+  OGC_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(temporary + key_bytes + value_bytes, bytes, both_keys, both_values, n,
+                                                 0, 64, stream));
   if (both_keys.Current() != keys) {
-    OGC_CUDA_CHECK(cudaMemcpyAsync(keys, both_keys.Current(), count * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream));
+    OGC_CUDA_CHECK(
+        cudaMemcpyAsync(keys, both_keys.Current(), count * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream));
   }
   if (both_values.Current() != values) {
-    OGC_CUDA_CHECK(cudaMemcpyAsync(values, both_values.Current(), count * sizeof(int), cudaMemcpyDeviceToDevice, stream));
+    OGC_CUDA_CHECK(
+        cudaMemcpyAsync(values, both_values.Current(), count * sizeof(int), cudaMemcpyDeviceToDevice, stream));
   }
 }
 

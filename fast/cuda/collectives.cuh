@@ -12,15 +12,18 @@
 
 namespace ogc::fast {
 
-/// Temporary memory of a backend's collectives. A request that is larger than any before adds a block and keeps the old ones until the backend ends:
-/// work already enqueued or recorded goes on using them. Blocks grow by half at least, so all of them together are at most three times the last.
+/// Temporary memory of a backend's collectives. A request that is larger than any before adds a block and keeps the old
+/// ones until the backend ends: work already enqueued or recorded goes on using them. Blocks grow by half at least, so
+/// all of them together are at most three times the last.
 class Scratch {
  public:
   Scratch() = default;
-  Scratch(Scratch&& other) noexcept : blocks_(std::exchange(other.blocks_, {})), largest_(std::exchange(other.largest_, 0)) {}
+  Scratch(Scratch&& other) noexcept
+      : blocks_(std::exchange(other.blocks_, {})), largest_(std::exchange(other.largest_, 0)) {}
   Scratch& operator=(Scratch&&) = delete;
   ~Scratch();
-  /// At least `bytes` bytes, aligned to 256, valid until the next call: the calls of one stream take turns. Legal while a graph is being recorded.
+  /// At least `bytes` bytes, aligned to 256, valid until the next call: the calls of one stream take turns. Legal while
+  /// a graph is being recorded.
   void* request(std::size_t bytes);
 
  private:

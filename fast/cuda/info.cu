@@ -24,11 +24,13 @@ BackendInfo cuda_info() {
   cudaDriverGetVersion(&driver);
   if (driver == 0) return unusable("no CUDA device: this machine has no NVIDIA driver");
   if (driver / 1000 < runtime / 1000) {
-    return unusable("the NVIDIA driver is too old: it knows CUDA " + version(driver) + ", this program needs " + version(runtime) + ": update the driver");
+    return unusable("the NVIDIA driver is too old: it knows CUDA " + version(driver) + ", this program needs " +
+                    version(runtime) + ": update the driver");
   }
   const cudaError_t count_error = cudaGetDeviceCount(&devices);
   if (count_error != cudaSuccess || devices == 0) {
-    return unusable(std::string("no CUDA device: ") + (count_error != cudaSuccess ? cudaGetErrorString(count_error) : "the driver shows none"));
+    return unusable(std::string("no CUDA device: ") +
+                    (count_error != cudaSuccess ? cudaGetErrorString(count_error) : "the driver shows none"));
   }
   cudaDeviceProp properties{};
   int device = 0;
@@ -38,8 +40,9 @@ BackendInfo cuda_info() {
   }
   const cudaError_t image_error = cudaFuncGetAttributes(&attributes, any_kernel);
   if (image_error != cudaSuccess) {
-    return unusable(std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." + std::to_string(properties.minor) +
-                    ") can't run this program's kernels (" + cudaGetErrorString(image_error) + "): build on it, or with CMAKE_CUDA_ARCHITECTURES set to it");
+    return unusable(std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." +
+                    std::to_string(properties.minor) + ") can't run this program's kernels (" +
+                    cudaGetErrorString(image_error) + "): build on it, or with CMAKE_CUDA_ARCHITECTURES set to it");
   }
   return {true, true, std::string(properties.name) + ", CUDA " + version(runtime)};
 }

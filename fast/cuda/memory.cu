@@ -1,5 +1,5 @@
-#include <cmath>
 #include <cxxabi.h>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -20,17 +20,20 @@ std::string mebibytes(std::size_t bytes) {
 
 bool is_missing_resource(cudaError_t error) {
   return error == cudaErrorMemoryAllocation || error == cudaErrorNoDevice || error == cudaErrorInsufficientDriver ||
-         error == cudaErrorNoKernelImageForDevice || error == cudaErrorDevicesUnavailable || error == cudaErrorSystemNotReady;
+         error == cudaErrorNoKernelImageForDevice || error == cudaErrorDevicesUnavailable ||
+         error == cudaErrorSystemNotReady;
 }
 
 }  // namespace
 
 void throw_cuda_error(cudaError_t error, const char* what, const char* file, int line) {
   cudaGetLastError();
-  std::string text = std::string("CUDA: ") + cudaGetErrorName(error) + " (" + cudaGetErrorString(error) + ") in " + what + " at " + file + ":" +
-                     std::to_string(line);
-  if (is_missing_resource(error)) throw compare::ResourceError(text + "; run with --backend cpu, or on a machine with a free device");
-  throw std::runtime_error(text + "; the fault may lie in an earlier kernel: run the same command under compute-sanitizer to find it");
+  std::string text = std::string("CUDA: ") + cudaGetErrorName(error) + " (" + cudaGetErrorString(error) + ") in " +
+                     what + " at " + file + ":" + std::to_string(line);
+  if (is_missing_resource(error))
+    throw compare::ResourceError(text + "; run with --backend cpu, or on a machine with a free device");
+  throw std::runtime_error(
+      text + "; the fault may lie in an earlier kernel: run the same command under compute-sanitizer to find it");
 }
 
 std::string readable_type(const char* mangled) {
@@ -46,8 +49,10 @@ void* device_allocate(std::size_t bytes) {
     cudaGetLastError();
     std::size_t free = 0, total = 0;
     OGC_CUDA_CHECK(cudaMemGetInfo(&free, &total));
-    throw compare::ResourceError("out of device memory: asked for " + mebibytes(bytes) + ", " + mebibytes(free) + " of " + mebibytes(total) +
-                                 " are free; use a smaller --scale or query_radius_cap, end other programs on the device, or run with --backend cpu");
+    throw compare::ResourceError("out of device memory: asked for " + mebibytes(bytes) + ", " + mebibytes(free) +
+                                 " of " + mebibytes(total) +
+                                 " are free; use a smaller --scale or query_radius_cap, end other programs on the "
+                                 "device, or run with --backend cpu");
   }
   OGC_CUDA_CHECK(error);
   return memory;

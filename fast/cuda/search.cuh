@@ -1,13 +1,15 @@
-// Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few searches to hide the chain node →
-// child → primitive → arithmetic, and the longest of 32 different searches holds up the others. Here a warp takes a few searches and
-// keeps their open ends in lists of its own in shared memory; in each round all lanes take one item each, of whichever search:
+// Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few
+// searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 different searches holds up
+// the others. Here a warp takes a few searches and keeps their open ends in lists of its own in shared memory; in each
+// round all lanes take one item each, of whichever search:
 //
 //   nodes       still to be opened: four lanes open one, a box each
 //   candidates  that leaves offered: a lane asks is_pair
 //   pairs       what is left of them: a lane does the arithmetic (meet), which may lower the search's limit
 //
-// The last list that can fill the warp goes first, so lanes idle only when little is left. `nodes` is a stack: a round takes up to 8 from the top, where
-// the lowest level is, so what it pushes of a level (at most 32) meets none of that level left behind: 32 a level are room enough.
+// The last list that can fill the warp goes first, so lanes idle only when little is left. `nodes` is a stack: a round
+// takes up to 8 from the top, where the lowest level is, so what it pushes of a level (at most 32) meets none of that
+// level left behind: 32 a level are room enough.
 #pragma once
 
 #include <algorithm>
@@ -81,14 +83,15 @@ class WarpSearch {
  private:
   static constexpr unsigned everyone_ = 0xffffffffU;
 
-  /// The same, to be kept in a register: the compiler would compute addresses in shared memory anew wherever they are needed, and read numbers of threads, as it
-  /// still does in places.
+  /// The same, to be kept in a register: the compiler would compute addresses in shared memory anew wherever they are
+  /// needed, and read numbers of threads, as it still does in places.
   __device__ static unsigned at_hand(unsigned number) {
     asm volatile("" : "+r"(number));
     return number;
   }
   __device__ static SearchMemory& at_hand(SearchMemory& memory) {
-    return *static_cast<SearchMemory*>(__cvta_shared_to_generic(at_hand(static_cast<unsigned>(__cvta_generic_to_shared(&memory)))));
+    return *static_cast<SearchMemory*>(
+        __cvta_shared_to_generic(at_hand(static_cast<unsigned>(__cvta_generic_to_shared(&memory)))));
   }
 
   __device__ unsigned before() const { return (1U << lane_) - 1; }
@@ -117,16 +120,19 @@ class WarpSearch {
     pair_count_ += __popc(kept);
   }
 
-  /// The innermost loop of a detection: no branch in it, and nothing signed, which would cost divisions by 4 and long addresses more.
+  /// The innermost loop of a detection: no branch in it, and nothing signed, which would cost divisions by 4 and long
+  /// addresses more.
   __device__ void open() {
     const unsigned take = min(8U, node_count_), own = lane_ / 4, child = lane_ % 4;
     node_count_ -= take;
-    const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];  // who has none looks at the last, for nothing
+    // who has none looks at the last, for nothing
+    const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];
     const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(child);
     const Search& search = memory_.searches[slot];
     const Lane lane = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())].lane[child];
     const float gap = squared_gap(lane.box(), search.box);
-    const bool is_leaf = level == 0, is_near = (own < take) & (gap <= larger(search.limit, lane.reach)) & (j >= search.from >> (2 * level));
+    const bool is_leaf = level == 0,
+               is_near = (own < take) & (gap <= larger(search.limit, lane.reach)) & (j >= search.from >> (2 * level));
     const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
     const unsigned rank = __popc(near & (is_leaf ? leaves : ~leaves) & before());
     __syncwarp();
@@ -143,8 +149,8 @@ class WarpSearch {
   unsigned node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
 };
 
-/// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches lie side by side, and a warp that got them all
-/// would hold up the launch.
+/// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches
+/// lie side by side, and a warp that got them all would hold up the launch.
 struct SearchGroups {
   int group, warps;
 
@@ -155,16 +161,19 @@ struct SearchGroups {
 template <class Query>
 __device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
   if (warp >= groups.warps || searches.query.is_off()) return;
-  WarpSearch<Query>(searches, memory).run(warp, groups.warps, min(groups.group, (searches.count - warp + groups.warps - 1) / groups.warps));
+  WarpSearch<Query>(searches, memory)
+      .run(warp, groups.warps, min(groups.group, (searches.count - warp + groups.warps - 1) / groups.warps));
 }
 
 /// The first kind in the first blocks; a block is at most search_warps warps.
 template <class First, class Second>
 __global__ void __launch_bounds__(32 * search_warps, 8)
-    run_searches(Searches<First> first, SearchGroups first_groups, int first_blocks, Searches<Second> second, SearchGroups second_groups) {
+    run_searches(Searches<First> first, SearchGroups first_groups, int first_blocks, Searches<Second> second,
+                 SearchGroups second_groups) {
   follow_launch();
   __shared__ SearchMemory memory[search_warps];
-  const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
+  const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32,
+            block = static_cast<int>(blockIdx.x);
   if (block < first_blocks) {
     run_group(first, first_groups, block * warps + warp, memory[warp]);
   } else {

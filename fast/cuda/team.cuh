@@ -1,27 +1,32 @@
 // Teams of W neighbouring lanes, with the bits of SerialTeam<W>, in two forms.
 //
-// SpreadTeam: a block is as many warps as a sum has parts: warp p runs part p of 32/W teams, so that no warp waits for another sort of term and the chain of
-// dependent instructions, which is what a small launch costs, is the longest part's and not all of them. Lanes leave what they have in shared memory,
-// warp 0 adds the parts in their order and then the lanes.
+// SpreadTeam: a block is as many warps as a sum has parts: warp p runs part p of 32/W teams, so that no warp waits for
+// another sort of term and the chain of dependent instructions, which is what a small launch costs, is the longest
+// part's and not all of them. Lanes leave what they have in shared memory, warp 0 adds the parts in their order and
+// then the lanes.
 //
-// SerialLaneTeam: the same lanes run one part after the other. A launch that fills the device anyway pays for instructions, and here no warp waits for another
-// sort of term. Terms of a pooled part are computed by all threads of the block, whosever they are, a block's worth at a time; each lane then adds its own
-// from shared memory, in their order. So a team with fifty contacts holds up nobody, and the chain of dependent reads is as long as the block's average.
+// SerialLaneTeam: the same lanes run one part after the other. A launch that fills the device anyway pays for
+// instructions, and here no warp waits for another sort of term. Terms of a pooled part are computed by all threads of
+// the block, whosever they are, a block's worth at a time; each lane then adds its own from shared memory, in their
+// order. So a team with fifty contacts holds up nobody, and the chain of dependent reads is as long as the block's
+// average.
 //
-// The tree is a butterfly: at distance s every lane adds its partner l xor s. By induction all lanes l with the same l mod s hold the same bits after that
-// round: the two partners add the same two numbers, in opposite order, and IEEE addition is commutative. Lane l < s adds lanes[l] + lanes[l + s], which is
-// SerialTeam's tree, so every lane ends with SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction cannot
-// change them either.
+// The tree is a butterfly: at distance s every lane adds its partner l xor s. By induction all lanes l with the same l
+// mod s hold the same bits after that round: the two partners add the same two numbers, in opposite order, and IEEE
+// addition is commutative. Lane l < s adds lanes[l] + lanes[l + s], which is SerialTeam's tree, so every lane ends with
+// SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction cannot change them
+// either.
 //
-// A launch may overlap the one before it (programmatic dependent launch): what a part loads is read at once, then `sum` waits for that launch to end. The
-// next launch is let in only after this wait, so whatever came two launches before has ended too.
+// A launch may overlap the one before it (programmatic dependent launch): what a part loads is read at once, then `sum`
+// waits for that launch to end. The next launch is let in only after this wait, so whatever came two launches before
+// has ended too.
 #pragma once
 
 #include <cstring>
 #include <type_traits>
 
-#include <cub/block/block_scan.cuh>
 #include <cuda_runtime.h>
+#include <cub/block/block_scan.cuh>
 
 #include "fast/kernels/team.hpp"
 
@@ -33,7 +38,8 @@ namespace detail {
 
 template <class Accumulator>
 __device__ constexpr int words() {
-  static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0, "an accumulator is made of 4-byte words");
+  static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0,
+                "an accumulator is made of 4-byte words");
   static_assert(alignof(Accumulator) <= alignof(unsigned));
   return sizeof(Accumulator) / sizeof(unsigned);
 }
@@ -57,7 +63,8 @@ __device__ Accumulator total_of_lanes(Accumulator total) {
   return total;
 }
 
-/// This lane's items of a part. With `begins`: the first is loaded before the launch before this one has ended, and the next launch is let in after that.
+/// This lane's items of a part. With `begins`: the first is loaded before the launch before this one has ended, and the
+/// next launch is let in after that.
 template <int W, bool begins, class Part, class Accumulator>
 __device__ void add_part(const Part& part, int lane, Accumulator& own) {
   int k = lane;
@@ -81,7 +88,8 @@ struct Pool {
   using Scan = cub::BlockScan<int, serial_block_size>;
   typename Scan::TempStorage scan;
   int begins[teams], offsets[teams + 1];  ///< of the teams' items: in their arrays; in the order of the block
-  unsigned memory[2][serial_block_size][words<Accumulator>()];  ///< in turn: who writes the next terms waits for nobody who reads these
+  /// in turn: who writes the next terms waits for nobody who reads these
+  unsigned memory[2][serial_block_size][words<Accumulator>()];
 };
 
 /// The same for all parts of a sum.
@@ -110,17 +118,19 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
     if (item < total) {
       int owner = 0;
       for (int half = teams / 2; half > 0; half /= 2) owner += offsets[owner + half] <= item ? half : 0;
-      *reinterpret_cast<Accumulator*>(memory[turn][thread]) = part.term(part.load(begins[owner] + item - offsets[owner]));
+      *reinterpret_cast<Accumulator*>(memory[turn][thread]) = part.term(
+          part.load(begins[owner] + item - offsets[owner]));
     }
     __syncthreads();
-    for (const int here = min(end, base + serial_block_size); next < here; next += W) own += *reinterpret_cast<const Accumulator*>(memory[turn][next - base]);
+    for (const int here = min(end, base + serial_block_size); next < here; next += W)
+      own += *reinterpret_cast<const Accumulator*>(memory[turn][next - base]);
   }
 }
 
 }  // namespace detail
 
-/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; once in a kernel, by every thread of the block, or `leave` in
-/// its place: whoever comes after this launch may rely on what came before it.
+/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; once in a kernel, by
+/// every thread of the block, or `leave` in its place: whoever comes after this launch may rely on what came before it.
 template <int W>
 class SpreadTeam {
  public:
@@ -137,7 +147,8 @@ class SpreadTeam {
   template <class Accumulator, class... Parts>
   __device__ Accumulator sum(const Parts&... parts) const {
     constexpr int others = sizeof...(Parts) - 1;
-    __shared__ unsigned memory[others > 0 ? others : 1][32 * detail::words<Accumulator>()];  // a shared object may not have an initialiser
+    // a shared object may not have an initialiser
+    __shared__ unsigned memory[others > 0 ? others : 1][32 * detail::words<Accumulator>()];
     const auto shared = [](int p) { return reinterpret_cast<Accumulator*>(memory[p]) + threadIdx.x % 32; };
     Accumulator own{};
     int p = 0;
@@ -170,10 +181,12 @@ class SerialLaneTeam {
 
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
-  /// Has rows of a stream brought near while others are worked on. A launch of SerialLaneTeams reads more than the second-level cache holds.
+  /// Has rows of a stream brought near while others are worked on. A launch of SerialLaneTeams reads more than the
+  /// second-level cache holds.
   __device__ static void prefetch(const void* rows, int bytes) {
     constexpr int line = 128;
-    for (int at = line * lane(); at < bytes; at += line * W) asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
+    for (int at = line * lane(); at < bytes; at += line * W)
+      asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
   }
 
   template <class Accumulator, class First, class... Others>

@@ -1,4 +1,5 @@
-// What every energy adds to for one vertex: its force and its symmetric 3×3 block (Alg. 4). Nine numbers, so that a team adds it lane by lane.
+// What every energy adds to for one vertex: its force and its symmetric 3×3 block (Alg. 4). Nine numbers, so that a
+// team adds it lane by lane.
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"
@@ -39,7 +40,8 @@ struct ForceAndBlockOf {
     block.zz = block.zz + scale;
   }
 
-  /// Rounded by itself: with a product of the other's computation contracted into it, the bits would depend on where that is computed.
+  /// Rounded by itself: with a product of the other's computation contracted into it, the bits would depend on where
+  /// that is computed.
   OGC_HD ForceAndBlockOf& operator+=(const ForceAndBlockOf& other) {
     force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
     block.xx = add(block.xx, other.block.xx);

@@ -1,5 +1,6 @@
-// The activations (method.md §4.2): two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c (r − τ), method.md §1.1, with τ = r/2: k'_c = k_c r²/4) and the
-// variants of the ablation. The kind is a constant wherever the default is swept, so that the switch costs it nothing.
+// The activations (method.md §4.2): two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c (r − τ), method.md §1.1,
+// with τ = r/2: k'_c = k_c r²/4) and the variants of the ablation. The kind is a constant wherever the default is
+// swept, so that the switch costs it nothing.
 #pragma once
 
 #include <cmath>
@@ -12,7 +13,8 @@ namespace ogc::fast {
 
 using compare::ContactActivation;
 
-/// g' [N] and g'' [N/m] at distance d > 0 [m]: what a position needs, and no library function in it. 0 for d ≥ r; at d = τ the quadratic stage.
+/// g' [N] and g'' [N/m] at distance d > 0 [m]: what a position needs, and no library function in it. 0 for d ≥ r; at d
+/// = τ the quadratic stage.
 template <class T>
 struct ActivationSlopeOf {
   T slope{}, curvature{};

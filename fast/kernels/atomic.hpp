@@ -1,5 +1,6 @@
-// Atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative floats, whose order is that of their bits.
-// Who is the first in a compare-and-exchange does depend on the order: it may decide who does a piece of work, not what comes of it.
+// Atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative floats,
+// whose order is that of their bits. Who is the first in a compare-and-exchange does depend on the order: it may decide
+// who does a piece of work, not what comes of it.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,7 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #else
   std::atomic_ref<int> shared(*target);
   int seen = shared.load(std::memory_order_relaxed);
-  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
-  }
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 #endif
 }
 
@@ -38,23 +38,25 @@ OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #else
   std::atomic_ref<std::uint64_t> shared(*target);
   std::uint64_t seen = shared.load(std::memory_order_relaxed);
-  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
-  }
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 #endif
 }
 
 /// Writes `value` where `expected` stands, and returns the value before.
-OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected, std::uint64_t value) {
+OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
+                                                    std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
-  return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected), static_cast<unsigned long long>(value));
+  return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected),
+                   static_cast<unsigned long long>(value));
 #else
   std::atomic_ref<std::uint64_t>(*target).compare_exchange_strong(expected, value, std::memory_order_relaxed);
   return expected;
 #endif
 }
 
-/// Whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the last. It then sees what the others wrote before
-/// they came. Only the last acquires: an acquire, as in __threadfence, empties the first-level cache.
+/// Whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the last.
+/// It then sees what the others wrote before they came. Only the last acquires: an acquire, as in __threadfence,
+/// empties the first-level cache.
 OGC_HD inline bool arrives_last(int* counter, int count) {
 #if defined(__CUDA_ARCH__)
   int before;
@@ -88,15 +90,15 @@ OGC_HD inline float atomic_load(const float* source) {
 #endif
 }
 
-/// Minimum of non-negative floats: as integers their bits have the same order. Negative values and NaN must not come here.
+/// Minimum of non-negative floats: as integers their bits have the same order. Negative values and NaN must not come
+/// here.
 OGC_HD inline void atomic_min(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<int*>(target), __float_as_int(value));
 #else
   std::atomic_ref<float> shared(*target);
   float seen = shared.load(std::memory_order_relaxed);
-  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
-  }
+  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 #endif
 }
 

@@ -1,4 +1,5 @@
-// Membership in the blocks of Eq. 8, 9 and 15, beyond the distance: the same polynomials that tell the closest face, for all faces around.
+// Membership in the blocks of Eq. 8, 9 and 15, beyond the distance: the same polynomials that tell the closest face,
+// for all faces around.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
@@ -15,7 +16,8 @@ OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surfa
   return true;
 }
 
-/// x in U_e apart from its distance, given that it lies between the two end planes (Eq. 9): on the far side of every triangle at e.
+/// x in U_e apart from its distance, given that it lies between the two end planes (Eq. 9): on the far side of every
+/// triangle at e.
 OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface, Places positions) {
   const EdgeEnds& ends = surface.edges[e];
   const Rows& rows = surface.opposites;
@@ -29,7 +31,8 @@ OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface
 OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceView& surface, Places positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
-    if (exact_sign(Receding{positions[v], positions[rows.items[k]], positions[other.a], positions[other.b]}) < 0) return false;
+    if (exact_sign(Receding{positions[v], positions[rows.items[k]], positions[other.a], positions[other.b]}) < 0)
+      return false;
   }
   return true;
 }

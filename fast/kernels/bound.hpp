@@ -28,12 +28,15 @@ struct ConservativeBound {
   const int* overflow;
   float* bound;
 
-  /// The product of two single-precision numbers is exact in double, so the bound is the largest float that is not above it.
+  /// The product of two single-precision numbers is exact in double, so the bound is the largest float that is not
+  /// above it.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
     float d = d_min_vertex[v];
-    for (int k = vertex_edges.offsets[v]; k < vertex_edges.offsets[v + 1]; ++k) d = smaller(d, d_min_edge[vertex_edges.items[k]]);
-    for (int k = vertex_triangles.offsets[v]; k < vertex_triangles.offsets[v + 1]; ++k) d = smaller(d, d_min_triangle[vertex_triangles.items[k]]);
+    for (int k = vertex_edges.offsets[v]; k < vertex_edges.offsets[v + 1]; ++k)
+      d = smaller(d, d_min_edge[vertex_edges.items[k]]);
+    for (int k = vertex_triangles.offsets[v]; k < vertex_triangles.offsets[v + 1]; ++k)
+      d = smaller(d, d_min_triangle[vertex_triangles.items[k]]);
     bound[v] = round_down(mul(static_cast<double>(bound_relaxation), static_cast<double>(d)));
   }
 };

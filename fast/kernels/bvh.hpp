@@ -1,10 +1,12 @@
-// A tree of boxes over primitives in the order of a Hilbert curve, four to a node. Level 0 holds the primitives' own boxes, each level above one lane for every node
-// below, so that node j of level l has the children 4j … 4j + 3 of level l − 1 and nothing but the start of each level is stored. A
-// traversal keeps the lanes that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
-// positions, not inflated: the query brings its radius.
+// A tree of boxes over primitives in the order of a Hilbert curve, four to a node. Level 0 holds the primitives' own
+// boxes, each level above one lane for every node below, so that node j of level l has the children 4j … 4j + 3 of
+// level l − 1 and nothing but the start of each level is stored. A traversal keeps the lanes that it still has to
+// visit, four bits a level, in one integer. Boxes are those of the primitives at their current positions, not inflated:
+// the query brings its radius.
 //
-// Beside its box each lane carries a `reach`: how far its primitives still have to look. A pair matters only if it is nearer than r or could lower the
-// smallest distance of one of its partners, and for most primitives a neighbour in the mesh bounds that distance far below r_q before any search.
+// Beside its box each lane carries a `reach`: how far its primitives still have to look. A pair matters only if it is
+// nearer than r or could lower the smallest distance of one of its partners, and for most primitives a neighbour in the
+// mesh bounds that distance far below r_q before any search.
 #pragma once
 
 #include <cstdint>
@@ -31,23 +33,27 @@ struct Box {
 
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
-  return fmaxf(fmaxf(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);  // one instruction each; another zero has the same square
+  // one instruction each; another zero has the same square
+  return fmaxf(fmaxf(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #else
   return larger(larger(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #endif
 }
 
-/// Squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one product, two sums. Never smaller for a box inside.
+/// Squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one product, two sums.
+/// Never smaller for a box inside.
 OGC_HD inline float squared_gap(const Box& a, const Box& b) {
   const float x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
   const float z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
   return add(add(mul(x, x), mul(y, y)), mul(z, z));
 }
 
-/// A length that is not above the exact distance of boxes with this squared_gap: the root errs by u, the gap by 2.5 u, the product by u.
+/// A length that is not above the exact distance of boxes with this squared_gap: the root errs by u, the gap by 2.5 u,
+/// the product by u.
 OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
 
-/// A squared gap beyond this limit has gap_below ≥ reach: reach² (1 + 64 u) makes up for its 20 u and for the two roundings here.
+/// A squared gap beyond this limit has gap_below ≥ reach: reach² (1 + 64 u) makes up for its 20 u and for the two
+/// roundings here.
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
 /// A box with the gap limit of its reach and, in level 0, the primitive in it: two reads of 16 B.
@@ -69,7 +75,9 @@ struct alignas(128) Quad {
     for (int k = 1; k < 4; ++k) all.include(lane[k].box());
     return all;
   }
-  OGC_HD float whole_reach() const { return larger(larger(lane[0].reach, lane[1].reach), larger(lane[2].reach, lane[3].reach)); }
+  OGC_HD float whole_reach() const {
+    return larger(larger(lane[0].reach, lane[1].reach), larger(lane[2].reach, lane[3].reach));
+  }
 };
 
 inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal; 4¹⁶ primitives
@@ -92,7 +100,8 @@ OGC_HD inline int lowest_bit(std::uint64_t n) {
 #endif
 }
 
-/// Squared gaps of a box and the four lanes, and a bit for each lane whose gap is within the limit or the lane's own reach.
+/// Squared gaps of a box and the four lanes, and a bit for each lane whose gap is within the limit or the lane's own
+/// reach.
 struct QuadGaps {
   float lane[4];
   unsigned near;
@@ -124,8 +133,9 @@ struct Offer {
   float gap, reach;
 };
 
-/// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own reach. The visitor
-/// may lower `limit` on the way. `Tree`: a TreeView, or what counts the nodes of one as they are opened (fast/work.cpp).
+/// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own
+/// reach. The visitor may lower `limit` on the way. `Tree`: a TreeView, or what counts the nodes of one as they are
+/// opened (fast/work.cpp).
 template <class Tree, class Visit>
 OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
   QuadGaps gaps;
@@ -159,8 +169,9 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
   }
 }
 
-/// How far the primitives have to look at most: r_q, or an upper bound of the distance to a neighbour in the mesh (SurfaceView's seeds). The bound is
-/// that of a vertex and an edge whose faces form a pair which the query must find, so the smallest distance is not above it.
+/// How far the primitives have to look at most: r_q, or an upper bound of the distance to a neighbour in the mesh
+/// (SurfaceView's seeds). The bound is that of a vertex and an edge whose faces form a pair which the query must find,
+/// so the smallest distance is not above it.
 struct Reach {
   SurfaceView surface;
   const Vec* positions;
@@ -175,7 +186,8 @@ struct Reach {
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
     Nearest nearest;
-    for (int k = 0; k < 3; ++k) consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
+    for (int k = 0; k < 3; ++k)
+      consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
     return above(nearest);
   }
   OGC_HD float of_vertex(int v) const {
@@ -206,9 +218,11 @@ struct Reach {
 /// Nodes of one level, or with level −1 the primitives; one, with empty lanes, where there are none.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
-/// Boxes and gap limits of the reaches of all primitives and of the nodes above them, and those limits of the vertices; index: places of the facets, of the
-/// edges, each kind filled up to a multiple of 32, vertices. Whoever completes the 16 children that two levels stand on goes on with these: the whole tree in one launch. Who
-/// that is changes no bit. A warp of a device holds 32 neighbours, which must take part together, so that its lowest two levels never leave its registers.
+/// Boxes and gap limits of the reaches of all primitives and of the nodes above them, and those limits of the vertices;
+/// index: places of the facets, of the edges, each kind filled up to a multiple of 32, vertices. Whoever completes the
+/// 16 children that two levels stand on goes on with these: the whole tree in one launch. Who that is changes no bit. A
+/// warp of a device holds 32 neighbours, which must take part together, so that its lowest two levels never leave its
+/// registers.
 struct RefitTrees {
   Reach reach;
   TreeView facets, edges;
@@ -260,13 +274,15 @@ struct RefitTrees {
     for (int step = apart; step <= 2 * apart; step *= 2) {
       const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
       Box box = lane.box();
-      box.include(Box{{other(lane.lower.x), other(lane.lower.y), other(lane.lower.z)}, {other(lane.upper.x), other(lane.upper.y), other(lane.upper.z)}});
+      box.include(Box{{other(lane.lower.x), other(lane.lower.y), other(lane.lower.z)},
+                      {other(lane.upper.x), other(lane.upper.y), other(lane.upper.z)}});
       lane = {box.lower, larger(lane.reach, other(lane.reach)), box.upper, -1};
     }
     return lane;
   }
 
-  /// The lanes of a place, and up from there. 16 neighbours go on together, as long as they complete what two levels stand on: each reads one lane of it.
+  /// The lanes of a place, and up from there. 16 neighbours go on together, as long as they complete what two levels
+  /// stand on: each reads one lane of it.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Lane own) {
     const int lane = static_cast<int>(threadIdx.x % 16);
     int node = j / 16;  // of level 1, and so on
@@ -274,11 +290,13 @@ struct RefitTrees {
     if (j < tree.count) tree.node(0, j / 4).lane[j % 4] = own;
     for (int level = 1;; level += 2) {
       const Lane four = of_four(own, 1), sixteen = of_four(four, 4);
-      if (goes_on && lane % 4 == 0 && 4 * node + lane / 4 < level_size(tree.count, level - 1)) tree.node(level, node).lane[lane / 4] = four;
+      if (goes_on && lane % 4 == 0 && 4 * node + lane / 4 < level_size(tree.count, level - 1))
+        tree.node(level, node).lane[lane / 4] = four;
       if (goes_on && lane == 0 && level + 1 < tree.levels) tree.node(level + 1, node / 4).lane[node % 4] = sixteen;
       if (level + 2 >= tree.levels) return;
       const int above = node / 16, children = level_size(tree.count, level) - 16 * above;
-      if (goes_on && lane == 0) goes_on = arrives_last(&arrivals[tree.start[level + 2] + above], children < 16 ? children : 16);
+      if (goes_on && lane == 0)
+        goes_on = arrives_last(&arrivals[tree.start[level + 2] + above], children < 16 ? children : 16);
       goes_on = __shfl_sync(everyone, goes_on ? 1 : 0, static_cast<int>(threadIdx.x % 32 - threadIdx.x % 16)) != 0;
       if (!__any_sync(everyone, goes_on)) return;
       __syncwarp();
@@ -334,8 +352,9 @@ struct Cell {
   std::uint32_t axis[3];
 };
 
-/// The place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Cells one after the other touch, so that each four primitives in this
-/// order lie close together; Morton's order jumps, and its nodes overlap more (fast/PERFORMANCE.md).
+/// The place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Cells one after the other
+/// touch, so that each four primitives in this order lie close together; Morton's order jumps, and its nodes overlap
+/// more (fast/PERFORMANCE.md).
 OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   constexpr std::uint32_t top = 1U << 19;
   std::uint32_t* x = cell.axis;
@@ -382,14 +401,16 @@ struct HilbertKeys {
     Box root = edges.node(edges.levels - 1, 0).whole();
     root.include(facets.node(facets.levels - 1, 0).whole());
     const auto length = [](float low, float high) { return sub(static_cast<double>(high), static_cast<double>(low)); };
-    const double extent = larger(larger(length(root.lower.x, root.upper.x), length(root.lower.y, root.upper.y)), length(root.lower.z, root.upper.z));
+    const double extent = larger(larger(length(root.lower.x, root.upper.x), length(root.lower.y, root.upper.y)),
+                                 length(root.lower.z, root.upper.z));
     const double scale = extent > 0 ? divide(0x1p20 - 1, extent) : 0;
     const auto along = [scale](float low, float high, float origin) {
       const double middle = mul(0.5, add(static_cast<double>(low), static_cast<double>(high)));
       const double place = mul(sub(middle, static_cast<double>(origin)), scale);
       return place > 0 ? static_cast<std::uint32_t>(smaller(place, 0x1p20 - 1)) : 0U;
     };
-    return {{along(box.lower.x, box.upper.x, root.lower.x), along(box.lower.y, box.upper.y, root.lower.y), along(box.lower.z, box.upper.z, root.lower.z)}};
+    return {{along(box.lower.x, box.upper.x, root.lower.x), along(box.lower.y, box.upper.y, root.lower.y),
+             along(box.lower.z, box.upper.z, root.lower.z)}};
   }
 };
 

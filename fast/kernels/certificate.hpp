@@ -6,7 +6,8 @@
 
 namespace ogc::fast {
 
-/// ‖x − X_prev‖ > b_v. Differences of single-precision numbers of one size are exact in double; the squares leave 2⁻⁵² of b².
+/// ‖x − X_prev‖ > b_v. Differences of single-precision numbers of one size are exact in double; the squares leave 2⁻⁵²
+/// of b².
 OGC_HD inline bool bound_violated(const Vec& position, const Vec& previous, float bound) {
   const double x = static_cast<double>(position.x) - previous.x, y = static_cast<double>(position.y) - previous.y,
                z = static_cast<double>(position.z) - previous.z;

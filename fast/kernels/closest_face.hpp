@@ -1,5 +1,6 @@
-// Point and triangle: distance (in rounded double, with a derived slack), and the face that holds the closest point (by exact signs). The distance does
-// not jump between faces, so it may be taken before, and without, the exact decision; only pairs closer than r pay for that.
+// Point and triangle: distance (in rounded double, with a derived slack), and the face that holds the closest point (by
+// exact signs). The distance does not jump between faces, so it may be taken before, and without, the exact decision;
+// only pairs closer than r pay for that.
 #pragma once
 
 #include "compare/stages/closest_face.hpp"
@@ -18,21 +19,26 @@ struct CornersOf {
 };
 using Corners = CornersOf<float>;
 
-/// Whether x is surely on the inner side of the edge e from its first end, u = x − first end, w = third corner − first end: Side beyond its 16 roundings.
+/// Whether x is surely on the inner side of the edge e from its first end, u = x − first end, w = third corner − first
+/// end: Side beyond its 16 roundings.
 OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {
   return perpendicular_product(u, w, e).value > mul(mul(mul(0x1p-48, norm_1(u)), norm_1(w)), squared(e));
 }
 
 /// Distance of x and the closed triangle.
 ///
-/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: where a side is in doubt the outline counts. A foot inside is then nearer to that
-/// edge's line, and so to the outline, than 2⁻⁴⁸ ‖u‖₁‖w‖₁‖e‖/‖n‖ ≤ √3 2⁻⁴⁸ S L²/‖n‖; a foot outside is not moved at all, which matters at a sharp corner, where one that
-/// is a rounding beyond two edges can be far from the triangle. The normal's 4 roundings tilt the plane by less than 2⁻⁵¹ S L²/‖n‖: under 2⁻⁴⁷ together. A triangle lower than
-/// 2⁻²⁴ L counts as its outline, no point of it being farther from that. Both limits stay under 2 u S.
+/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: where a side is in doubt the outline counts. A
+/// foot inside is then nearer to that edge's line, and so to the outline, than 2⁻⁴⁸ ‖u‖₁‖w‖₁‖e‖/‖n‖ ≤ √3 2⁻⁴⁸ S L²/‖n‖;
+/// a foot outside is not moved at all, which matters at a sharp corner, where one that is a rounding beyond two edges
+/// can be far from the triangle. The normal's 4 roundings tilt the plane by less than 2⁻⁵¹ S L²/‖n‖: under 2⁻⁴⁷
+/// together. A triangle lower than 2⁻²⁴ L counts as its outline, no point of it being farther from that. Both limits
+/// stay under 2 u S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
-  const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a);
+  const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a),
+             w = difference<Rounded>(t.c, t.a);
   const Real f = difference<Rounded>(t.c, t.b), n = cross(e, w);
-  const double nn = squared(n), longest = larger(larger(squared(e), squared(w)), squared(f)), longest_4 = mul(longest, longest);
+  const double nn = squared(n), longest = larger(larger(squared(e), squared(w)), squared(f)),
+               longest_4 = mul(longest, longest);
   const double size = add(add(norm_1(u), norm_1(e)), norm_1(w));
   const bool has_inside = nn > mul(0x1p-48, longest_4);
 
@@ -52,8 +58,9 @@ OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
 /// Facet::descending of a triangle whose corners are numbered in order.
 inline constexpr unsigned corners_in_order = 4;
 
-/// The face of the triangle whose interior holds the point closest to x; where two faces meet the lower-dimensional one wins. The signs partition space;
-/// a triangle without area can offer several faces, of which the first is taken. `descending`: see Facet.
+/// The face of the triangle whose interior holds the point closest to x; where two faces meet the lower-dimensional one
+/// wins. The signs partition space; a triangle without area can offer several faces, of which the first is taken.
+/// `descending`: see Facet.
 OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, unsigned descending = corners_in_order) {
   bool before[3][2];  // edge k from corner k to k + 1: before its first, its second end
   for (int k = 0; k < 3; ++k) {
@@ -75,8 +82,12 @@ OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, un
 
 /// Barycentric weights of the point of `feature` closest to x, ≥ 0.
 OGC_HD inline Vec closest_weights(const Vec& x, const Corners& t, TriangleFeature feature) {
-  const auto on_edge = [&x](const Vec& a, const Vec& b) { return segment_parameter(difference<Rounded>(x, a), difference<Rounded>(b, a)); };
-  const auto stored = [](double a, double b, double c) { return Vec{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)}; };
+  const auto on_edge = [&x](const Vec& a, const Vec& b) {
+    return segment_parameter(difference<Rounded>(x, a), difference<Rounded>(b, a));
+  };
+  const auto stored = [](double a, double b, double c) {
+    return Vec{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
+  };
   switch (feature) {
     case TriangleFeature::corner_0: return {1, 0, 0};
     case TriangleFeature::corner_1: return {0, 1, 0};
@@ -86,12 +97,15 @@ OGC_HD inline Vec closest_weights(const Vec& x, const Corners& t, TriangleFeatur
     case TriangleFeature::edge_20: return stored(sub(1.0, on_edge(t.a, t.c)), 0, on_edge(t.a, t.c));
     case TriangleFeature::interior: break;
   }
-  const Real u = difference<Rounded>(x, t.a), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a), n = cross(e, w);
-  const double nn = squared(n), at_b = divide(dot(cross(u, w), n).value, nn), at_c = divide(dot(cross(e, u), n).value, nn);
+  const Real u = difference<Rounded>(x, t.a), e = difference<Rounded>(t.b, t.a), w = difference<Rounded>(t.c, t.a),
+             n = cross(e, w);
+  const double nn = squared(n), at_b = divide(dot(cross(u, w), n).value, nn),
+               at_c = divide(dot(cross(e, u), n).value, nn);
   return stored(larger(0.0, sub(sub(1.0, at_b), at_c)), larger(0.0, at_b), larger(0.0, at_c));
 }
 
-/// Whether x is nearer than r to the triangle, whose closest face is `feature` and whose distance is `d`: exact where the slack leaves it open.
+/// Whether x is nearer than r to the triangle, whose closest face is `feature` and whose distance is `d`: exact where
+/// the slack leaves it open.
 OGC_HD inline bool is_within(const Vec& x, const Corners& t, TriangleFeature feature, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   switch (feature) {

@@ -1,5 +1,6 @@
-// Two edges: distance (in rounded double, with a derived slack), and the faces that hold the closest points (by exact signs), with the rule of method.md
-// §1.4 for nearly parallel edges. The least squares problem is convex, so a face pair is right iff its own first-order conditions hold: no solve decides.
+// Two edges: distance (in rounded double, with a derived slack), and the faces that hold the closest points (by exact
+// signs), with the rule of method.md §1.4 for nearly parallel edges. The least squares problem is convex, so a face
+// pair is right iff its own first-order conditions hold: no solve decides.
 #pragma once
 
 #include "compare/stages/closest_points.hpp"
@@ -31,11 +32,13 @@ OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const R
 
 /// Distance of the two closed edges.
 ///
-/// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32 roundings of 1/θ and S/θ², and the
-/// foot's error moves the distance by θ times as much: under 2⁻⁴⁷ S/θ. At θ < 2⁻²³ two edges are nowhere nearer than an end by more than θ ‖shorter‖.
-/// Below θ = 2⁻⁸ the distance is that of a point of the one edge from the other, never that of the lines: those can meet where the edges end.
+/// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32
+/// roundings of 1/θ and S/θ², and the foot's error moves the distance by θ times as much: under 2⁻⁴⁷ S/θ. At θ < 2⁻²³
+/// two edges are nowhere nearer than an end by more than θ ‖shorter‖. Below θ = 2⁻⁸ the distance is that of a point of
+/// the one edge from the other, never that of the lines: those can meet where the edges end.
 OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
-  const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a), n = cross(e, f);
+  const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a),
+             n = cross(e, f);
   const double ee = squared(e), ff = squared(f), nn = squared(n), whole = mul(ee, ff);
   const double size = add(norm_1(w), add(norm_1(e), norm_1(f)));
   if (!(nn > mul(0x1p-46, whole))) {
@@ -51,9 +54,11 @@ OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   return {smaller(of_point, smallest_end_distance(w, e, f)), slack};
 }
 
-/// The faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or zero-length edges) the first in order.
+/// The faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or zero-length
+/// edges) the first in order.
 OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& q) {
-  bool p_before[2][2], q_before[2][2];  // [end][end of the other edge]: the one lies before the other, seen along the other edge
+  // [end][end of the other edge]: the one lies before the other, seen along the other edge
+  bool p_before[2][2], q_before[2][2];
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
       p_before[i][j] = exact_sign(End{p[i], q[j], q[1 - j]}) > 0;
@@ -76,14 +81,16 @@ OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& 
   return {};
 }
 
-/// Whether nearly parallel edges have projections that overlap in more than a point; p is the lower-numbered edge, on whose line they are compared.
+/// Whether nearly parallel edges have projections that overlap in more than a point; p is the lower-numbered edge, on
+/// whose line they are compared.
 OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
   if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
   const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;
   return reaches_a && (exact_sign(End{q.a, p.b, p.a}) > 0 || exact_sign(End{q.b, p.b, p.a}) > 0);
 }
 
-/// Whether the edges are nearer than r, given the faces `on` of closest_edge_features: exact where the slack leaves it open.
+/// Whether the edges are nearer than r, given the faces `on` of closest_edge_features: exact where the slack leaves it
+/// open.
 OGC_HD inline bool is_within(const Ends& p, const Ends& q, EdgePairFeatures on, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   const bool first_inside = on.first == EdgeFeature::interior, second_inside = on.second == EdgeFeature::interior;
@@ -98,8 +105,9 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// One end of the overlap of two nearly parallel edges: q's end or, where that lies beyond p, p's; on p, and as seen along the line of q. Measured from q's own
-/// end where it is that: taken from p's, a difference would be rounded at the size of p, 10⁷ roundings of an edge that is 10⁻⁷ as long.
+/// One end of the overlap of two nearly parallel edges: q's end or, where that lies beyond p, p's; on p, and as seen
+/// along the line of q. Measured from q's own end where it is that: taken from p's, a difference would be rounded at
+/// the size of p, 10⁷ roundings of an edge that is 10⁻⁷ as long.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);
@@ -125,7 +133,8 @@ OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, Ed
   if (on.second != EdgeFeature::interior) return {segment_parameter(w + Rounded{at_second} * f, e), at_second};
   const Real n = cross(e, f);
   const double nn = squared(n);
-  return {clamped_parameter(divide(dot(cross(w, f), n).value, nn)), clamped_parameter(divide(dot(cross(w, e), n).value, nn))};
+  return {clamped_parameter(divide(dot(cross(w, f), n).value, nn)),
+          clamped_parameter(divide(dot(cross(w, e), n).value, nn))};
 }
 
 OGC_HD inline double points_distance(const Ends& p, const Ends& q, EdgeParameters at) {

@@ -18,8 +18,10 @@ struct CollectContacts {
     const NotedPair pair = lists.noted[i];
     const bool certain = pair.second < 0;
     const int second = certain ? ~pair.second : pair.second;
-    const RawContact contact = pair.first < 0 ? vertex_facet(~pair.first, second, certain) : edge_edge(pair.first, second, certain);
-    if (contact.bucket >= 0) lists.enter(contact, {edge_edge.surface});  // in one place, where lanes that decided different sorts of pairs meet again
+    const RawContact contact = pair.first < 0 ? vertex_facet(~pair.first, second, certain)
+                                              : edge_edge(pair.first, second, certain);
+    // in one place, where lanes that decided different sorts of pairs meet again
+    if (contact.bucket >= 0) lists.enter(contact, {edge_edge.surface});
   }
 };
 

@@ -1,11 +1,15 @@
-// A contact between two sides, each the closed face of a record (fast/contact_view.hpp), at the positions that a vertex update reads: closest points
-// in single precision from relative coordinates, weights, normal and distance; force −g' w n and block g'' w² n nᵀ of one vertex (method.md §4.2, and §7.4 for w²).
+// A contact between two sides, each the closed face of a record (fast/contact_view.hpp), at the positions that a vertex
+// update reads: closest points in single precision from relative coordinates, weights, normal and distance; force −g' w
+// n and block g'' w² n nᵀ of one vertex (method.md §4.2, and §7.4 for w²).
 //
-//   kind              slots       Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals
-//   point_point       0 | 2       reaction whatever the weights. Slots that a kind lacks repeat slot 0: their weight is 0 and they cost no branch.
+//   kind              slots
+//   point_point       0 | 2
 //   point_segment     0 | 2 3
-//   segment_segment   0 1 | 2 3   a segment never meets a point: first < second as faces (compare/stages/detect_edge_edge.hpp)
-//   point_triangle    0 | 1 2 3
+//   segment_segment   0 1 | 2 3   a segment never meets a point: first < second as faces
+//   point_triangle    0 | 1 2 3   (compare/stages/detect_edge_edge.hpp)
+//
+// Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals
+// reaction whatever the weights. Slots that a kind lacks repeat slot 0: their weight is 0 and they cost no branch.
 #pragma once
 
 #include <cmath>
@@ -26,7 +30,8 @@ struct ContactMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
 };
 
-/// Where a segment is closest to a point, as a parameter in [0, 1]; 0 for a segment of length zero. `from_start` = point − start.
+/// Where a segment is closest to a point, as a parameter in [0, 1]; 0 for a segment of length zero. `from_start` =
+/// point − start.
 OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) {
   const float length_squared = dot(along, along), t = dot(along, from_start);
   if (!(t > 0)) return 0.0f;
@@ -49,9 +54,9 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 
 /// Of the triangle (x[1], x[2], x[3]) and the point x[0]. Never NaN; a collapsed triangle is its longest edge.
 ///
-/// A point that is not over the interior lies beyond one edge, and is closest to that, or beyond two, and then the foot that is not their common corner
-/// wins. Signs of weights decide: distances of points far above a corner agree in all digits long before their feet do. Below a sine of 2⁻²⁰ at a (16
-/// roundings) the signs say nothing.
+/// A point that is not over the interior lies beyond one edge, and is closest to that, or beyond two, and then the foot
+/// that is not their common corner wins. Signs of weights decide: distances of points far above a corner agree in all
+/// digits long before their feet do. Below a sine of 2⁻²⁰ at a (16 roundings) the signs say nothing.
 OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
   const Vec ab = x[2] - x[1], ac = x[3] - x[1], ap = x[0] - x[1], normal = cross(ab, ac);
   const float area = dot(normal, normal);
@@ -62,7 +67,8 @@ OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
   if (!(area > 0x1p-40f * ab_squared * ac_squared)) {
     const float bc_squared = dot(bc, bc);
     if (bc_squared >= ab_squared && bc_squared >= ac_squared) return detail::on_bc(closest_on_segment(bc, bp));
-    return ab_squared >= ac_squared ? detail::on_ab(closest_on_segment(ab, ap)) : detail::on_ac(closest_on_segment(ac, ap));
+    return ab_squared >= ac_squared ? detail::on_ab(closest_on_segment(ab, ap))
+                                    : detail::on_ac(closest_on_segment(ac, ap));
   }
   if (!(c > 0)) {
     const float t = closest_on_segment(ab, ap);
@@ -83,8 +89,9 @@ struct SegmentParameters {
 
 OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
 
-/// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap of more than a point: the middle of the
-/// overlap on the first, its projection on the second (method.md §1.4), which needs the first to be the lower-numbered edge. Lengths of zero are legal.
+/// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap
+/// of more than a point: the middle of the overlap on the first, its projection on the second (method.md §1.4), which
+/// needs the first to be the lower-numbered edge. Lengths of zero are legal.
 OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec& second, const Vec& between) {
   const float aa = dot(first, first), bb = dot(second, second), ab = dot(first, second);
   const Vec normal = cross(first, second);
@@ -143,8 +150,9 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
   return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);
 }
 
-/// Normal and distance of the closest points. `acts`: 0 < d < r. Where the squared distance is not a normal number the points have met as far as single
-/// precision can tell: there is no normal, and no force; the bound, which is zero then, keeps them apart.
+/// Normal and distance of the closest points. `acts`: 0 < d < r. Where the squared distance is not a normal number the
+/// points have met as far as single precision can tell: there is no normal, and no force; the bound, which is zero
+/// then, keeps them apart.
 template <class T>
 struct ContactShapeOf {
   Vector<T> normal;
@@ -160,16 +168,17 @@ OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
   return {(1.0f / distance) * separation, distance, distance < radius};
 }
 
-/// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far
-/// above every other block and far below overflow. Nearer points feel the force of this distance.
+/// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c
+/// r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far above every other block and far below overflow. Nearer points feel the
+/// force of this distance.
 template <class T>
 OGC_HD T activation_distance(const T& distance, float radius) {
   const float least = 0x1p-23f * radius;
   return select(distance > least, distance, T{least});
 }
 
-/// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt). Returns
-/// the normal force λ = −g' ≥ 0 [N].
+/// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt).
+/// Returns the normal force λ = −g' ≥ 0 [N].
 template <class T>
 OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
                      float radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
@@ -180,8 +189,10 @@ OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, con
   return -activation.slope;
 }
 
-/// e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³ ‖ē‖²‖ē'‖², else 1.
-OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first, float rest_squared_second) {
+/// e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³
+/// ‖ē‖²‖ē'‖², else 1.
+OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first,
+                              float rest_squared_second) {
   const Vec normal = cross(first, second);
   const float sine = dot(normal, normal), limit = 1e-3f * rest_squared_first * rest_squared_second;
   if (!(sine < limit)) return 1.0f;

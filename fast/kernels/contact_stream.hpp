@@ -1,24 +1,25 @@
-// From the records of a detection to the stream that the sweep reads: slots, stiffness with the mollifier of this detection, friction, and for each
-// neighbour the buffer it is read from. Done once a detection, so that the sweep's 4 incidences a contact and iteration look nothing up.
+// From the records of a detection to the stream that the sweep reads: slots, stiffness with the mollifier of this
+// detection, friction, and for each neighbour the buffer it is read from. Done once a detection, so that the sweep's 4
+// incidences a contact and iteration look nothing up.
 #pragma once
 
 #include <cstdint>
 
+#include "fast/contact_view.hpp"
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/sweep.hpp"
-#include "fast/contact_view.hpp"
 
 namespace ogc::fast {
 
 /// What a record does not say itself.
 struct ContactTables {
-  const int* body = nullptr;                  ///< by vertex
-  const ContactMaterial* materials = nullptr; ///< of bodies a and b, at a · body_count + b
+  const int* body = nullptr;                   ///< by vertex
+  const ContactMaterial* materials = nullptr;  ///< of bodies a and b, at a · body_count + b
   int body_count = 0;
-  const float* rest_squared = nullptr;        ///< ‖ē‖² by edge [m²]; 0 without triangles: parallel strands must repel
-  const Vec* detected = nullptr;              ///< positions of the detection, for e_k
+  const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 without triangles: parallel strands must repel
+  const Vec* detected = nullptr;        ///< positions of the detection, for e_k
 };
 
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
@@ -42,9 +43,12 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Ver
   const int v = record.vertex;
   const int* corner = record.corner;
   ContactIncidence contact = meeting(tables, v, corner[0]);
-  if (corner[1] < 0) set_slots(contact, ContactKind::point_point, v, v, corner[0], v);
-  else if (corner[2] < 0) set_slots(contact, ContactKind::point_segment, v, v, corner[0], corner[1]);
-  else set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
+  if (corner[1] < 0)
+    set_slots(contact, ContactKind::point_point, v, v, corner[0], v);
+  else if (corner[2] < 0)
+    set_slots(contact, ContactKind::point_segment, v, v, corner[0], corner[1]);
+  else
+    set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
   return contact;
 }
 
@@ -53,7 +57,8 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   const Vec* x = tables.detected;
   const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
   const Vec first = p.b - p.a, second = q.b - q.a;
-  const float rest_first = tables.rest_squared[record.first_edge], rest_second = tables.rest_squared[record.second_edge];
+  const float rest_first = tables.rest_squared[record.first_edge],
+              rest_second = tables.rest_squared[record.second_edge];
   if (rest_first > 0 && rest_second > 0) return mollifier(first, second, rest_first, rest_second);
   if (rest_first > 0 || rest_second > 0) return 1.0f;
   const auto is_shared = [p, q] { return is_overlapping_parallel(p, q); };
@@ -64,9 +69,12 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   const int* p = record.first;
   const int* q = record.second;
   ContactIncidence contact = meeting(tables, p[0], q[0]);
-  if (q[1] < 0) set_slots(contact, ContactKind::point_point, p[0], p[0], q[0], p[0]);
-  else if (p[1] < 0) set_slots(contact, ContactKind::point_segment, p[0], p[0], q[0], q[1]);
-  else set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
+  if (q[1] < 0)
+    set_slots(contact, ContactKind::point_point, p[0], p[0], q[0], p[0]);
+  else if (p[1] < 0)
+    set_slots(contact, ContactKind::point_segment, p[0], p[0], q[0], q[1]);
+  else
+    set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
   if (contact.kind == ContactKind::segment_segment) contact.stiffness *= energy_share(tables, record);
   return contact;
 }
@@ -76,7 +84,8 @@ OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the second side otherwise.
+/// Slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the second side
+/// otherwise.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
@@ -100,7 +109,8 @@ struct CopyContactRows {
   }
 };
 
-/// An incidence at its place in the stream, for RankIncidences; or for_each_counted over all incidences that have their places already.
+/// An incidence at its place in the stream, for RankIncidences; or for_each_counted over all incidences that have their
+/// places already.
 struct ResolveContact {
   ContactView view;
   ContactTables tables;
@@ -112,7 +122,8 @@ struct ResolveContact {
     const std::uint32_t code = incidence.code;
     const bool edge_edge = (code >> 31) != 0;
     const std::uint32_t number = (code & 0x7fffffffu) >> 2;
-    ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number]) : contact_of(tables, view.vertex_facet[number]);
+    ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number])
+                                         : contact_of(tables, view.vertex_facet[number]);
     contact.own = slot_of_role(edge_edge, contact.kind, static_cast<int>(code & 3u));
     const int own = colour[contact.index[contact.own]];
     for (int k = 0; k < 4; ++k) {
@@ -126,7 +137,8 @@ struct ResolveContact {
 };
 
 /// Energy of a contact with plain indices [J]; e_k within the stiffness.
-OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position, ContactActivation kind, float radius) {
+OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position, ContactActivation kind,
+                                    float radius) {
   Vec x[4];
   for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
   const ContactShape shape = contact_shape(weighted_sum(contact_weights(contact.kind, x), x), radius);

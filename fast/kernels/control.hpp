@@ -1,4 +1,5 @@
-// What the device decides by itself: flags that the host never sees inside a step, counters, and the kernels of one item that turn counters into flags.
+// What the device decides by itself: flags that the host never sees inside a step, counters, and the kernels of one
+// item that turn counters into flags.
 //
 //   begin_step ─► first_round: detect, guess ─► end_round ─► … ─► [detect] sweep ─► end_iteration ─► … ─► finish_step
 //                                   ▲───────────── guess ──┘          ▲────────── detect ───┘
@@ -32,30 +33,30 @@ OGC_HD inline float float_from_bits(int bits) {
 
 /// Settings of the control, the same in each step.
 struct ControlSettings {
-  int cut_threshold = 1;       ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int cut_threshold = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
   int redetect_every = 0;
-  int iterations = 1 << 30;    ///< of a step; after the last no detection is made
+  int iterations = 1 << 30;  ///< of a step; after the last no detection is made
   int guess_rounds = 16;
-  int sort_every = 1;          ///< steps that keep the order of the trees
-  float contact_radius = 0;    ///< r [m]
+  int sort_every = 1;              ///< steps that keep the order of the trees
+  float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 };
 
 struct StepControl {
   // Of the frame.
-  int active = 0;     ///< 1: steps take place; 0: they are no-ops
-  int status = 0;     ///< compare::StepStatus bits that stopped the frame
-  int steps_done = 0; ///< committed since the frame began: number of the row and of the row of targets
+  int active = 0;            ///< 1: steps take place; 0: they are no-ops
+  int status = 0;            ///< compare::StepStatus bits that stopped the frame
+  int steps_done = 0;        ///< committed since the frame began: number of the row and of the row of targets
   int since_sort = 1 << 30;  ///< steps begun in the order that the trees have; the host carries it from frame to frame
   // Of the step. Flags that `when` reads hold `active` too.
   int attempted = 0;
-  int sort = 0;       ///< a new order of the trees
-  int guess = 0;      ///< another round of the guess loop
-  int detect = 0;     ///< detection before the next iteration
-  int turn = 0;       ///< the iteration that is next, from 0; −1 while a detection is due
-  float query_radius = 0;  ///< r_q [m]
+  int sort = 0;                           ///< a new order of the trees
+  int guess = 0;                          ///< another round of the guess loop
+  int detect = 0;                         ///< detection before the next iteration
+  int turn = 0;                           ///< the iteration that is next, from 0; −1 while a detection is due
+  float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
-  float smallest_bound = 0;  ///< [m]
+  float smallest_bound = 0;               ///< [m]
   int cut = 0, cut_last = 0;
   int not_finite = 0, violations = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
@@ -133,7 +134,8 @@ struct EndRound {
   }
 };
 
-/// Alg. 3 line 29, and the largest number of iterations between detections. `number`: of the iteration, which ends only if it was its turn; −1: it was.
+/// Alg. 3 line 29, and the largest number of iterations between detections. `number`: of the iteration, which ends only
+/// if it was its turn; −1: it was.
 struct EndIteration {
   StepControl* control;
   ControlSettings settings;

@@ -1,5 +1,6 @@
-// Algorithm 2, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both partners take the distance.
-// Pairs are skipped, and those closer than r decided afterwards, as in detect_vertex_facet.hpp.
+// Algorithm 2, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both
+// partners take the distance. Pairs are skipped, and those closer than r decided afterwards, as in
+// detect_vertex_facet.hpp.
 #pragma once
 
 #include "fast/kernels/atomic.hpp"
@@ -57,14 +58,17 @@ struct DetectEdgeEdge {
   /// A pair kept by a search before, low < high.
   OGC_HD void recheck(int low, int high) const {
     const EdgeEnds p = surface.edges[low], q = surface.edges[high];
-    const float gap = squared_gap(box(p), box(q)), limit = gap_limit(larger(contact_radius, larger(bound(low), bound(high))));
+    const float gap = squared_gap(box(p), box(q)),
+                limit = gap_limit(larger(contact_radius, larger(bound(low), bound(high))));
     if (!(gap > limit) && !is_beyond(separation(ends(p), ends(q)), limit)) measure(low, high, gap);
   }
 
  private:
   OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
-    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])), theirs = atomic_load(&d_min_edge[offer.primitive]);
-    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(offer.reach, gap_limit(add(theirs, margin))));
+    const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])),
+                theirs = atomic_load(&d_min_edge[offer.primitive]);
+    return larger(smaller(search.limit, gap_limit(add(own, margin))),
+                  smaller(offer.reach, gap_limit(add(theirs, margin))));
   }
 
   /// Of which no smallest distance of this detection will be above.
@@ -89,7 +93,8 @@ struct DetectEdgeEdge {
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 
-/// The contact of two edges, low < high; its bucket is −1 where there is none. `certain`: nearer than r without a doubt.
+/// The contact of two edges, low < high; its bucket is −1 where there is none. `certain`: nearer than r without a
+/// doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
   Places positions;
@@ -100,7 +105,9 @@ struct CollectEdgeEdge {
     const EdgeEnds p = surface.edges[low], q = surface.edges[high];
     const Ends first{positions[p.a], positions[p.b]}, second{positions[q.a], positions[q.b]};
     const EdgePairFeatures on = closest_edge_features(first, second);
-    const auto is_near = [first, second, on, r = contact_radius] { return is_within(first, second, on, edge_edge_distance(first, second), r); };
+    const auto is_near = [first, second, on, r = contact_radius] {
+      return is_within(first, second, on, edge_edge_distance(first, second), r);
+    };
     if (!certain && !called(is_near)) return none;
     const bool hit = is_hit(p, q, on);
     if (is_overlapping_parallel(first, second)) {
@@ -150,7 +157,8 @@ struct CollectEdgeEdge {
 
   /// The closest point on the other edge, inside it or its end w, lies in the block of v (Eq. 15).
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
-    return is_other_inside ? in_vertex_block(other, v, surface, positions) : in_vertex_block(positions[w], v, surface, positions);
+    return is_other_inside ? in_vertex_block(other, v, surface, positions)
+                           : in_vertex_block(positions[w], v, surface, positions);
   }
 
   OGC_HD RawContact contact(int p, int q, int low, int high) const {

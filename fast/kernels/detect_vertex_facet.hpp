@@ -1,8 +1,10 @@
-// Algorithm 1. Each pair's smallest distance also counts the gap of the boxes (never above the exact distance either): then a pair whose gap reaches the
-// minima found so far cannot lower them by one bit, and may be skipped whatever the order in which searches find each other's minima.
+// Algorithm 1. Each pair's smallest distance also counts the gap of the boxes (never above the exact distance either):
+// then a pair whose gap reaches the minima found so far cannot lower them by one bit, and may be skipped whatever the
+// order in which searches find each other's minima.
 //
-// A search takes the smallest distances and notes each pair that may be closer than r; which of those are contacts, and of which face, is decided
-// afterwards by one thread a pair (collect_contacts.hpp): few pairs need it, and its exact predicates are most of the code.
+// A search takes the smallest distances and notes each pair that may be closer than r; which of those are contacts, and
+// of which face, is decided afterwards by one thread a pair (collect_contacts.hpp): few pairs need it, and its exact
+// predicates are most of the code.
 #pragma once
 
 #include "fast/kernels/atomic.hpp"
@@ -40,7 +42,8 @@ struct DetectVertexFacet {
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const int v = search.owner;
     const Facet& facet = surface.facets[offer.primitive];
-    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet)) return -1.0F;
+    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet))
+      return -1.0F;
     const float within = limit(search, offer, search.margin);
     return offer.gap > within ? -1.0F : within;
   }
@@ -69,14 +72,17 @@ struct DetectVertexFacet {
     for (int k = 0; k < 3; ++k) box.include(t_corners[k]);
     const float of_vertex = smaller(atomic_load(&d_min_vertex[v]), skin.bound(skin.vertex[v]));
     const float of_triangle = smaller(atomic_load(&d_min_triangle[t]), skin.bound(skin.triangle[t]));
-    const float gap = squared_gap(box, {x, x}), limit = gap_limit(larger(contact_radius, larger(of_vertex, of_triangle)));
+    const float gap = squared_gap(box, {x, x}),
+                limit = gap_limit(larger(contact_radius, larger(of_vertex, of_triangle)));
     if (!(gap > limit) && !is_beyond(separation(x, t_corners), limit)) measure(v, t, gap);
   }
 
  private:
   OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
-    const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])), theirs = atomic_load(&d_min_triangle[offer.primitive]);
-    return larger(smaller(search.limit, gap_limit(add(own, margin))), smaller(offer.reach, gap_limit(add(theirs, margin))));
+    const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])),
+                theirs = atomic_load(&d_min_triangle[offer.primitive]);
+    return larger(smaller(search.limit, gap_limit(add(own, margin))),
+                  smaller(offer.reach, gap_limit(add(theirs, margin))));
   }
 
   /// The pair's distance for both partners, and the note where it may be a contact.
@@ -89,11 +95,13 @@ struct DetectVertexFacet {
     return below;
   }
 
-  OGC_HD Corners corners(const Facet& t) const { return {positions[t.corner[0]], positions[t.corner[1]], positions[t.corner[2]]}; }
+  OGC_HD Corners corners(const Facet& t) const {
+    return {positions[t.corner[0]], positions[t.corner[1]], positions[t.corner[2]]};
+  }
 };
 
-/// The contact of a vertex and a facet; its bucket is −1 where there is none. `certain`: nearer than r without a doubt. Each triangle around a shared face
-/// reports it; the lists keep one.
+/// The contact of a vertex and a facet; its bucket is −1 where there is none. `certain`: nearer than r without a doubt.
+/// Each triangle around a shared face reports it; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
   Places positions;
@@ -105,7 +113,9 @@ struct CollectVertexFacet {
     const Vec x = positions[v];
     const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
     const TriangleFeature feature = closest_feature(x, corners, facet.descending);
-    const auto is_near = [x, corners, feature, r = contact_radius] { return is_within(x, corners, feature, point_triangle_distance(x, corners), r); };
+    const auto is_near = [x, corners, feature, r = contact_radius] {
+      return is_within(x, corners, feature, point_triangle_distance(x, corners), r);
+    };
     if (!certain && !called(is_near)) return none;
     if (feature == TriangleFeature::interior) return {v, surface.triangle_face(t), -1, -1};
     if (feature <= TriangleFeature::corner_2) {

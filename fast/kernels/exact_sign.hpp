@@ -1,11 +1,13 @@
-// Signs of polynomials in the coordinates, decided once and for all. A polynomial is a functor over a number type; `exact_sign` evaluates it in double
-// beside the sum of the moduli of its terms (Filtered), and only where the rounding errors could reach the value, a second time in double-double (Wide).
-// Polynomials of degree up to 4 are tried in single precision before (Single), which tells nearly all of generic input; the rest stands out of line, so that
-// what is nearly never run takes neither registers nor room in the instruction cache from what always is.
+// Signs of polynomials in the coordinates, decided once and for all. A polynomial is a functor over a number type;
+// `exact_sign` evaluates it in double beside the sum of the moduli of its terms (Filtered), and only where the rounding
+// errors could reach the value, a second time in double-double (Wide). Polynomials of degree up to 4 are tried in
+// single precision before (Single), which tells nearly all of generic input; the rest stands out of line, so that what
+// is nearly never run takes neither registers nor room in the instruction cache from what always is.
 //
-// Why double at all: the difference of two single-precision coordinates of similar size is exact in it, so a predicate of degree 2 or 4 loses nothing
-// but a few roundings of 2⁻⁵³, and the doubtful cases become rare enough to be paid for. Double-double carries 106 bits; what stays under 2⁻⁹⁸ of its
-// terms there counts as zero, so exact degeneracies (lattices, coplanar layers, collinear triangles) come out as such.
+// Why double at all: the difference of two single-precision coordinates of similar size is exact in it, so a predicate
+// of degree 2 or 4 loses nothing but a few roundings of 2⁻⁵³, and the doubtful cases become rare enough to be paid for.
+// Double-double carries 106 bits; what stays under 2⁻⁹⁸ of its terms there counts as zero, so exact degeneracies
+// (lattices, coplanar layers, collinear triangles) come out as such.
 #pragma once
 
 #include <cmath>
@@ -36,13 +38,14 @@ struct Sign {
 
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/// The same question in single precision: value and sum of the moduli of its terms, for degrees up to 4. How its operations are contracted changes no sign
-/// that it is certain of, as contraction only leaves roundings out.
+/// The same question in single precision: value and sum of the moduli of its terms, for degrees up to 4. How its
+/// operations are contracted changes no sign that it is certain of, as contraction only leaves roundings out.
 struct Single {
   float value = 0, scale = 0;
 
-  /// A difference of floats has one relative error of u = 2⁻²⁴, however small. Its modulus counts as 2⁻³⁰ at least: then no scale of degree 4 is below 2⁻¹²⁰, and
-  /// what products of values lose by underflow, 2⁻¹⁵⁰ each, is nothing beside u · scale.
+  /// A difference of floats has one relative error of u = 2⁻²⁴, however small. Its modulus counts as 2⁻³⁰ at least:
+  /// then no scale of degree 4 is below 2⁻¹²⁰, and what products of values lose by underflow, 2⁻¹⁵⁰ each, is nothing
+  /// beside u · scale.
   OGC_HD static Single difference(float a, float b) {
     const float d = a - b;
     return {d, larger(fabsf(d), 0x1p-30F)};
@@ -53,7 +56,8 @@ struct Single {
   friend OGC_HD Single operator-(Single a, Single b) { return {a.value - b.value, a.scale + b.scale}; }
   friend OGC_HD Single operator*(Single a, Single b) { return {a.value * b.value, a.scale * b.scale}; }
 
-  /// As Filtered::sign with u = 2⁻²⁴. Where something overflowed nothing is certain: an infinite scale is above all values.
+  /// As Filtered::sign with u = 2⁻²⁴. Where something overflowed nothing is certain: an infinite scale is above all
+  /// values.
   OGC_HD Sign sign() const { return {(value > 0) - (value < 0), fabsf(value) > scale * 0x1p-18F}; }
 };
 
@@ -70,8 +74,9 @@ struct Filtered {
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator*(Filtered a, Filtered b) { return {mul(a.value, b.value), mul(a.scale, b.scale)}; }
 
-  /// Each term of a polynomial of degree d with nested sums passes at most d differences, d − 1 products and, by degree, 2, 5, 8 … sums: under 32
-  /// roundings of 2⁻⁵³ up to degree 6. The scale, rounded the same way, is short of the exact one by no more. 2⁻⁴⁷ is twice their sum.
+  /// Each term of a polynomial of degree d with nested sums passes at most d differences, d − 1 products and, by
+  /// degree, 2, 5, 8 … sums: under 32 roundings of 2⁻⁵³ up to degree 6. The scale, rounded the same way, is short of
+  /// the exact one by no more. 2⁻⁴⁷ is twice their sum.
   OGC_HD Sign sign() const { return {sign_of(value), modulus(value) > mul(scale, 0x1p-47)}; }
 };
 

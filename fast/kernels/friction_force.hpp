@@ -1,5 +1,6 @@
-// Friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex Block Descent (method.md §4.4). λ, n and the
-// weights are those of the positions that the update reads and constant in the derivatives.
+// Friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex Block Descent
+// (method.md §4.4). λ, n and the weights are those of the positions that the update reads and constant in the
+// derivatives.
 #pragma once
 
 #include "fast/kernels/accumulator.hpp"
@@ -14,12 +15,11 @@ OGC_HD inline float friction_slope_over_slip(float slip, float limit) {
   return slip < limit ? (2.0f - slip / limit) / limit : 1.0f / slip;
 }
 
-/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), `majorant` in place of w². `moved` = Σ w_i (x_i − x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N];
-/// `limit` ε_v h [m].
+/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), `majorant` in place of w². `moved` = Σ w_i (x_i −
+/// x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N]; `limit` ε_v h [m].
 template <class T>
-OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& majorant, const T& friction,
-                         const T& normal_force, float limit,
-                         ForceAndBlockOf<T>& sum) {
+OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& majorant,
+                         const T& friction, const T& normal_force, float limit, ForceAndBlockOf<T>& sum) {
   const Vector<T> slip = moved - dot(normal, moved) * normal;
   const T strength = friction * normal_force * friction_slope_over_slip(root(dot(slip, slip)), limit);
   sum.add_force(-strength * weight, slip);

@@ -12,7 +12,8 @@
 
 namespace ogc::fast {
 
-/// for_each over all vertices: x = xᵗ, y, the largest move. Target of a prescribed vertex: the step's; of a fixed one: its position.
+/// for_each over all vertices: x = xᵗ, y, the largest move. Target of a prescribed vertex: the step's; of a fixed one:
+/// its position.
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
@@ -52,7 +53,8 @@ struct BeginTriangle {
   OGC_HD void operator()(int t) const {
     const TriangleRest& rest = triangles[t];
     const Vec a = start[rest.corner[0]];
-    strain_start[t] = green_strain(deformation_gradient(start[rest.corner[1]] - a, start[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
+    strain_start[t] = green_strain(
+        deformation_gradient(start[rest.corner[1]] - a, start[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
   }
 };
 
@@ -69,8 +71,9 @@ struct BeginHinge {
   }
 };
 
-/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored positions), then X_prev ← x. Before the
-/// first detection of a step X_prev and b_v are those of an earlier one, and certified.
+/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored
+/// positions), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of an earlier one, and
+/// certified.
 struct BeginBounds {
   const Vec* position;
   const float* bound;
@@ -84,8 +87,8 @@ struct BeginBounds {
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact stays where it is: each contact
-/// of the list is active, as X_prev = x.
+/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact
+/// stays where it is: each contact of the list is active, as X_prev = x.
 struct GuessVertex {
   const Vec* target;
   const Vec* previous;
@@ -103,7 +106,8 @@ struct GuessVertex {
   }
 };
 
-/// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers, because it writes no fixed vertex.
+/// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers,
+/// because it writes no fixed vertex.
 struct BeginSweep {
   const Vec* start;
   const Vec* position;

@@ -1,5 +1,6 @@
-// Isometric quadratic bending of a flat rest shape: c/2 ‖ℓ‖², ℓ = Σ w_i x_i (compare/stages/bending.hpp), seen from one vertex. The weights add up to 0, so ℓ is
-// formed from differences to that vertex. Damping is the hinge's (bending.hpp), with θᵗ for a rest angle.
+// Isometric quadratic bending of a flat rest shape: c/2 ‖ℓ‖², ℓ = Σ w_i x_i (compare/stages/bending.hpp), seen from one
+// vertex. The weights add up to 0, so ℓ is formed from differences to that vertex. Damping is the hinge's
+// (bending.hpp), with θᵗ for a rest angle.
 #pragma once
 
 #include "fast/kernels/bending.hpp"

@@ -1,12 +1,14 @@
-// From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's bucket is its first face. A contact of two
-// interiors is of one pair, and whoever decides that pair gives it a place in the list and counts it. Others several pairs may generate: those are entered
-// in a hash table, and only the first to do so takes a place. Inside a bucket each contact then counts those before it, which costs far less than sorting
+// From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's
+// bucket is its first face. A contact of two interiors is of one pair, and whoever decides that pair gives it a place
+// in the list and counts it. Others several pairs may generate: those are entered in a hash table, and only the first
+// to do so takes a place. Inside a bucket each contact then counts those before it, which costs far less than sorting
 // all, and no thread waits for the longest bucket.
 //
-// Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order buckets, and in a bucket the
-// sorted seconds, have the canonical order of compare/stages. The searches note pairs that may be contacts: half as many again as the contacts where r is
-// shorter than the edges, far more where it is longer. Where a list has no room nothing of the detection is used: all later kernels stop at the overflow
-// flag, and the counts, which go on, say how much room the same detection needs.
+// Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order
+// buckets, and in a bucket the sorted seconds, have the canonical order of compare/stages. The searches note pairs that
+// may be contacts: half as many again as the contacts where r is shorter than the edges, far more where it is longer.
+// Where a list has no room nothing of the detection is used: all later kernels stop at the overflow flag, and the
+// counts, which go on, say how much room the same detection needs.
 #pragma once
 
 #include "fast/contact_view.hpp"
@@ -20,16 +22,17 @@ struct alignas(8) NotedPair {
   int first, second;
 };
 
-/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, of no meaning
-/// for vertex–facet.
+/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, of no
+/// meaning for vertex–facet.
 struct alignas(16) RawContact {
   int bucket, second, low, high;
 };
 
 /// What the table has of a contact. All zeros where there is none, so that an empty table needs no values of its own.
 struct alignas(16) ContactSlot {
-  std::uint64_t key;    ///< bucket + 1, above, and second
-  std::uint64_t edges;  ///< low, above, and high, inverted: the largest is that of the lowest-numbered edges, and −1 is 0
+  std::uint64_t key;  ///< bucket + 1, above, and second
+  /// low, above, and high, inverted: the largest is that of the lowest-numbered edges, and −1 is 0
+  std::uint64_t edges;
 };
 
 /// A contact at its place in the list, and where the table has it.
@@ -58,7 +61,8 @@ struct ContactFaces {
 
   /// Whether only one pair generates it: the pair of its two interiors, which a search notes once.
   OGC_HD bool is_of_one_pair(int bucket, int second) const {
-    return is_vertex_facet(bucket) ? second >= surface.vertex_count + surface.edge_count : bucket >= 2 * surface.vertex_count;
+    return is_vertex_facet(bucket) ? second >= surface.vertex_count + surface.edge_count
+                                   : bucket >= 2 * surface.vertex_count;
   }
 
   OGC_HD RoleVertices vertices(int bucket, int second) const {
@@ -90,9 +94,10 @@ struct ContactFaces {
 };
 
 struct ListsView {
-  /// Slots that the search for a contact looks at, at most. Of a table that is half full at most, as one whose contacts all have room, k slots in a row are
-  /// the homes of k keys or more with a chance of at most (√e / 2)ᵏ (Chernoff's bound of a Poisson number of mean k / 2), 4·10⁻²² for these; where there is such
-  /// a row all the same, the lists grow.
+  /// Slots that the search for a contact looks at, at most. Of a table that is half full at most, as one whose contacts
+  /// all have room, k slots in a row are the homes of k keys or more with a chance of at most (√e / 2)ᵏ (Chernoff's
+  /// bound of a Poisson number of mean k / 2), 4·10⁻²² for these; where there is such a row all the same, the lists
+  /// grow.
   static constexpr int longest_search = 256;
 
   NotedPair* noted = nullptr;
@@ -102,10 +107,11 @@ struct ListsView {
   std::uint32_t slot_mask = 0;        ///< slots − 1: a power of two, at least 2 · capacity
   EnteredContact* entered = nullptr;  ///< in any order, each once
   RawContact* bucketed = nullptr;     ///< bucket by bucket
-  int capacity = 0;                   ///< of entered, bucketed and both record arrays; incidences have four times as much
-  int* cursor = nullptr;              ///< contacts entered, also those that found no room
-  int* without_slot = nullptr;        ///< contacts that found no slot either, as often as they were generated
-  int* overflow = nullptr;            ///< sticky
+  /// of entered, bucketed and both record arrays; incidences have four times as much
+  int capacity = 0;
+  int* cursor = nullptr;        ///< contacts entered, also those that found no room
+  int* without_slot = nullptr;  ///< contacts that found no slot either, as often as they were generated
+  int* overflow = nullptr;      ///< sticky
   int buckets = 0;
   int* record_counts = nullptr;   ///< by bucket, of the contacts that found room
   int* record_offsets = nullptr;  ///< buckets + 1
@@ -120,14 +126,16 @@ struct ListsView {
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within one
   Incidence* incidences = nullptr;   ///< row by row, ascending
 
-  /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of a certain one is stored inverted.
+  /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of
+  /// a certain one is stored inverted.
   OGC_HD void note(NotedPair pair, bool certain) const {
     if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
     if (place < noted_capacity) noted[place] = pair;
   }
 
-  /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges. What one pair alone generates needs no table.
+  /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges. What one pair
+  /// alone generates needs no table.
   OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
     if (faces.is_of_one_pair(contact.bucket, contact.second)) return place(contact, EnteredContact::nowhere, faces);
     const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
@@ -135,7 +143,8 @@ struct ListsView {
     for (int looks = 0; looks < longest_search; ++looks, at = (at + 1) & slot_mask) {
       ContactSlot& slot = table[at];
       std::uint64_t found = atomic_load(&slot.key);
-      const std::uint64_t found_edges = atomic_load(&slot.edges);  // beside the key: who reads one after the other waits twice
+      // beside the key: who reads one after the other waits twice
+      const std::uint64_t found_edges = atomic_load(&slot.edges);
       if (found == 0) found = atomic_compare_exchange(&slot.key, 0, key);
       if (found != 0 && found != key) continue;
       if (edges > found_edges) atomic_max(&slot.edges, edges);
@@ -158,7 +167,8 @@ struct ListsView {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(above)) << 32 | static_cast<std::uint32_t>(below);
   }
 
-  /// Where the search for a key begins: faces and buckets near each other on the surface have keys in rows, and their slots shall not stand in rows.
+  /// Where the search for a key begins: faces and buckets near each other on the surface have keys in rows, and their
+  /// slots shall not stand in rows.
   OGC_HD std::uint32_t home(std::uint64_t key) const {
     constexpr std::uint64_t spread = 0x9e3779b97f4a7c15U;  // 2⁶⁴ times the golden ratio
     key *= spread;
@@ -187,19 +197,21 @@ struct PrepareLists {
   }
 };
 
-/// After the contacts are collected. Of pairs that found no room nobody knows which are contacts, so the contacts may want more in a second try.
+/// After the contacts are collected. Of pairs that found no room nobody knows which are contacts, so the contacts may
+/// want more in a second try.
 struct CheckCapacity {
   ListsView lists;
 
   OGC_HD void operator()(int) const {
-    const bool fits = *lists.noted_count <= lists.noted_capacity && *lists.cursor <= lists.capacity && *lists.without_slot == 0;
+    const bool fits = *lists.noted_count <= lists.noted_capacity && *lists.cursor <= lists.capacity &&
+                      *lists.without_slot == 0;
     if (*lists.overflow == 0 && !fits) *lists.overflow = 1;
   }
 };
 
-/// Each contact to its bucket, with the edges that the table has by now, and out of the table; those of one pair have the edges that their faces are. Beside
-/// CheckCapacity, so it may or may not see that there was no room: what it does then nobody reads, and it stays within the buckets as counted. Index over all
-/// contacts.
+/// Each contact to its bucket, with the edges that the table has by now, and out of the table; those of one pair have
+/// the edges that their faces are. Beside CheckCapacity, so it may or may not see that there was no room: what it does
+/// then nobody reads, and it stays within the buckets as counted. Index over all contacts.
 struct FillBuckets {
   ListsView lists;
   int vertex_count;
@@ -250,7 +262,8 @@ struct WriteRecords {
     const int* v = vertices.role;
     if (edge_edge) {
       const bool is_low_first = holds(own.bucket - surface.vertex_count, own.low);
-      lists.edge_edge[record] = {{v[0], v[1]}, {v[2], v[3]}, is_low_first ? own.low : own.high, is_low_first ? own.high : own.low};
+      lists.edge_edge[record] = {
+          {v[0], v[1]}, {v[2], v[3]}, is_low_first ? own.low : own.high, is_low_first ? own.high : own.low};
     } else {
       lists.vertex_facet[record] = {v[0], {v[1], v[2], v[3]}};
       lists.vertex_facet_face[record] = own.second;
@@ -266,15 +279,17 @@ struct WriteRecords {
     for (int k = begin; k < end; ++k) before += lists.bucketed[k].second < own.second ? 1 : 0;
     return before;
   }
-  /// Whether the edge is or ends at the face. Of the two generating edges, `first_edge` is the one that holds the first face; the edges share no vertex, so only
-  /// one does.
+  /// Whether the edge is or ends at the face. Of the two generating edges, `first_edge` is the one that holds the first
+  /// face; the edges share no vertex, so only one does.
   OGC_HD bool holds(int face, int edge) const {
     const EdgeEnds& ends = faces.surface.edges[edge];
-    return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face) : face == faces.surface.edge_face(edge);
+    return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face)
+                                             : face == faces.surface.edge_face(edge);
   }
 };
 
-/// Incidences of records that are there already. Index over all records: first the vertex–facet, then the edge–edge ones.
+/// Incidences of records that are there already. Index over all records: first the vertex–facet, then the edge–edge
+/// ones.
 struct FillIncidences {
   ListsView lists;
   int vertex_facet_count;
@@ -285,7 +300,8 @@ struct FillIncidences {
       add_incidences(lists, {{record.vertex, record.corner[0], record.corner[1], record.corner[2]}}, false, i);
     } else {
       const EdgeEdgeRecord& record = lists.edge_edge[i - vertex_facet_count];
-      add_incidences(lists, {{record.first[0], record.first[1], record.second[0], record.second[1]}}, true, i - vertex_facet_count);
+      add_incidences(lists, {{record.first[0], record.first[1], record.second[0], record.second[1]}}, true,
+                     i - vertex_facet_count);
     }
   }
 };
@@ -295,8 +311,9 @@ struct Unresolved {
   OGC_HD void operator()(int, Incidence) const {}
 };
 
-/// Each row in ascending order, from loose incidences; resolve(place, incidence) for each in its place. Index over all incidences. Each counts those of its row
-/// that come before it: rows are short, and no thread waits for the longest of them.
+/// Each row in ascending order, from loose incidences; resolve(place, incidence) for each in its place. Index over all
+/// incidences. Each counts those of its row that come before it: rows are short, and no thread waits for the longest of
+/// them.
 template <class Resolve>
 struct RankIncidences {
   ListsView lists;

@@ -1,8 +1,10 @@
-// The end of a step: last certificate, commit, and the terms of what a row reports. Terms are in double and only reported; nothing here feeds a position.
+// The end of a step: last certificate, commit, and the terms of what a row reports. Terms are in double and only
+// reported; nothing here feeds a position.
 #pragma once
 
 #include <cmath>
 
+#include "fast/contact_view.hpp"
 #include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
@@ -11,17 +13,19 @@
 #include "fast/kernels/membrane.hpp"
 #include "fast/kernels/neo_hookean.hpp"
 #include "fast/kernels/spring.hpp"
-#include "fast/contact_view.hpp"
 
 namespace ogc::fast {
 
 /// Sums over the mesh that a row needs, in this order.
 enum SumColumn : int {
-  sum_kinetic = 0,        ///< Σ m/2 ‖v‖² [J]
-  sum_gravity = 1,        ///< −Σ m a·x [J]
-  sum_lost = 2,           ///< Σ m (x − y), three columns [kg m]
-  sum_moved = 5,          ///< Σ m (y − xᵗ), three columns [kg m]
-  sum_membrane = 8, sum_bending = 9 /* springs included */, sum_vertex_facet = 10, sum_edge_edge = 11,  ///< [J]
+  sum_kinetic = 0,  ///< Σ m/2 ‖v‖² [J]
+  sum_gravity = 1,  ///< −Σ m a·x [J]
+  sum_lost = 2,     ///< Σ m (x − y), three columns [kg m]
+  sum_moved = 5,    ///< Σ m (y − xᵗ), three columns [kg m]
+  sum_membrane = 8,
+  sum_bending = 9 /* springs included */,
+  sum_vertex_facet = 10,
+  sum_edge_edge = 11,  ///< [J]
   sum_columns = 12
 };
 
@@ -87,7 +91,8 @@ struct CopyBound {
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
 };
 
-/// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet committed).
+/// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet
+/// committed).
 struct VertexTerm {
   const Vec* position;
   const Vec* start;
@@ -100,9 +105,11 @@ struct VertexTerm {
   OGC_HD void operator()(int v, double* sum) const {
     const double m = mass[v];
     const Vec x = position[v], s = start[v], y = target[v];
-    const double moved[3] = {static_cast<double>(x.x) - s.x, static_cast<double>(x.y) - s.y, static_cast<double>(x.z) - s.z};
+    const double moved[3] = {static_cast<double>(x.x) - s.x, static_cast<double>(x.y) - s.y,
+                             static_cast<double>(x.z) - s.z};
     sum[sum_kinetic] += 0.5 * m * (moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]) / (step * step);
-    sum[sum_gravity] -= m * (static_cast<double>(acceleration.x) * x.x + static_cast<double>(acceleration.y) * x.y + static_cast<double>(acceleration.z) * x.z);
+    sum[sum_gravity] -= m * (static_cast<double>(acceleration.x) * x.x + static_cast<double>(acceleration.y) * x.y +
+                             static_cast<double>(acceleration.z) * x.z);
     if (prescribed_number[v] != -1) return;
     sum[sum_lost] += m * (static_cast<double>(x.x) - y.x);
     sum[sum_lost + 1] += m * (static_cast<double>(x.y) - y.y);
@@ -142,7 +149,8 @@ struct HingeTerm {
   OGC_HD void operator()(int i, double* sum) const {
     const HingeRest& rest = hinges[i];
     const Vec base = position[rest.vertex[0]];
-    const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base, position[rest.vertex[3]] - base};
+    const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base,
+                       position[rest.vertex[3]] - base};
     if (models[rest.body].bending == compare::BendingModel::isometric_quadratic) {
       sum[sum_bending] += isometric_energy(rest, weights[i], to);
       return;
@@ -165,12 +173,15 @@ struct SpringTerm {
 
 /// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖; 0 where nothing was to move.
 OGC_HD inline double momentum_lost(const double* sums) {
-  const double lost = sums[sum_lost] * sums[sum_lost] + sums[sum_lost + 1] * sums[sum_lost + 1] + sums[sum_lost + 2] * sums[sum_lost + 2];
-  const double moved = sums[sum_moved] * sums[sum_moved] + sums[sum_moved + 1] * sums[sum_moved + 1] + sums[sum_moved + 2] * sums[sum_moved + 2];
+  const double lost = sums[sum_lost] * sums[sum_lost] + sums[sum_lost + 1] * sums[sum_lost + 1] +
+                      sums[sum_lost + 2] * sums[sum_lost + 2];
+  const double moved = sums[sum_moved] * sums[sum_moved] + sums[sum_moved + 1] * sums[sum_moved + 1] +
+                       sums[sum_moved + 2] * sums[sum_moved + 2];
   return moved > 0 ? sqrt(lost / moved) : 0.0;
 }
 
-/// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is repeated).
+/// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
+/// repeated).
 struct FinishStep {
   StepControl* control;
   ContactView contacts;

@@ -1,10 +1,12 @@
-// Stable Neo-Hookean membrane on F (3×2): ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ (compare/stages/membrane.hpp), seen from one corner.
-// With the edges b, c to the other corners, q = |∇N_b × ∇N_c| and the normal n of b × c:
+// Stable Neo-Hookean membrane on F (3×2): ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖
+// (compare/stages/membrane.hpp), seen from one corner. With the edges b, c to the other corners, q = |∇N_b × ∇N_c| and
+// the normal n of b × c:
 //
 //   J = q ‖b × c‖,   ∂J/∂x = g = q (b − c) × n,   ∂²J/∂x² = ‖g‖²/J n nᵀ
 //
-// F itself would cancel where a triangle is thin. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) ‖g‖²/J n nᵀ has n for an eigenvector, and only along n
-// can it be negative. Damping is that of the other model (membrane.hpp): its strain is G, its quadratic form ψ's at rest.
+// F itself would cancel where a triangle is thin. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) ‖g‖²/J n nᵀ
+// has n for an eigenvector, and only along n can it be negative. Damping is that of the other model (membrane.hpp): its
+// strain is G, its quadratic form ψ's at rest.
 #pragma once
 
 #include <cmath>
@@ -35,8 +37,10 @@ OGC_HD inline AreaRatio area_ratio(const Vec& to_b, const Vec& to_c, const float
 }
 
 /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J.
-OGC_HD inline void add_neo_hookean(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b, const Vec& to_c, ForceAndBlock& sum) {
-  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+OGC_HD inline void add_neo_hookean(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b,
+                                   const Vec& to_c, ForceAndBlock& sum) {
+  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]),
+              own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
   const float mu = material.lame_mu, area = stencil.area, around = mu * (own_x * own_x + own_y * own_y);
   const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
   const Vec along = own_x * f.first + own_y * f.second;
@@ -55,24 +59,29 @@ OGC_HD inline void add_neo_hookean(const MembraneStencil& stencil, const Surface
 }
 
 /// Adds −∂/∂x_a of A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²) and its material part, as add_membrane has it.
-OGC_HD inline void add_strain_damping(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b, const Vec& to_c,
-                                      const Symmetric2& strain_start, ForceAndBlock& sum) {
+OGC_HD inline void add_strain_damping(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b,
+                                      const Vec& to_c, const Symmetric2& strain_start, ForceAndBlock& sum) {
   const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
-  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]), own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]),
+              own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
   const Symmetric2 strain = green_strain(f);
-  const Symmetric2 viscous = membrane_stress(material, Symmetric2{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
-  const float weight = stencil.area * material.membrane_damping, around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
-  sum.add_force(-weight, (viscous.xx * own_x + viscous.xy * own_y) * f.first + (viscous.xy * own_x + viscous.yy * own_y) * f.second);
+  const Symmetric2 viscous = membrane_stress(
+      material, Symmetric2{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
+  const float weight = stencil.area * material.membrane_damping,
+              around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
+  sum.add_force(-weight, (viscous.xx * own_x + viscous.xy * own_y) * f.first +
+                             (viscous.xy * own_x + viscous.yy * own_y) * f.second);
   sum.add_outer(weight * (material.lame_lambda + material.lame_mu), own_x * f.first + own_y * f.second);
   sum.add_outer(around, f.first);
   sum.add_outer(around, f.second);
 }
 
 /// ψ/A [J/m²], in double: energies are only reported.
-OGC_HD inline double neo_hookean_energy_density(const SurfaceMaterial& material, const DeformationGradient& f, float ratio) {
+OGC_HD inline double neo_hookean_energy_density(const SurfaceMaterial& material, const DeformationGradient& f,
+                                                float ratio) {
   const double grown = static_cast<double>(ratio) - 1.0, mu = material.lame_mu;
-  return 0.5 * mu * (static_cast<double>(dot(f.first, f.first)) + static_cast<double>(dot(f.second, f.second)) - 2.0) - mu * grown +
-         0.5 * (material.lame_lambda + mu) * grown * grown;
+  return 0.5 * mu * (static_cast<double>(dot(f.first, f.first)) + static_cast<double>(dot(f.second, f.second)) - 2.0) -
+         mu * grown + 0.5 * (material.lame_lambda + mu) * grown * grown;
 }
 
 }  // namespace ogc::fast

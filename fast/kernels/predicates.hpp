@@ -1,5 +1,6 @@
-// The polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one polynomial, used for classification and for
-// membership alike, so that no point falls between two faces (method.md §3.1). Degrees stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
+// The polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one polynomial,
+// used for classification and for membership alike, so that no point falls between two faces (method.md §3.1). Degrees
+// stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
 #pragma once
 
 #include "fast/kernels/exact_sign.hpp"
@@ -12,13 +13,15 @@ OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vec
   return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
 }
 
-/// The same from cross products, in which the parts along e cancel term by term: of parts across it that are 2⁻¹⁰⁰ of those along
-/// it, as small coordinates are beside an edge on an axis, the sums of the form above keep nothing even in double-double.
+/// The same from cross products, in which the parts along e cancel term by term: of parts across it that are 2⁻¹⁰⁰ of
+/// those along it, as small coordinates are beside an edge on an axis, the sums of the form above keep nothing even in
+/// double-double.
 OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wide>& w, const Vector<Wide>& e) {
   return dot(cross(u, e), cross(w, e));
 }
 
-/// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for an edge of zero length.
+/// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for
+/// an edge of zero length.
 struct End {
   static constexpr int degree = 2;
   Vec x, a, b;
@@ -28,7 +31,8 @@ struct End {
   }
 };
 
-/// Positive where x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x where the triangle has no area.
+/// Positive where x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x where the triangle has
+/// no area.
 struct Side {
   static constexpr int degree = 4;
   Vec x, a, b, c;
@@ -38,7 +42,8 @@ struct Side {
   }
 };
 
-/// Negative where, from v towards w, the distance to the line ab falls. With c(e, v) inside ab this is the plane of Eq. 15 at v: c in U_v iff ≥ 0 for all w.
+/// Negative where, from v towards w, the distance to the line ab falls. With c(e, v) inside ab this is the plane of Eq.
+/// 15 at v: c in U_v iff ≥ 0 for all w.
 struct Receding {
   static constexpr int degree = 4;
   Vec v, w, a, b;
@@ -83,8 +88,8 @@ struct LineReach {
   }
 };
 
-/// Negative where x is nearer than r to the plane through a spanned by b − a and d − c: a triangle's plane with c = a, or the distance of two lines
-/// ab and cd with x = c.
+/// Negative where x is nearer than r to the plane through a spanned by b − a and d − c: a triangle's plane with c = a,
+/// or the distance of two lines ab and cd with x = c.
 struct PlaneReach {
   static constexpr int degree = 6;
   Vec x, a, b, c, d;

@@ -12,8 +12,8 @@
 
 namespace ogc::fast {
 
-/// f(), called and not inlined: what is seldom run takes neither registers nor room in the instruction cache from what always is. By value: a reference would force
-/// what `f` reads into memory.
+/// f(), called and not inlined: what is seldom run takes neither registers nor room in the instruction cache from what
+/// always is. By value: a reference would force what `f` reads into memory.
 template <class F>
 OGC_HD OGC_OUT_OF_LINE auto called(F f) {
   return f();

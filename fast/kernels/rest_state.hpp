@@ -1,4 +1,5 @@
-// Rest data of one triangle and one hinge, in double: computed once, stored in single, so that what the sweep reads is the correctly rounded value.
+// Rest data of one triangle and one hinge, in double: computed once, stored in single, so that what the sweep reads is
+// the correctly rounded value.
 #pragma once
 
 #include <cmath>
@@ -12,14 +13,17 @@ struct RestVector {
   double x, y, z;
 };
 
-inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 inline double rest_dot(const RestVector& a, const RestVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double rest_length(const RestVector& a) { return std::sqrt(rest_dot(a, a)); }
 inline RestVector rest_cross(const RestVector& a, const RestVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Area [m²] and the gradients ∇N_k [1/m] of the three linear shape functions in an orthonormal frame of the rest triangle: F = Σ x_k ∇N_kᵀ (3×2).
+/// Area [m²] and the gradients ∇N_k [1/m] of the three linear shape functions in an orthonormal frame of the rest
+/// triangle: F = Σ x_k ∇N_kᵀ (3×2).
 struct RestTriangle {
   double area = 0;
   double gradient[3][2] = {};
@@ -40,15 +44,18 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
   return rest;
 }
 
-/// Angle θ₀ [rad] between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in (−π, π], and 3‖e‖²/(A₀ + A₁) [1], e = x1 − x0; weights of x1, o0 and o1
-/// in the isometric model [1/m]: sums of the cotangents of the angles at x0 and x1 over ‖e‖.
+/// Angle θ₀ [rad] between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in (−π, π], and 3‖e‖²/(A₀ + A₁)
+/// [1], e = x1 − x0; weights of x1, o0 and o1 in the isometric model [1/m]: sums of the cotangents of the angles at x0
+/// and x1 over ‖e‖.
 struct RestHinge {
   double angle = 0, factor = 0;
   double weight[3] = {};
 };
 
-/// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in fast/kernels/bending.hpp.
-inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0, const compare::Vec3& o1) {
+/// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in
+/// fast/kernels/bending.hpp.
+inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0,
+                            const compare::Vec3& o1) {
   const RestVector edge = rest_difference(x1, x0), a = rest_difference(o0, x0), b = rest_difference(o1, x0);
   const RestVector normal_a = rest_cross(edge, a), normal_b = rest_cross(b, edge);
   RestHinge rest;

@@ -1,5 +1,6 @@
-// Arithmetic whose every operation is rounded by itself. The host never contracts (-ffp-contract=off); nvcc does unless told otherwise, operation by
-// operation, and these intrinsics tell it, so that detection gives the same bits on both sides in every build, not in `strict` alone.
+// Arithmetic whose every operation is rounded by itself. The host never contracts (-ffp-contract=off); nvcc does unless
+// told otherwise, operation by operation, and these intrinsics tell it, so that detection gives the same bits on both
+// sides in every build, not in `strict` alone.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,5 @@
-// What a formula asks of its number type beyond + − × ÷, so that it can be written once for a float and for several at a time (fast/cpu/pack.hpp).
+// What a formula asks of its number type beyond + − × ÷, so that it can be written once for a float and for several at
+// a time (fast/cpu/pack.hpp).
 #pragma once
 
 #include <cmath>

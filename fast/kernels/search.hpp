@@ -1,10 +1,11 @@
-// A search of a tree, apart from how many threads carry it out: alone in one (here, and four candidates at a time in fast/cpu/packed_search.hpp), or many by a team
-// that shares its work (fast/cuda/search.cuh).
+// A search of a tree, apart from how many threads carry it out: alone in one (here, and four candidates at a time in
+// fast/cpu/packed_search.hpp), or many by a team that shares its work (fast/cuda/search.cuh).
 //
 // A Query is what the searches of one kind have in common:
 //   bool is_off() const                                 nothing is to be searched
 //   Search begin(int i) const                           the i-th search
-//   bool is_pair(const Search&, const Offer&)           whether the primitive needs a closer look; cheap, in single precision
+//   bool is_pair(const Search&, const Offer&)           whether the primitive needs a closer look; cheap, in single
+//                                                       precision
 //   float meet(const Search&, int primitive, float gap) that look; returns a limit that it leaves for the search
 // Which primitives beyond the limit are offered too, and in which order, is open: no answer may depend on it.
 #pragma once
@@ -13,7 +14,8 @@
 
 namespace ogc::fast {
 
-/// All primitives at a place ≥ `from` whose box lies within the squared gap `limit` of `box`, or within their own reach.
+/// All primitives at a place ≥ `from` whose box lies within the squared gap `limit` of `box`, or within their own
+/// reach.
 struct alignas(16) Search {  // read whole, by few instructions
   Box box;
   int owner = -1;  ///< whose search it is: number of a vertex or an edge
@@ -34,7 +36,8 @@ struct Searches {
     if (query.is_off()) return;
     Search search = query.begin(i);
     for_each_near(tree, search.box, search.from, search.limit, [&](const Offer& offer) {
-      if (query.is_pair(search, offer)) search.limit = smaller(search.limit, query.meet(search, offer.primitive, offer.gap));
+      if (query.is_pair(search, offer))
+        search.limit = smaller(search.limit, query.meet(search, offer.primitive, offer.gap));
     });
   }
 };

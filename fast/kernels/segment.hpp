@@ -20,19 +20,22 @@ struct Distance {
   }
 };
 
-OGC_HD inline double norm_1(const Real& a) { return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value)); }
+OGC_HD inline double norm_1(const Real& a) {
+  return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value));
+}
 
 OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
 
-/// Parameter of the point of the line nearest to x, u = x − a, e = b − a, clamped to [0, 1]; 0 where the edge has no length.
+/// Parameter of the point of the line nearest to x, u = x − a, e = b − a, clamped to [0, 1]; 0 where the edge has no
+/// length.
 OGC_HD inline double segment_parameter(const Real& u, const Real& e) {
   const double along = dot(u, e).value, whole = squared(e);
   if (!(along > 0)) return 0;
   return along < whole ? divide(along, whole) : 1;
 }
 
-/// Squared distance to the closed segment. Its root errs by less than 2⁻⁴⁸ (‖u‖ + ‖e‖): the parameter by 12 roundings of ‖u‖/‖e‖, the difference
-/// and the norm by 8 of ‖u‖.
+/// Squared distance to the closed segment. Its root errs by less than 2⁻⁴⁸ (‖u‖ + ‖e‖): the parameter by 12 roundings
+/// of ‖u‖/‖e‖, the difference and the norm by 8 of ‖u‖.
 OGC_HD inline double squared_to_segment(const Real& u, const Real& e) {
   return squared(u - Rounded{segment_parameter(u, e)} * e);
 }

@@ -1,8 +1,10 @@
-// Lower bounds of distances in single precision: most pairs that a search meets can be told to be too far apart without the double-precision distance.
+// Lower bounds of distances in single precision: most pairs that a search meets can be told to be too far apart without
+// the double-precision distance.
 //
-// Along any direction d, two convex sets are no nearer than the gap of their shadows on d, and with d between the closest points that gap is the
-// distance. So d is computed roughly (what it misses makes the bound lower, never wrong), and only the projections on it count as errors:
-// the difference of two points, the product, two sums and two more where three projections meet are 6 u ‖d‖₂ S, S the 1-norms of the differences.
+// Along any direction d, two convex sets are no nearer than the gap of their shadows on d, and with d between the
+// closest points that gap is the distance. So d is computed roughly (what it misses makes the bound lower, never
+// wrong), and only the projections on it count as errors: the difference of two points, the product, two sums and two
+// more where three projections meet are 6 u ‖d‖₂ S, S the 1-norms of the differences.
 #pragma once
 
 #include "fast/kernels/closest_face.hpp"
@@ -39,15 +41,16 @@ OGC_HD T clamped(const T& s) {
   return smaller(larger(s, T{}), T{1.0F});
 }
 
-/// From the gap of the shadows on d (times ‖d‖), d·d and an error of the distance. The root and products err by 8 u. Where d·d is so small that it may have
-/// lost bits there is no bound.
+/// From the gap of the shadows on d (times ‖d‖), d·d and an error of the distance. The root and products err by 8 u.
+/// Where d·d is so small that it may have lost bits there is no bound.
 template <class T>
 OGC_HD T separation(const T& gap, const T& dd, const T& error) {
   return select(dd > 0x1p-100F, gap * rough_inverse_root(dd) * (1 - 0x1p-20F) - error, T{});
 }
 
-/// A length, possibly negative or not a number, that does not exceed what `edge_edge_distance(p, q).below()` gives. Beside the 6 u S said above that lies
-/// under the exact distance by two slacks of at most 2 u S and by one rounding of at most 2 u S: 12 u S. Taken: 16 u S.
+/// A length, possibly negative or not a number, that does not exceed what `edge_edge_distance(p, q).below()` gives.
+/// Beside the 6 u S said above that lies under the exact distance by two slacks of at most 2 u S and by one rounding of
+/// at most 2 u S: 12 u S. Taken: 16 u S.
 template <class T>
 OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   const Vector<T> e = p.b - p.a, f = q.b - q.a, w = q.a - p.a;
@@ -59,23 +62,29 @@ OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   return separation<T>(gap, dot(d, d), 0x1p-20F * (norm_1(w) + norm_1(e) + norm_1(f)));
 }
 
-/// The same for `point_triangle_distance(x, corners).below()`, from two directions: the normal, and that to the nearest point of the outline. Here the
-/// projections take x − corner, with S' the sum of their 1-norms: S ≤ 3 S', so two slacks of 2 u S and the rest are under 20 u S'. Taken: 32 u S'.
+/// The same for `point_triangle_distance(x, corners).below()`, from two directions: the normal, and that to the nearest
+/// point of the outline. Here the projections take x − corner, with S' the sum of their 1-norms: S ≤ 3 S', so two
+/// slacks of 2 u S and the rest are under 20 u S'. Taken: 32 u S'.
 template <class T>
 OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   const Vector<T> u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);
-  const auto from_edge = [](const Vector<T>& from, const Vector<T>& edge) { return from - clamped(rough_quotient(dot(from, edge), dot(edge, edge))) * edge; };
+  const auto from_edge = [](const Vector<T>& from, const Vector<T>& edge) {
+    return from - clamped(rough_quotient(dot(from, edge), dot(edge, edge))) * edge;
+  };
   const Vector<T> d_e = from_edge(u, e), d_f = from_edge(v, f), d_g = from_edge(w, g);
   Vector<T> d = d_e;
   d = select(dot(d_f, d_f) < dot(d, d), d_f, d);
   d = select(dot(d_g, d_g) < dot(d, d), d_g, d);
   const T error = 0x1p-19F * (norm_1(u) + norm_1(v) + norm_1(w));
   const T outline = separation<T>(smaller(smaller(dot(d, u), dot(d, v)), dot(d, w)), dot(d, d), error);
-  const T low = smaller(smaller(dot(n, u), dot(n, v)), dot(n, w)), high = larger(larger(dot(n, u), dot(n, v)), dot(n, w));
+  const T low = smaller(smaller(dot(n, u), dot(n, v)), dot(n, w)),
+          high = larger(larger(dot(n, u), dot(n, v)), dot(n, w));
   return larger(outline, separation<T>(larger(low, -high), dot(n, n), error));
 }
 
 /// Whether a length that a distance is not below lies beyond a limit of gap_limit.
-OGC_HD inline bool is_beyond(float separation, float limit) { return separation > 0 && separation * separation > limit; }
+OGC_HD inline bool is_beyond(float separation, float limit) {
+  return separation > 0 && separation * separation > limit;
+}
 
 }  // namespace ogc::fast

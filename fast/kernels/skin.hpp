@@ -1,13 +1,18 @@
-// A list of pairs with a skin: as long as no vertex has moved far since a search, the pairs that can matter are among those that this search met within a
-// margin, and a detection looks at these instead of searching the trees. Sets, smallest distances and bounds are the same bits (tests/fast/stages/skin.cpp).
+// A list of pairs with a skin: as long as no vertex has moved far since a search, the pairs that can matter are among
+// those that this search met within a margin, and a detection looks at these instead of searching the trees. Sets,
+// smallest distances and bounds are the same bits (tests/fast/stages/skin.cpp).
 //
-// Let m be the margin, δ the largest displacement since the search ("the anchor"), D the smallest distance of a primitive then, as stored: at most ε below the
-// exact one. A listing search keeps every pair not farther than max(r, D) + m, for the D of either partner. Distances change by at most 2δ. So
-//   now the smallest distance of a primitive is at most D + 2δ + ε, and the pair that has it was then no farther than D + 4δ + ε;
+// Let m be the margin, δ the largest displacement since the search ("the anchor"), D the smallest distance of a
+// primitive then, as stored: at most ε below the exact one. A listing search keeps every pair not farther than max(r,
+// D) + m, for the D of either partner. Distances change by at most 2δ. So
+//   now the smallest distance of a primitive is at most D + 2δ + ε, and the pair that has it was then no farther
+//   than D + 4δ + ε;
 //   a pair that is nearer than r now was then nearer than r + 2δ;
-//   a primitive without a pair within r_q then (D = r_q) has now none nearer than r_q', r_q' ≤ r_q + m/2, that was farther than r_q + m/2 + 2δ.
+//   a primitive without a pair within r_q then (D = r_q) has now none nearer than r_q', r_q' ≤ r_q + m/2,
+//   that was farther than r_q + m/2 + 2δ.
 // With δ ≤ 7m/32 and ε ≤ m/32 all of these are within the list, and what is not in it is farther now than D + 2δ + m/8.
-// ε is two slacks of at most 2⁻²³ S (closest_face.hpp, closest_points.hpp) and a rounding, S ≤ 18 X with X the largest coordinate: under 2⁻¹⁷ X.
+// ε is two slacks of at most 2⁻²³ S (closest_face.hpp, closest_points.hpp) and a rounding, S ≤ 18 X with X the largest
+// coordinate: under 2⁻¹⁷ X.
 #pragma once
 
 #include "fast/kernels/control.hpp"
@@ -17,7 +22,8 @@
 namespace ogc::fast {
 
 /// What a detection does.
-enum class SkinMode : int { search, list, recheck };  ///< search the trees; also keep the pairs within the margin; look at the kept pairs
+/// search the trees; also keep the pairs within the margin; look at the kept pairs
+enum class SkinMode : int { search, list, recheck };
 
 struct SkinState {
   SkinMode mode = SkinMode::search;
@@ -29,7 +35,8 @@ struct SkinState {
   float bound = 0;            ///< 2δ + m/16: with it D is above the smallest distance now [m]
   int count = 0, most = 0;    ///< pairs kept, also those that found no room; the most of any list before this one
   int searches = 0, listings = 0, rechecks = 0;  ///< detections of each sort so far
-  int rechecks_of_list = 0, patience = 0, wait = 0;  ///< uses of this list; searches without one after a list that nothing used, and how many are left
+  /// uses of this list; searches without one after a list that nothing used, and how many are left
+  int rechecks_of_list = 0, patience = 0, wait = 0;
 };
 
 struct SkinView {
@@ -50,8 +57,11 @@ struct SkinView {
     if (place < capacity) pairs[place] = pair;
   }
 
-  /// Not below the smallest distance now of a primitive whose D was `anchored`; infinite where that was no distance of a pair.
-  OGC_HD float bound(float anchored) const { return anchored < state->listed_radius ? add(anchored, state->bound) : __builtin_huge_valf(); }
+  /// Not below the smallest distance now of a primitive whose D was `anchored`; infinite where that was no distance of
+  /// a pair.
+  OGC_HD float bound(float anchored) const {
+    return anchored < state->listed_radius ? add(anchored, state->bound) : __builtin_huge_valf();
+  }
 };
 
 /// Whether a detection needs its trees; null: one that keeps no pairs.
@@ -73,12 +83,14 @@ struct MeasureDrift {
     if (*overflow != 0) return;
     const Vec x = positions[v];
     raise_bits(&skin.state->extent, larger(larger(fabsf(x.x), fabsf(x.y)), fabsf(x.z)));
-    if (skin.state->has_anchor != 0) raise_bits(&skin.state->drift, round_up(square_root(squared(difference<Rounded>(x, skin.anchor[v])))));
+    if (skin.state->has_anchor != 0)
+      raise_bits(&skin.state->drift, round_up(square_root(squared(difference<Rounded>(x, skin.anchor[v])))));
   }
 };
 
-/// After it, alone. A list costs about as much as a second search, so it is made only where the next three detections can use it: m is chosen for six of them,
-/// at the displacement since the search before this detection. After each list in a row that nothing could use, twice as many searches are made without one.
+/// After it, alone. A list costs about as much as a second search, so it is made only where the next three detections
+/// can use it: m is chosen for six of them, at the displacement since the search before this detection. After each list
+/// in a row that nothing could use, twice as many searches are made without one.
 struct ChooseSkinMode {
   static constexpr float drift_of_margin = 0x7p-5F;
 
@@ -91,7 +103,8 @@ struct ChooseSkinMode {
     SkinState& s = *skin.state;
     const float drift = float_from_bits(s.drift), extent = float_from_bits(s.extent);
     s.drift = s.extent = 0;
-    const bool is_listed = s.has_list != 0 && s.contact_radius == skin.contact_radius && s.count <= skin.capacity && *query_radius <= add(s.listed_radius, mul(0.5F, s.margin));
+    const bool is_listed = s.has_list != 0 && s.contact_radius == skin.contact_radius && s.count <= skin.capacity &&
+                           *query_radius <= add(s.listed_radius, mul(0.5F, s.margin));
     if (is_listed && drift <= mul(drift_of_margin, s.margin) && is_wide_enough(s.margin, extent)) {
       s.mode = SkinMode::recheck;
       s.bound = add(mul(2.0F, drift), mul(s.margin, 0x1p-4F));
@@ -100,9 +113,11 @@ struct ChooseSkinMode {
     }
     if (s.has_list != 0) s.most = s.count > s.most ? s.count : s.most;
     if (s.has_list != 0) s.patience = s.wait = s.rechecks_of_list > 0 ? 0 : (s.patience < 31 ? 2 * s.patience + 1 : 63);
-    const float least = larger(mul(skin.largest_margin, 0x1p-3F), mul(extent, 0x1p-12F)), wanted = larger(least, drift * (6 / drift_of_margin));
+    const float least = larger(mul(skin.largest_margin, 0x1p-3F), mul(extent, 0x1p-12F)),
+                wanted = larger(least, drift * (6 / drift_of_margin));
     const float margin = smaller(skin.largest_margin, wanted);
-    const bool lists = s.wait == 0 && s.has_anchor != 0 && margin > 0 && drift * (3 / drift_of_margin) <= margin && is_wide_enough(margin, extent);
+    const bool lists = s.wait == 0 && s.has_anchor != 0 && margin > 0 && drift * (3 / drift_of_margin) <= margin &&
+                       is_wide_enough(margin, extent);
     if (s.wait > 0) --s.wait;
     s.mode = lists ? SkinMode::list : SkinMode::search;
     s.rechecks_of_list = 0;
@@ -117,7 +132,9 @@ struct ChooseSkinMode {
 
  private:
   /// ε ≤ m/32.
-  OGC_HD static bool is_wide_enough(float margin, float extent) { return mul(extent, 0x1p-17F) <= mul(margin, 0x1p-5F); }
+  OGC_HD static bool is_wide_enough(float margin, float extent) {
+    return mul(extent, 0x1p-17F) <= mul(margin, 0x1p-5F);
+  }
 };
 
 /// After a search: for_each over the most numerous of vertices, edges and triangles.

@@ -1,4 +1,5 @@
-// A spring seen from one of its ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s x₂‖ (compare/stages/spring.hpp).
+// A spring seen from one of its ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s x₂‖
+// (compare/stages/spring.hpp).
 #pragma once
 
 #include <cmath>
@@ -26,7 +27,9 @@ OGC_HD inline Vec spring_apart(const SpringRest& spring, const Vec* end) {
 }
 
 /// w of an end: 1, s − 1, −s.
-OGC_HD inline float spring_weight(const SpringRest& spring, int place) { return place == 0 ? 1.0f : place == 1 ? spring.ratio - 1.0f : -spring.ratio; }
+OGC_HD inline float spring_weight(const SpringRest& spring, int place) {
+  return place == 0 ? 1.0f : place == 1 ? spring.ratio - 1.0f : -spring.ratio;
+}
 
 /// 0 where the squared length is no normal number.
 OGC_HD inline float spring_length(const Vec& apart) {
@@ -35,13 +38,17 @@ OGC_HD inline float spring_length(const Vec& apart) {
 }
 
 /// Adds force and block of the end of weight w; `apart` as spring_apart, `length_start` lᵗ.
-OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart, float length_start, ForceAndBlock& sum) {
+OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
+                              float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  if (!(length > 0)) {  // no direction: w² k_s I majorises the energy whatever l₀ is, and of a stitch a length that was lost to rounding may exceed it
+  // no direction: w² k_s I majorises the energy whatever l₀ is, and of a stitch a length that was lost to rounding may
+  // exceed it
+  if (!(length > 0)) {
     sum.add_identity(stiffness);
     return;
   }
-  const float stretched = 1.0f - spring.rest_length / length, across = stretched > 0 ? stretched : 0.0f, resistance = damping * stiffness;
+  const float stretched = 1.0f - spring.rest_length / length, across = stretched > 0 ? stretched : 0.0f,
+              resistance = damping * stiffness;
   const float pull = spring.stiffness * stretched + damping * spring.stiffness * ((length - length_start) / length);
   sum.add_force(-(weight * pull), apart);
   sum.add_identity(stiffness * across);

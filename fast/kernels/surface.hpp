@@ -7,8 +7,9 @@
 
 namespace ogc::fast {
 
-/// A triangle with its corners in the order of the mesh and the numbers of its edges 01, 12, 20. Bit k of `descending` is set where edge k starts at
-/// its higher-numbered vertex, so that every triangle at an edge can give the edge's predicate the same operands.
+/// A triangle with its corners in the order of the mesh and the numbers of its edges 01, 12, 20. Bit k of `descending`
+/// is set where edge k starts at its higher-numbered vertex, so that every triangle at an edge can give the edge's
+/// predicate the same operands.
 struct alignas(16) Facet {
   int corner[3];
   int edge[3];
@@ -26,7 +27,8 @@ struct Rows {
   const int* items = nullptr;
 };
 
-/// Seeds name pairs that are known to take part in the smallest distances, so that a query need not look farther (fast/kernels/bvh.hpp); −1: none.
+/// Seeds name pairs that are known to take part in the smallest distances, so that a query need not look farther
+/// (fast/kernels/bvh.hpp); −1: none.
 struct EdgeSeeds {
   int vertex[2];  ///< each has an edge that forms a pair with this one
 };
@@ -41,14 +43,16 @@ struct SurfaceView {
   int vertex_count = 0, edge_count = 0, triangle_count = 0;
   const Facet* facets = nullptr;
   const EdgeEnds* edges = nullptr;
-  Rows neighbours;        ///< V_v of Eq. 8 and 15
-  Rows opposites;         ///< V_e of Eq. 9
+  Rows neighbours;  ///< V_v of Eq. 8 and 15
+  Rows opposites;   ///< V_e of Eq. 9
   Rows vertex_edges, vertex_triangles;
   const int* groups = nullptr;  ///< pairs whose vertices all carry one number ≥ 0 are left out
   const EdgeSeeds* edge_seeds = nullptr;
   const FacetSeeds* facet_seeds = nullptr;
   const VertexSeeds* vertex_seeds = nullptr;
-  Rows partners;  ///< pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there is none
+  /// pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there
+  /// is none
+  Rows partners;
 
   /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.
   OGC_HD int vertex_face(int v) const { return v; }

@@ -1,9 +1,10 @@
-// One vertex update of Algorithm 4: all energies of a vertex gathered from streams that hold, incidence by incidence, everything but positions, then a
-// 3×3 solve, then truncation, then the write, and one reduction for all stencils.
+// One vertex update of Algorithm 4: all energies of a vertex gathered from streams that hold, incidence by incidence,
+// everything but positions, then a 3×3 solve, then truncation, then the write, and one reduction for all stencils.
 //
-// Two position buffers an iteration (method.md §7.2): a neighbour of lower colour is read from the fresh buffer, any other from the old one. Which of the
-// two is known when the streams are made, so it stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as
-// colour -1. Both buffers are halves of one array, so that the choice is arithmetic and no read of a pointer.
+// Two position buffers an iteration (method.md §7.2): a neighbour of lower colour is read from the fresh buffer, any
+// other from the old one. Which of the two is known when the streams are made, so it stands in the index: n ≥ 0 reads
+// old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as colour -1. Both buffers are halves of one
+// array, so that the choice is arithmetic and no read of a pointer.
 #pragma once
 
 #include <cmath>
@@ -37,15 +38,16 @@ struct alignas(16) MembraneIncidence {
   MembraneStencil stencil{};
 };
 
-/// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex as x0); at an opposite vertex it is
-/// x0, x1, o1 (with the own vertex as o0).
+/// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex
+/// as x0); at an opposite vertex it is x0, x1, o1 (with the own vertex as o0).
 struct alignas(8) HingeIncidence {
   int index[3] = {0, 0, 0};
   int hinge = -1;  ///< number in RestState::hinges; ~number at an opposite vertex
   HingeStencil stencil{};
 };
 
-/// A contact seen from one of its vertices: slots as in contact_force.hpp; `own` is the slot of the vertex itself. The stiffness holds e_k of the detection.
+/// A contact seen from one of its vertices: slots as in contact_force.hpp; `own` is the slot of the vertex itself. The
+/// stiffness holds e_k of the detection.
 struct alignas(16) ContactIncidence {
   int index[4] = {0, 0, 0, 0};
   float stiffness = 0, friction = 0;
@@ -85,20 +87,23 @@ struct SweepView {
   int to_fresh = 0;                          ///< from a vertex there to the same one in the fresh buffer
   Vec* position = nullptr;                   ///< as fresh, for all but the sweep, which does not read it
   StepControl* control = nullptr;
-  const int* turn = nullptr;                 ///< null, or: the sweep takes place where this is
-  int iteration = 0;                         ///< this
-  float radius = 0;          ///< r [m]
-  float friction_limit = 0;  ///< ε_v h [m]
+  const int* turn = nullptr;  ///< null, or: the sweep takes place where this is
+  int iteration = 0;          ///< this
+  float radius = 0;           ///< r [m]
+  float friction_limit = 0;   ///< ε_v h [m]
   // Read by GatherEveryModel alone (sweep_models.hpp).
   const SurfaceModels* models = nullptr;        ///< by body
   const IsometricStencil* isometric = nullptr;  ///< beside `hinges`; null where no body has the model
-  const SpringRow* spring_rows = nullptr;      ///< by slot; null where there is no spring
+  const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
   const SpringIncidence* springs = nullptr;
   ContactActivation activation = ContactActivation::ogc;
 
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
-  /// The same for the team of a vertex that has been read: on a device whose turn it is comes beside it, and nobody waits for one after the other.
-  OGC_HD bool is_off(const SweepVertex& vertex) const { return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0)); }
+  /// The same for the team of a vertex that has been read: on a device whose turn it is comes beside it, and nobody
+  /// waits for one after the other.
+  OGC_HD bool is_off(const SweepVertex& vertex) const {
+    return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
+  }
 
   /// Where an encoded index is read.
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
@@ -109,21 +114,23 @@ struct SweepView {
   }
 };
 
-// What a stencil reads beside its incidence, all at once: the latency of reads, not arithmetic, is what a vertex costs on a device.
+// What a stencil reads beside its incidence, all at once: the latency of reads, not arithmetic, is what a vertex costs
+// on a device.
 
 struct MembraneReads {
   Vec b, c;
   Symmetric2 strain_start{};
 };
 
-OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneIncidence& incidence, const SurfaceMaterial& material) {
+OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneIncidence& incidence,
+                                          const SurfaceMaterial& material) {
   MembraneReads reads{view.read(incidence.index[0]), view.read(incidence.index[1])};
   if (material.membrane_damping > 0) reads.strain_start = view.strain_start[incidence.triangle];
   return reads;
 }
 
-OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads, const SurfaceMaterial& material, const Vec& own,
-                                          ForceAndBlock& sum) {
+OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads,
+                                          const SurfaceMaterial& material, const Vec& own, ForceAndBlock& sum) {
   add_membrane(incidence.stencil, material, reads.b - own, reads.c - own, reads.strain_start, sum);
 }
 
@@ -132,7 +139,8 @@ struct HingeReads {
   float angle_start = 0;
 };
 
-OGC_HD inline HingeReads read_hinge(const SweepView& view, const HingeIncidence& incidence, const SurfaceMaterial& material) {
+OGC_HD inline HingeReads read_hinge(const SweepView& view, const HingeIncidence& incidence,
+                                    const SurfaceMaterial& material) {
   HingeReads reads{{view.read(incidence.index[0]), view.read(incidence.index[1]), view.read(incidence.index[2])}};
   if (material.bending_damping > 0) reads.angle_start = view.angle_start[decoded(incidence.hinge)];
   return reads;
@@ -141,16 +149,18 @@ OGC_HD inline HingeReads read_hinge(const SweepView& view, const HingeIncidence&
 /// A hinge as one of its vertices sees it: p as listed in HingeIncidence.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
-  const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]), side = select(opposite, own, p[1]);
+  const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]),
+                  side = select(opposite, own, p[1]);
   return hinge_shape(end - base, side - base, p[2] - base);
 }
 
-OGC_HD inline void add_hinge_incidence(const HingeIncidence& incidence, const HingeReads& reads, const SurfaceMaterial& material, const Vec& own,
-                                       ForceAndBlock& sum) {
+OGC_HD inline void add_hinge_incidence(const HingeIncidence& incidence, const HingeReads& reads,
+                                       const SurfaceMaterial& material, const Vec& own, ForceAndBlock& sum) {
   const bool opposite = incidence.hinge < 0;
   const HingeShape shape = hinge_shape_seen<float>(opposite, reads.p, own);
   if (!shape.defined) return;
-  add_hinge(incidence.stencil, material.bending_damping, shape.angle, reads.angle_start, hinge_gradient(shape, opposite), sum);
+  add_hinge(incidence.stencil, material.bending_damping, shape.angle, reads.angle_start,
+            hinge_gradient(shape, opposite), sum);
 }
 
 /// Positions now and, with friction, at the start of the step.
@@ -171,7 +181,7 @@ OGC_HD inline ContactReads read_contact(const SweepView& view, const ContactInci
 struct ContactAt {
   ContactWeights weights;
   ContactShape shape;
-  float weight = 0;  ///< of the vertex itself
+  float weight = 0;    ///< of the vertex itself
   float majorant = 0;  ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
 
   OGC_HD bool acts() const { return shape.acts && weight != 0; }
@@ -187,8 +197,8 @@ OGC_HD ContactAt contact_at(const ContactIncidence& incidence, const ContactRead
 }
 
 /// The friction of a contact that acts with the normal force λ.
-OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const ContactReads& reads, const ContactAt& at, float normal_force, float limit,
-                                        ForceAndBlock& sum) {
+OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const ContactReads& reads,
+                                        const ContactAt& at, float normal_force, float limit, ForceAndBlock& sum) {
   if (!(incidence.friction > 0)) return;
   Vec moved[4];
   for (int k = 0; k < 4; ++k) moved[k] = reads.x[k] - reads.start[k];
@@ -198,16 +208,19 @@ OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const
 }
 
 template <ContactSort sort>
-OGC_HD ForceAndBlock contact_term(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence, const ContactReads& reads) {
+OGC_HD ForceAndBlock contact_term(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence,
+                                  const ContactReads& reads) {
   ForceAndBlock term;
   const ContactAt at = contact_at<sort>(incidence, reads, view.radius);
   if (!at.acts()) return term;
-  const float normal_force = add_contact(kind, at.shape, at.weight, at.majorant, view.radius, incidence.stiffness, term);
+  const float normal_force = add_contact(kind, at.shape, at.weight, at.majorant, view.radius, incidence.stiffness,
+                                         term);
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, term);
   return term;
 }
 
-/// Both sorts of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so teams share the work.
+/// Both sorts of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so
+/// teams share the work.
 struct ContactParts {
   const SweepView& view;
   ContactRow row;
@@ -215,46 +228,59 @@ struct ContactParts {
 
   template <ContactSort sort>
   OGC_HD auto range(int begin, int count) const {
-    return pooled_part(begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
-                       [seen = &view, activation = kind](const ContactIncidence& contact) {
-                         return contact_term<sort>(*seen, activation, contact, read_contact(*seen, contact));
-                       });
+    return pooled_part(
+        begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
+        [seen = &view, activation = kind](const ContactIncidence& contact) {
+          return contact_term<sort>(*seen, activation, contact, read_contact(*seen, contact));
+        });
   }
   OGC_HD auto vertex_facet() const { return range<ContactSort::vertex_facet>(row.begin, row.vertex_facet); }
-  OGC_HD auto edge_edge() const { return range<ContactSort::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet); }
+  OGC_HD auto edge_edge() const {
+    return range<ContactSort::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);
+  }
 };
 
 /// The rows of a vertex, which its sum is going to read.
 template <class Team>
-OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, const ContactRow& contacts, const Team& team) {
-  team.prefetch(view.membrane + vertex.membrane_begin, vertex.membrane_count * static_cast<int>(sizeof(MembraneIncidence)));
+OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, const ContactRow& contacts,
+                          const Team& team) {
+  team.prefetch(view.membrane + vertex.membrane_begin,
+                vertex.membrane_count * static_cast<int>(sizeof(MembraneIncidence)));
   team.prefetch(view.hinges + vertex.hinge_begin, vertex.hinge_count * static_cast<int>(sizeof(HingeIncidence)));
   team.prefetch(view.contacts + contacts.begin, contacts.count * static_cast<int>(sizeof(ContactIncidence)));
 }
 
-/// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St. Venant–Kirchhoff, discrete hinges, activation `ogc`, damping
-/// of strains, no springs), in four parts: triangles, hinges, vertex–facet contacts, edge–edge contacts.
+/// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St.
+/// Venant–Kirchhoff, discrete hinges, activation `ogc`, damping of strains, no springs), in four parts: triangles,
+/// hinges, vertex–facet contacts, edge–edge contacts.
 struct GatherDefault {
   static constexpr int parts = 4;
 
   template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
+  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                                  const Team& team) const {
     const ContactParts contacts{view, view.contact_rows[slot], ContactActivation::ogc};
     const SurfaceMaterial material = view.materials[vertex.body];
     prefetch_rows(view, vertex, contacts.row, team);
     return team.template sum<ForceAndBlock>(
-        part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
-             [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
-               add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, own, sum);
-             }),
-        part(vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
-             [&](const HingeIncidence& hinge, ForceAndBlock& sum) { add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum); }),
+        part(
+            vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
+            [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
+              add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, own, sum);
+            }),
+        part(
+            vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
+            [&](const HingeIncidence& hinge, ForceAndBlock& sum) {
+              add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum);
+            }),
         contacts.vertex_facet(), contacts.edge_edge());
   }
 };
 
-/// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written: the vertex stays and the step fails.
-OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const Vec& previous, float bound) {
+/// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written:
+/// the vertex stays and the step fails.
+OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay,
+                                   const Vec& previous, float bound) {
   if (!is_finite(proposal)) {
     view.write(v, stay);
     view.control->count_not_finite();
@@ -271,7 +297,7 @@ struct UpdateVertex {
   static constexpr int parts = Gather::parts;  ///< of its sum
   SweepView view;
   int first_slot = 0;
-  bool asks_late;      ///< the launch before decides whether it is off
+  bool asks_late;  ///< the launch before decides whether it is off
 
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {

@@ -1,5 +1,6 @@
-// The sum over the stencils of a vertex in scenes with any model: stable Neo-Hookean membranes, isometric bending, springs, damping by vertex, all activations. It
-// stands apart from GatherDefault, which has neither the branches nor the registers of what most scenes lack.
+// The sum over the stencils of a vertex in scenes with any model: stable Neo-Hookean membranes, isometric bending,
+// springs, damping by vertex, all activations. It stands apart from GatherDefault, which has neither the branches nor
+// the registers of what most scenes lack.
 #pragma once
 
 #include "fast/kernels/isometric.hpp"
@@ -11,8 +12,8 @@ namespace ogc::fast {
 
 /// Whether GatherDefault has the models of a body.
 OGC_HD inline bool are_default(const SurfaceModels& models) {
-  return models.membrane != compare::MembraneModel::stable_neo_hookean && models.bending != compare::BendingModel::isometric_quadratic &&
-         models.damping == compare::DampingForm::strain;
+  return models.membrane != compare::MembraneModel::stable_neo_hookean &&
+         models.bending != compare::BendingModel::isometric_quadratic && models.damping == compare::DampingForm::strain;
 }
 
 /// A spring seen from the end `place`; `index`: all ends, encoded as in sweep.hpp.
@@ -33,24 +34,30 @@ struct OwnVertex {
 };
 
 /// Adds an elastic stencil with damping by vertex: its force less k B moved, and its block B (1 + k) times.
-OGC_HD inline void add_damped_by_vertex(const ForceAndBlock& elastic, float damping, const Vec& moved, ForceAndBlock& sum) {
+OGC_HD inline void add_damped_by_vertex(const ForceAndBlock& elastic, float damping, const Vec& moved,
+                                        ForceAndBlock& sum) {
   const Symmetric3& b = elastic.block;
   const Vec resisted{b.xx * moved.x + b.xy * moved.y + b.xz * moved.z, b.xy * moved.x + b.yy * moved.y + b.yz * moved.z,
                      b.xz * moved.x + b.yz * moved.y + b.zz * moved.z};
   const float grown = 1.0f + damping;
-  sum += ForceAndBlock{elastic.force - damping * resisted, {grown * b.xx, grown * b.xy, grown * b.xz, grown * b.yy, grown * b.yz, grown * b.zz}};
+  sum += ForceAndBlock{elastic.force - damping * resisted,
+                       {grown * b.xx, grown * b.xy, grown * b.xz, grown * b.yy, grown * b.yz, grown * b.zz}};
 }
 
 /// The elastic part of a triangle of any model.
-OGC_HD inline void add_elastic_membrane(const SurfaceModels& models, const MembraneStencil& stencil, SurfaceMaterial material, const Vec& to_b,
-                                        const Vec& to_c, ForceAndBlock& sum) {
+OGC_HD inline void add_elastic_membrane(const SurfaceModels& models, const MembraneStencil& stencil,
+                                        SurfaceMaterial material, const Vec& to_b, const Vec& to_c,
+                                        ForceAndBlock& sum) {
   material.membrane_damping = 0;
-  if (models.membrane == compare::MembraneModel::stable_neo_hookean) add_neo_hookean(stencil, material, to_b, to_c, sum);
-  else add_membrane(stencil, material, to_b, to_c, {}, sum);
+  if (models.membrane == compare::MembraneModel::stable_neo_hookean)
+    add_neo_hookean(stencil, material, to_b, to_c, sum);
+  else
+    add_membrane(stencil, material, to_b, to_c, {}, sum);
 }
 
-OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneIncidence& incidence, const SurfaceMaterial& material, const SurfaceModels& models,
-                                    const OwnVertex& own, ForceAndBlock& sum) {
+OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneIncidence& incidence,
+                                    const SurfaceMaterial& material, const SurfaceModels& models, const OwnVertex& own,
+                                    ForceAndBlock& sum) {
   const MembraneReads reads = read_membrane(view, incidence, material);
   const Vec to_b = reads.b - own.position, to_c = reads.c - own.position;
   if (models.damping == compare::DampingForm::per_vertex) {
@@ -59,17 +66,20 @@ OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneInciden
     add_damped_by_vertex(elastic, material.membrane_damping, own.moved, sum);
   } else if (models.membrane == compare::MembraneModel::stable_neo_hookean) {
     add_neo_hookean(incidence.stencil, material, to_b, to_c, sum);
-    if (material.membrane_damping > 0) add_strain_damping(incidence.stencil, material, to_b, to_c, reads.strain_start, sum);
+    if (material.membrane_damping > 0)
+      add_strain_damping(incidence.stencil, material, to_b, to_c, reads.strain_start, sum);
   } else {
     add_membrane_incidence(incidence, reads, material, own.position, sum);
   }
 }
 
 /// `isometric` is read where the body bends so.
-OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& incidence, const IsometricStencil& isometric, const SurfaceMaterial& material,
+OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& incidence,
+                                 const IsometricStencil& isometric, const SurfaceMaterial& material,
                                  const SurfaceModels& models, const OwnVertex& own, ForceAndBlock& sum) {
   const HingeReads reads = read_hinge(view, incidence, material);
-  const bool by_vertex = models.damping == compare::DampingForm::per_vertex, bends_isometrically = models.bending == compare::BendingModel::isometric_quadratic;
+  const bool by_vertex = models.damping == compare::DampingForm::per_vertex,
+             bends_isometrically = models.bending == compare::BendingModel::isometric_quadratic;
   SurfaceMaterial undamped = material;
   undamped.bending_damping = 0;
   ForceAndBlock elastic;
@@ -90,8 +100,8 @@ OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& in
   add_hinge_incidence(damper, reads, undamped, own.position, sum);
 }
 
-OGC_HD inline void add_any_spring(const SweepView& view, const SpringIncidence& incidence, const SurfaceModels& models, const OwnVertex& own,
-                                  ForceAndBlock& sum) {
+OGC_HD inline void add_any_spring(const SweepView& view, const SpringIncidence& incidence, const SurfaceModels& models,
+                                  const OwnVertex& own, ForceAndBlock& sum) {
   const SpringRest& spring = incidence.spring;
   Vec end[3];
   for (int k = 0; k < 3; ++k) end[k] = k == incidence.place ? own.position : view.read(incidence.index[k]);
@@ -117,7 +127,8 @@ struct AnyHinge {
   IsometricStencil isometric;
 };
 
-/// The springs of a vertex as a part of its sum. No lambdas: g++ and nvcc need not lay their captures out alike (fast/stages/colouring.cpp), and this part is handed on.
+/// The springs of a vertex as a part of its sum. No lambdas: g++ and nvcc need not lay their captures out alike
+/// (fast/stages/colouring.cpp), and this part is handed on.
 struct LoadSpring {
   const SpringIncidence* first;
 
@@ -128,9 +139,12 @@ struct AddSpring {
   SurfaceModels models;
   OwnVertex own;
 
-  OGC_HD void operator()(const SpringIncidence& spring, ForceAndBlock& sum) const { add_any_spring(view, spring, models, own, sum); }
+  OGC_HD void operator()(const SpringIncidence& spring, ForceAndBlock& sum) const {
+    add_any_spring(view, spring, models, own, sum);
+  }
 };
-OGC_HD inline Part<LoadSpring, AddSpring> spring_part(const SweepView& view, int slot, const SurfaceModels& models, const OwnVertex& own) {
+OGC_HD inline Part<LoadSpring, AddSpring> spring_part(const SweepView& view, int slot, const SurfaceModels& models,
+                                                      const OwnVertex& own) {
   SpringRow row;
   if (view.spring_rows != nullptr) row = view.spring_rows[slot];
   return part(row.count, LoadSpring{view.springs + row.begin}, AddSpring{view, models, own});
@@ -141,7 +155,8 @@ struct GatherEveryModel {
   static constexpr int parts = 5;
 
   template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own, const Team& team) const {
+  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                                  const Team& team) const {
     const ContactParts contacts{view, view.contact_rows[slot], view.activation};
     const SurfaceMaterial material = view.materials[vertex.body];
     const SurfaceModels models = view.models[vertex.body];
@@ -154,9 +169,15 @@ struct GatherEveryModel {
       return any;
     };
     return team.template sum<ForceAndBlock>(
-        part(vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
-             [&](const MembraneIncidence& membrane, ForceAndBlock& sum) { add_any_membrane(view, membrane, material, models, at, sum); }),
-        part(vertex.hinge_count, load_hinge, [&](const AnyHinge& any, ForceAndBlock& sum) { add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum); }),
+        part(
+            vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
+            [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
+              add_any_membrane(view, membrane, material, models, at, sum);
+            }),
+        part(vertex.hinge_count, load_hinge,
+             [&](const AnyHinge& any, ForceAndBlock& sum) {
+               add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum);
+             }),
         spring_part(view, slot, models, at), contacts.vertex_facet(), contacts.edge_edge());
   }
 };

@@ -1,14 +1,15 @@
-// The sum of a team of lanes, run by one thread. A sum has parts, one for each sort of term. Item k of a part belongs to lane k mod W; a lane adds its items
-// of one part in their order, then its parts in theirs; the lanes are added by a fixed tree. A team of any size, on any backend, that keeps this rule
-// gives the same bits, whether one thread or several warps run the parts; only W can change one.
+// The sum of a team of lanes, run by one thread. A sum has parts, one for each sort of term. Item k of a part belongs
+// to lane k mod W; a lane adds its items of one part in their order, then its parts in theirs; the lanes are added by a
+// fixed tree. A team of any size, on any backend, that keeps this rule gives the same bits, whether one thread or
+// several warps run the parts; only W can change one.
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"
 
 namespace ogc::fast {
 
-/// Terms k of a sum, 0 ≤ k < count: load(k) reads what nobody changes during the launch before this one, add(loaded, acc) reads the rest and adds. They are
-/// apart so that a device can load while that launch still runs.
+/// Terms k of a sum, 0 ≤ k < count: load(k) reads what nobody changes during the launch before this one, add(loaded,
+/// acc) reads the rest and adds. They are apart so that a device can load while that launch still runs.
 template <class Load, class Add>
 struct Part {
   int count;
@@ -21,7 +22,8 @@ OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
 }
 
-/// Terms of items begin + k that depend on nothing of the team's own, so that teams may compute each other's: term(load(item)) is an Accumulator.
+/// Terms of items begin + k that depend on nothing of the team's own, so that teams may compute each other's:
+/// term(load(item)) is an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
   int begin, count;
@@ -53,8 +55,8 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
-/// W lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum is -0 only of two -0, so leaving out the
-/// empty lanes of a part changes no bit.
+/// W lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum is -0
+/// only of two -0, so leaving out the empty lanes of a part changes no bit.
 template <int W>
 struct SerialTeam {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");

@@ -1,5 +1,5 @@
-// Truncation to the conservative bound (Eq. 27, 28) so that the position that is *stored* obeys it: the cut is made in double, each coordinate rounded
-// towards x_prev, and the stored result tested exactly.
+// Truncation to the conservative bound (Eq. 27, 28) so that the position that is *stored* obeys it: the cut is made in
+// double, each coordinate rounded towards x_prev, and the stored result tested exactly.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
@@ -12,9 +12,10 @@ struct Truncated {
   bool exceeded = false;
 };
 
-/// ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so the sum of three squares is at least (1 − u)⁵ of the
-/// exact one, and b² (1 − 16 u) in two roundings at most (1 + u)² (1 − 16 u) b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside
-/// 16 u b² where b² ≥ 2⁻¹⁰⁰. Contraction leaves roundings out and so cannot change what is certain. False where x is not finite.
+/// ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so the sum of
+/// three squares is at least (1 − u)⁵ of the exact one, and b² (1 − 16 u) in two roundings at most (1 + u)² (1 − 16 u)
+/// b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside 16 u b² where b² ≥ 2⁻¹⁰⁰. Contraction
+/// leaves roundings out and so cannot change what is certain. False where x is not finite.
 OGC_HD inline bool is_certainly_within_bound(const Vec& previous, const Vec& x, float bound) {
   const Vec step = x - previous;
   const float squared = bound * bound;
@@ -46,8 +47,8 @@ struct ExactTotal {
   }
 };
 
-/// ‖x − x_prev‖ ≤ b without rounding, for what two doubles cannot tell from the bound: true ties, and a coordinate of 10⁻²¹ beside one at the bound, which
-/// must not pass. A difference that does not fit into a double is beyond.
+/// ‖x − x_prev‖ ≤ b without rounding, for what two doubles cannot tell from the bound: true ties, and a coordinate of
+/// 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit into a double is beyond.
 OGC_HD inline bool is_exactly_within(const Vec& previous, const Vec& x, float bound) {
   const Vector<Wide> step = difference<Wide>(x, previous);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
@@ -71,7 +72,8 @@ OGC_HD inline bool is_within_bound(const Vec& previous, const Vec& x, float boun
 
 /// The float nearest to p + s (x − p) that is no farther from p.
 OGC_HD inline float towards(float p, float x, double s) {
-  const double step = mul(s, sub(static_cast<double>(x), static_cast<double>(p))), place = add(static_cast<double>(p), step);
+  const double step = mul(s, sub(static_cast<double>(x), static_cast<double>(p))),
+               place = add(static_cast<double>(p), step);
   return step > 0 ? round_down(place) : round_up(place);
 }
 
@@ -80,7 +82,8 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Vec previous, Vec x, 
   if (is_within_bound(previous, x, bound)) return {x, false};
   const Vector<Rounded> step = difference<Rounded>(x, previous);
   double s = divide(static_cast<double>(bound), square_root(dot(step, step).value));
-  // The second and third tries are for a step whose rounding in double crossed a float, with coordinates far larger than the bound.
+  // The second and third tries are for a step whose rounding in double crossed a float, with coordinates far larger
+  // than the bound.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Vec cut{towards(previous.x, x.x, s), towards(previous.y, x.y, s), towards(previous.z, x.z, s)};
     if (is_within_bound(previous, cut, bound)) return {cut, true};
@@ -89,8 +92,8 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Vec previous, Vec x, 
   return {previous, true};
 }
 
-/// x where it is within the bound, bit for bit; otherwise the point of the segment from x_prev at distance b, or just short of it. x_prev where x is
-/// not finite.
+/// x where it is within the bound, bit for bit; otherwise the point of the segment from x_prev at distance b, or just
+/// short of it. x_prev where x is not finite.
 OGC_HD inline Truncated truncate(const Vec& previous, const Vec& x, float bound) {
   if (is_certainly_within_bound(previous, x, bound)) return {x, false};
   return truncate_in_double(previous, x, bound);

@@ -1,5 +1,5 @@
-// Vectors over any number type: float for the sweep, the types of exact_sign.hpp for detection. `Vec` has the layout of compare::Vec3f, so positions
-// are copied, never converted.
+// Vectors over any number type: float for the sweep, the types of exact_sign.hpp for detection. `Vec` has the layout of
+// compare::Vec3f, so positions are copied, never converted.
 #pragma once
 
 #include "fast/kernels/qualifiers.hpp"

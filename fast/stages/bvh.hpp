@@ -1,5 +1,6 @@
-// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch; a rebuild is a refit in the old order, whose roots give
-// the extent, and one sort of the Hilbert keys of all three kinds together (a sort's time hardly depends on its length on a device).
+// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch; a rebuild is a refit
+// in the old order, whose roots give the extent, and one sort of the Hilbert keys of all three kinds together (a sort's
+// time hardly depends on its length on a device).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,8 @@ class Bvh {
  public:
   /// In index order until the first rebuild: correct, but slow.
   explicit Bvh(const SurfaceView& surface) : surface_(surface) {
-    const std::size_t total = static_cast<std::size_t>(surface.vertex_count) + surface.edge_count + surface.triangle_count;
+    const std::size_t total = static_cast<std::size_t>(surface.vertex_count) + surface.edge_count +
+                              surface.triangle_count;
     std::vector<int> order(total);
     std::iota(order.begin(), order.begin() + edges_at(), 0);
     std::iota(order.begin() + edges_at(), order.begin() + facets_at(), 0);
@@ -35,9 +37,15 @@ class Bvh {
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are rechecked. For for_each over its count().
+  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are
+  /// rechecked. For for_each over its count().
   RefitTrees refit(const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
-    return {{surface_, positions, query_radius, skin.state}, facets_, edges_, facet_arrivals_.data(), edge_arrivals_.data(), vertex_limit_.data(),
+    return {{surface_, positions, query_radius, skin.state},
+            facets_,
+            edges_,
+            facet_arrivals_.data(),
+            edge_arrivals_.data(),
+            vertex_limit_.data(),
             surface_.vertex_count};
   }
 

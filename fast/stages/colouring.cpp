@@ -1,5 +1,6 @@
-// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than g++, and of two inline copies of one
-// function the linker keeps one, so an inline function with a capturing lambda must not stand in a header that both compile.
+// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than
+// g++, and of two inline copies of one function the linker keeps one, so an inline function with a capturing lambda
+// must not stand in a header that both compile.
 #include "fast/stages/colouring.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ compare::CompressedRows conflict_graph(const RestState& rest) {
     for (int a = 0; a < n; ++a) {
       for (int b = 0; b < n; ++b) {
         const auto va = static_cast<std::size_t>(vertices[a]), vb = static_cast<std::size_t>(vertices[b]);
-        if (a != b && rest.mobility[va] == Mobility::free && rest.mobility[vb] == Mobility::free) neighbours[va].push_back(vertices[b]);
+        if (a != b && rest.mobility[va] == Mobility::free && rest.mobility[vb] == Mobility::free)
+          neighbours[va].push_back(vertices[b]);
       }
     }
   };
@@ -39,7 +41,8 @@ namespace {
 constexpr int uncoloured = -1;
 
 // The smallest colour that no neighbour has.
-int smallest_free_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, std::size_t v, std::vector<int>& seen, int stamp) {
+int smallest_free_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, std::size_t v,
+                         std::vector<int>& seen, int stamp) {
   for (const int u : graph[v]) {
     const int c = colour[static_cast<std::size_t>(u)];
     if (c == uncoloured) continue;
@@ -65,7 +68,8 @@ int colour_in_order(const compare::CompressedRows& graph, const std::vector<int>
 }
 
 // DSATUR: next is the vertex whose neighbours show most colours, then most neighbours, then the lowest number.
-std::vector<int> saturation_order(const compare::CompressedRows& graph, const std::vector<int>& vertices, std::vector<int>& colour) {
+std::vector<int> saturation_order(const compare::CompressedRows& graph, const std::vector<int>& vertices,
+                                  std::vector<int>& colour) {
   using Entry = std::array<int, 3>;
   std::vector<std::uint64_t> shown(colour.size(), 0);
   std::priority_queue<Entry> queue;
@@ -90,7 +94,8 @@ std::vector<int> saturation_order(const compare::CompressedRows& graph, const st
   return order;
 }
 
-// The vertices class by class: classes reversed on even passes, smallest first on odd ones. Greedy in such an order never needs a colour more.
+// The vertices class by class: classes reversed on even passes, smallest first on odd ones. Greedy in such an order
+// never needs a colour more.
 std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vector<int>& colour, int count, int pass) {
   std::vector<int> size(static_cast<std::size_t>(count)), rank(size.size());
   for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
@@ -98,21 +103,26 @@ std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vec
   if (pass % 2 == 0) {
     std::reverse(rank.begin(), rank.end());
   } else {
-    std::stable_sort(rank.begin(), rank.end(), [&](int a, int b) { return size[static_cast<std::size_t>(a)] > size[static_cast<std::size_t>(b)]; });
+    std::stable_sort(rank.begin(), rank.end(), [&](int a, int b) {
+      return size[static_cast<std::size_t>(a)] > size[static_cast<std::size_t>(b)];
+    });
   }
   std::vector<int> place(rank.size());
   for (std::size_t i = 0; i < rank.size(); ++i) place[static_cast<std::size_t>(rank[i])] = static_cast<int>(i);
   std::vector<int> order = vertices;
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return place[static_cast<std::size_t>(colour[static_cast<std::size_t>(a)])] < place[static_cast<std::size_t>(colour[static_cast<std::size_t>(b)])];
+    return place[static_cast<std::size_t>(colour[static_cast<std::size_t>(a)])] <
+           place[static_cast<std::size_t>(colour[static_cast<std::size_t>(b)])];
   });
   return order;
 }
 
 // A colour other than `own` and `banned` that no neighbour of v has, or -1.
-int other_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, int v, int count, int own, int banned) {
+int other_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, int v, int count, int own,
+                 int banned) {
   std::uint64_t taken = 0;
-  for (const int u : graph[static_cast<std::size_t>(v)]) taken |= std::uint64_t{1} << std::min(colour[static_cast<std::size_t>(u)], 63);
+  for (const int u : graph[static_cast<std::size_t>(v)])
+    taken |= std::uint64_t{1} << std::min(colour[static_cast<std::size_t>(u)], 63);
   for (int c = 0; c < std::min(count, 63); ++c) {
     if (c != own && c != banned && (taken >> c & 1) == 0) return c;
   }
@@ -138,7 +148,8 @@ bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v
 
 // Empties the last class into the others where a move of direct neighbours makes room; true where nothing of it is
 // left, which an only class never is.
-bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
+bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
+                         std::vector<int>& colour) {
   const int last = count - 1;
   bool empty = !vertices.empty();
   for (const int v : vertices) {
@@ -150,18 +161,22 @@ bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector
   return empty;
 }
 
-// Moves vertices from classes above the mean to the smallest class that no neighbour has, where that is smaller than their own.
-void balance(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count, std::vector<int>& colour) {
+// Moves vertices from classes above the mean to the smallest class that no neighbour has, where that is smaller than
+// their own.
+void balance(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
+             std::vector<int>& colour) {
   std::vector<int> size(static_cast<std::size_t>(count));
   for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
   std::vector<int> taken(size.size(), -1);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const auto v = static_cast<std::size_t>(vertices[i]);
-    for (const int u : graph[v]) taken[static_cast<std::size_t>(colour[static_cast<std::size_t>(u)])] = static_cast<int>(i);
+    for (const int u : graph[v])
+      taken[static_cast<std::size_t>(colour[static_cast<std::size_t>(u)])] = static_cast<int>(i);
     int best = colour[v];
     for (int c = 0; c < count; ++c) {
       const auto k = static_cast<std::size_t>(c);
-      if (taken[k] != static_cast<int>(i) && size[k] + (c == colour[v] ? 0 : 1) < size[static_cast<std::size_t>(best)]) best = c;
+      if (taken[k] != static_cast<int>(i) && size[k] + (c == colour[v] ? 0 : 1) < size[static_cast<std::size_t>(best)])
+        best = c;
     }
     --size[static_cast<std::size_t>(colour[v])];
     colour[v] = best;
@@ -169,7 +184,8 @@ void balance(const compare::CompressedRows& graph, const std::vector<int>& verti
   }
 }
 
-// From a greedy colouring in `order`: passes by class, and after each an attempt to empty the last class, which greedy leaves smallest.
+// From a greedy colouring in `order`: passes by class, and after each an attempt to empty the last class, which greedy
+// leaves smallest.
 int improve(const compare::CompressedRows& graph, std::vector<int> order, int passes, std::vector<int>& colour) {
   int count = colour_in_order(graph, order, colour);
   for (int pass = 0; pass < passes; ++pass) {
@@ -199,8 +215,8 @@ std::vector<std::vector<int>> components(const compare::CompressedRows& graph, c
 }
 
 // Balances each component by itself, so that equal ones keep equal colours, and turns the colours of the k-th by k:
-// vertices of identical cloths that face each other would otherwise be moved at once, each by the whole overlap of their
-// contact (method.md §7.3).
+// vertices of identical cloths that face each other would otherwise be moved at once, each by the whole overlap of
+// their contact (method.md §7.3).
 void balance_and_turn(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                       std::vector<int>& colour) {
   int turn = 0;
@@ -238,11 +254,13 @@ Colouring colour_vertices(const RestState& rest) {
   }
   balance_and_turn(graph, vertices, result.count, result.colour);
   result.order = vertices;
-  std::stable_sort(result.order.begin(), result.order.end(),
-                   [&](int a, int b) { return result.colour[static_cast<std::size_t>(a)] < result.colour[static_cast<std::size_t>(b)]; });
+  std::stable_sort(result.order.begin(), result.order.end(), [&](int a, int b) {
+    return result.colour[static_cast<std::size_t>(a)] < result.colour[static_cast<std::size_t>(b)];
+  });
   for (int c = 0; c < result.count; ++c) {
     const auto above = [&](int v) { return result.colour[static_cast<std::size_t>(v)] > c; };
-    result.begin.push_back(static_cast<int>(std::find_if(result.order.begin(), result.order.end(), above) - result.order.begin()));
+    result.begin.push_back(
+        static_cast<int>(std::find_if(result.order.begin(), result.order.end(), above) - result.order.begin()));
   }
   return result;
 }

@@ -1,4 +1,5 @@
-// A detection that grows its lists until nothing is missing: what the judge's probes and ContactFinder run. The simulation does the same with whole steps.
+// A detection that grows its lists until nothing is missing: what the judge's probes and ContactFinder run. The
+// simulation does the same with whole steps.
 #pragma once
 
 #include <span>
@@ -12,7 +13,8 @@ template <class Backend>
 class BackendContactEngine : public ContactEngine {
  public:
   /// `topology` must outlive the engine. `capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
-  BackendContactEngine(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions, int capacity = 0)
+  BackendContactEngine(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
+                       int capacity = 0)
       : backend_(backend), topology_(topology), detection_(backend, topology, exclusions, capacity, usual_skin) {}
 
   ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {

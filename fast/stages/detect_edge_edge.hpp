@@ -5,6 +5,8 @@
 
 namespace ogc::fast {
 
-inline Searches<DetectEdgeEdge> searches_of(const DetectEdgeEdge& query) { return {query.tree, query.surface.edge_count, query}; }
+inline Searches<DetectEdgeEdge> searches_of(const DetectEdgeEdge& query) {
+  return {query.tree, query.surface.edge_count, query};
+}
 
 }  // namespace ogc::fast

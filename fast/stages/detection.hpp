@@ -1,6 +1,7 @@
-// A whole detection: trees at the current positions and both queries, or a look at the pairs that a search kept; lists, bounds (Alg. 3 lines 4–19). All of it is enqueued, nothing waits and nothing
-// is allocated, so it may stand inside Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the needed size stays
-// that of the first detection that had no room, and the contacts of the last complete one are not mixed with others.
+// A whole detection: trees at the current positions and both queries, or a look at the pairs that a search kept; lists,
+// bounds (Alg. 3 lines 4–19). All of it is enqueued, nothing waits and nothing is allocated, so it may stand inside
+// Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the needed size stays that
+// of the first detection that had no room, and the contacts of the last complete one are not mixed with others.
 #pragma once
 
 #include <algorithm>
@@ -70,9 +71,10 @@ struct PrepareAndRefit {
   }
 };
 
-/// What a caller has done on the way, to spare launches: before(v) for each vertex, which may read the bounds that end with the detection and write nothing that
-/// it reads; in its last launch after(i) for 0 ≤ i < after_count, when overflow(), the incidences' rows and what stands in each are known (loose_incidences),
-/// and resolve(place, incidence) for each incidence.
+/// What a caller has done on the way, to spare launches: before(v) for each vertex, which may read the bounds that end
+/// with the detection and write nothing that it reads; in its last launch after(i) for 0 ≤ i < after_count, when
+/// overflow(), the incidences' rows and what stands in each are known (loose_incidences), and resolve(place, incidence)
+/// for each incidence.
 template <class Before = Decided, class After = Decided, class Resolve = Unresolved>
 struct OnTheWay {
   Before before{};
@@ -84,9 +86,10 @@ struct OnTheWay {
 template <class Backend>
 class Detection {
  public:
-  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`: largest
-  /// margin of the list of pairs as a part of r; 0 for none. It changes the time alone.
-  Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions, int capacity = 0, float skin = 0)
+  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`:
+  /// largest margin of the list of pairs as a part of r; 0 for none. It changes the time alone.
+  Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
+            int capacity = 0, float skin = 0)
       : backend_(backend),
         surface_(topology, exclusions),
         bvh_(surface_.view()),
@@ -100,11 +103,12 @@ class Detection {
     d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
 
-  /// New order of the trees for `positions`: worth its sort every few steps. Enqueued like a detection, and never needed for a right answer.
+  /// New order of the trees for `positions`: worth its sort every few steps. Enqueued like a detection, and never
+  /// needed for a right answer.
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
-  /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q = *query_radius ≥ r [m] (on the backend),
-  /// γ_p = bound_relaxation. A no-op while *overflow() is set.
+  /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q =
+  /// *query_radius ≥ r [m] (on the backend), γ_p = bound_relaxation. A no-op while *overflow() is set.
   template <class Before = Decided, class After = Decided, class Resolve = Unresolved>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
               const OnTheWay<Before, After, Resolve>& on_the_way = {}) {
@@ -116,8 +120,8 @@ class Detection {
                                            positions,
                                            places_.data(),
                                            {lists, surface.vertex_count},
-                                           {query_radius, lists.overflow, surface.vertex_count, surface.edge_count, surface.triangle_count, d_vertex,
-                                            d_edge, d_triangle}};
+                                           {query_radius, lists.overflow, surface.vertex_count, surface.edge_count,
+                                            surface.triangle_count, d_vertex, d_edge, d_triangle}};
     const int items = std::max(lists.buckets, surface.triangle_count);
     const RefitTrees refit = bvh_.refit(positions, query_radius, skin);
     if (skin_.is_used()) {
@@ -129,8 +133,9 @@ class Detection {
       backend_.for_each(RefitTrees::filled_up(std::max(items, refit.count())), PrepareAndRefit<Before>{prepare, refit});
     }
     const Places places{places_.data()};
-    const DetectVertexFacet vertex_facet{surface, places, bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists, skin, contact_radius,
-                                         d_vertex, d_triangle};
+    const DetectVertexFacet vertex_facet{
+        surface, places,         bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists,
+        skin,    contact_radius, d_vertex,      d_triangle};
     const DetectEdgeEdge edge_edge{surface, places, bvh_.edges(), lists, skin, contact_radius, d_edge};
     backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
     if (skin_.is_used()) {
@@ -138,25 +143,34 @@ class Detection {
       backend_.for_each(std::max({surface.vertex_count, surface.edge_count, surface.triangle_count}),
                         KeepAnchor{skin, surface, positions, d_vertex, d_edge, d_triangle});
     }
-    const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex, d_edge, d_triangle, bound_relaxation, lists.overflow,
-                                   bound_.data()};
-    lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, on_the_way.after_count, on_the_way.after, on_the_way.resolve);
+    const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex,       d_edge,
+                                   d_triangle,           bound_relaxation,         lists.overflow, bound_.data()};
+    lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, on_the_way.after_count,
+                    on_the_way.after, on_the_way.resolve);
   }
 
   /// Of the last complete detection; valid until grow() returns true.
   ContactView view() {
     const ListsView lists = lists_.view();
-    return {lists.vertex_facet,      lists.edge_edge,   lists_.vertex_facet_count(), lists_.edge_edge_count(),
-            lists.incidence_offsets, lists.incidences, bound_.data(),               d_min_vertex_.data()};
+    return {lists.vertex_facet,
+            lists.edge_edge,
+            lists_.vertex_facet_count(),
+            lists_.edge_edge_count(),
+            lists.incidence_offsets,
+            lists.incidences,
+            bound_.data(),
+            d_min_vertex_.data()};
   }
 
   /// Incidences in the rows of ContactView::incidence_offsets, in any order within one.
   const LooseIncidence* loose_incidences() { return lists_.view().loose; }
 
-  /// On the backend, not 0 once a list was too small. Work that must not run on incomplete sets asks this first; only grow() clears it.
+  /// On the backend, not 0 once a list was too small. Work that must not run on incomplete sets asks this first; only
+  /// grow() clears it.
   const int* overflow() const { return lists_.overflow(); }
 
-  /// Host only: enlarges what was too small and clears the flag; true where there was anything to do, and the detection has to be repeated.
+  /// Host only: enlarges what was too small and clears the flag; true where there was anything to do, and the detection
+  /// has to be repeated.
   bool grow() {
     const bool grown = lists_.grow();
     if (grown) skin_.forget();  // its detection may have ended half way
@@ -171,10 +185,14 @@ class Detection {
   int capacity() const { return lists_.capacity(); }
   /// Those of all lists, for `reserve` of another detection over the same surface.
   std::vector<std::int64_t> capacities() const { return {lists_.capacity(), lists_.noted_capacity()}; }
-  /// Host only: gives the lists the capacities that another detection had. Throws std::invalid_argument where they are not of such lists.
+  /// Host only: gives the lists the capacities that another detection had. Throws std::invalid_argument where they are
+  /// not of such lists.
   void reserve(const std::vector<std::int64_t>& capacities) {
-    const auto possible = [](std::int64_t capacity) { return capacity > 0 && capacity <= std::numeric_limits<int>::max(); };
-    if (capacities.size() != 2 || !std::all_of(capacities.begin(), capacities.end(), possible)) throw std::invalid_argument("capacities of other lists");
+    const auto possible = [](std::int64_t capacity) {
+      return capacity > 0 && capacity <= std::numeric_limits<int>::max();
+    };
+    if (capacities.size() != 2 || !std::all_of(capacities.begin(), capacities.end(), possible))
+      throw std::invalid_argument("capacities of other lists");
     lists_.reserve(static_cast<int>(capacities[0]), static_cast<int>(capacities[1]));
     skin_.forget();
   }

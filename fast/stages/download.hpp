@@ -1,5 +1,5 @@
-// From the backend to the host in the words of the contracts: arrays behind plain pointers, and the sets of a detection. For probes, traces and
-// ContactFinder; a step never waits for any of it.
+// From the backend to the host in the words of the contracts: arrays behind plain pointers, and the sets of a
+// detection. For probes, traces and ContactFinder; a step never waits for any of it.
 #pragma once
 
 #include <type_traits>
@@ -11,14 +11,16 @@
 
 namespace ogc::fast {
 
-static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>, "positions are copied, not converted");
+static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>,
+              "positions are copied, not converted");
 
 /// A face from SurfaceView's numbering.
 inline compare::Face face_of(int number, const compare::Topology& topology) {
   const int edges = static_cast<int>(topology.edges.size());
   if (number < topology.vertex_count) return {compare::FaceKind::vertex, number};
   number -= topology.vertex_count;
-  return number < edges ? compare::Face{compare::FaceKind::edge, number} : compare::Face{compare::FaceKind::triangle, number - edges};
+  return number < edges ? compare::Face{compare::FaceKind::edge, number}
+                        : compare::Face{compare::FaceKind::triangle, number - edges};
 }
 
 /// The lowest-numbered triangle that contains the face.
@@ -30,11 +32,13 @@ inline compare::Index owner_of(const compare::Face& face, const compare::Topolog
 
 /// One side of an edge–edge record.
 inline compare::Face side_of(const int (&vertices)[2], int edge) {
-  return vertices[1] < 0 ? compare::Face{compare::FaceKind::vertex, vertices[0]} : compare::Face{compare::FaceKind::edge, edge};
+  return vertices[1] < 0 ? compare::Face{compare::FaceKind::vertex, vertices[0]}
+                         : compare::Face{compare::FaceKind::edge, edge};
 }
 
 inline compare::EdgeEdgeContact contact_of(const EdgeEdgeRecord& record) {
-  return {side_of(record.first, record.first_edge), side_of(record.second, record.second_edge), record.first_edge, record.second_edge};
+  return {side_of(record.first, record.first_edge), side_of(record.second, record.second_edge), record.first_edge,
+          record.second_edge};
 }
 
 template <class T>
@@ -85,7 +89,8 @@ ContactSets download_contacts(Backend& backend, Detection<Backend>& detection, c
     const compare::Face face = face_of(faces[i], topology);
     sets.vertex_facet.push_back({records[i].vertex, face, owner_of(face, topology)});
   }
-  for (const EdgeEdgeRecord& record : download_items(backend, view.edge_edge, edge_edges)) sets.edge_edge.push_back(contact_of(record));
+  for (const EdgeEdgeRecord& record : download_items(backend, view.edge_edge, edge_edges))
+    sets.edge_edge.push_back(contact_of(record));
   return sets;
 }
 

@@ -1,4 +1,5 @@
-// The judge's way in to the blocks: each question is put to the predicates that the detections call, in the order in which they call them.
+// The judge's way in to the blocks: each question is put to the predicates that the detections call, in the order in
+// which they call them.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +22,24 @@ struct ProbeBlock {
 
   OGC_HD void operator()(int i) const {
     const compare::BlockQuestion& question = questions[i];
-    inside[i] = question.kind == compare::BlockQuestion::Kind::vertex_in_surface ? is_vertex_in_surface(question.of, question.face)
-                                                                                 : is_edge_in_edges(question.of, question.face);
+    inside[i] = question.kind == compare::BlockQuestion::Kind::vertex_in_surface
+                    ? is_vertex_in_surface(question.of, question.face)
+                    : is_edge_in_edges(question.of, question.face);
   }
 
  private:
   OGC_HD Ends ends(int e) const { return {positions[surface.edges[e].a], positions[surface.edges[e].b]}; }
 
-  OGC_HD static bool is_between(const Vec& x, const Ends& e) { return exact_sign(End{x, e.a, e.b}) > 0 && exact_sign(End{x, e.b, e.a}) > 0; }
+  OGC_HD static bool is_between(const Vec& x, const Ends& e) {
+    return exact_sign(End{x, e.a, e.b}) > 0 && exact_sign(End{x, e.b, e.a}) > 0;
+  }
 
   /// As in DetectVertexFacet::collect.
   OGC_HD bool is_vertex_in_surface(int v, const compare::Face& face) const {
     const Vec x = positions[v];
     if (face.kind == compare::FaceKind::vertex) return in_vertex_block(x, face.index, surface, positions);
-    if (face.kind == compare::FaceKind::edge) return is_between(x, ends(face.index)) && in_edge_block(x, face.index, surface, positions);
+    if (face.kind == compare::FaceKind::edge)
+      return is_between(x, ends(face.index)) && in_edge_block(x, face.index, surface, positions);
     const Facet& facet = surface.facets[face.index];
     const Corners corners{positions[facet.corner[0]], positions[facet.corner[1]], positions[facet.corner[2]]};
     return closest_feature(x, corners, facet.descending) == TriangleFeature::interior;
@@ -44,13 +49,16 @@ struct ProbeBlock {
   OGC_HD bool is_edge_in_edges(int e, const compare::Face& face) const {
     if (face.kind == compare::FaceKind::edge) {
       const bool is_first = face.index < e;
-      const EdgePairFeatures on = is_first ? closest_edge_features(ends(face.index), ends(e)) : closest_edge_features(ends(e), ends(face.index));
+      const EdgePairFeatures on = is_first ? closest_edge_features(ends(face.index), ends(e))
+                                           : closest_edge_features(ends(e), ends(face.index));
       return (is_first ? on.first : on.second) == EdgeFeature::interior;
     }
     const int v = face.index;
     const EdgeEnds& of = surface.edges[e];
-    if (exact_sign(End{positions[v], positions[of.a], positions[of.b]}) <= 0) return in_vertex_block(positions[of.a], v, surface, positions);
-    if (exact_sign(End{positions[v], positions[of.b], positions[of.a]}) <= 0) return in_vertex_block(positions[of.b], v, surface, positions);
+    if (exact_sign(End{positions[v], positions[of.a], positions[of.b]}) <= 0)
+      return in_vertex_block(positions[of.a], v, surface, positions);
+    if (exact_sign(End{positions[v], positions[of.b], positions[of.a]}) <= 0)
+      return in_vertex_block(positions[of.b], v, surface, positions);
     return in_vertex_block(of, v, surface, positions);
   }
 };
@@ -63,7 +71,9 @@ compare::BlockOut probe_block(Backend& backend, const compare::BlockIn& in) {
   const std::vector<compare::Vec3f> positions(in.positions.begin(), in.positions.end());
   const std::vector<compare::BlockQuestion> questions(in.questions.begin(), in.questions.end());
   backend.for_each(static_cast<int>(questions.size()),
-                   ProbeBlock{surface.view(), {memory.places(positions)}, memory.template in<compare::BlockQuestion>(questions),
+                   ProbeBlock{surface.view(),
+                              {memory.places(positions)},
+                              memory.template in<compare::BlockQuestion>(questions),
                               memory.template out<std::uint8_t>(out.inside, questions.size())});
   memory.fetch();
   return out;

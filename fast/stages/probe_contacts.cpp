@@ -2,7 +2,8 @@
 
 namespace ogc::fast {
 
-void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start, float friction, float slip_limit) {
+void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
+            float friction, float slip_limit) {
   const int i = static_cast<int>(batch.role.size()), v = 4 * i;
   const int count = compare::vertex_count(contact.sides);
   const bool edge_edge = contact.sides == compare::ContactSides::edge_edge;

@@ -1,5 +1,6 @@
-// The judge's way in to contacts: each case becomes one record of a detection, which makes its incidence as the sweep's stream does, mollifier included,
-// and is added by the functions that the sweep uses. Friction is asked about alone: a difference of sums with and without it would hold their rounding.
+// The judge's way in to contacts: each case becomes one record of a detection, which makes its incidence as the sweep's
+// stream does, mollifier included, and is added by the functions that the sweep uses. Friction is asked about alone: a
+// difference of sums with and without it would hold their rounding.
 #pragma once
 
 #include <array>
@@ -26,7 +27,8 @@ struct ContactBatch {
 };
 
 /// Adds a case and its friction.
-void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start, float friction, float slip_limit);
+void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
+            float friction, float slip_limit);
 
 /// Each contact alone, at its positions.
 struct ProbeContact {
@@ -45,7 +47,8 @@ struct ProbeContact {
     SweepView here = view;
     here.radius = radius[i];
     here.friction_limit = slip_limit[i];
-    ContactIncidence incidence = is_edge_edge[i] != 0 ? contact_of(tables, edge_edge[i]) : contact_of(tables, vertex_facet[i]);
+    ContactIncidence incidence = is_edge_edge[i] != 0 ? contact_of(tables, edge_edge[i])
+                                                      : contact_of(tables, vertex_facet[i]);
     incidence.own = slot_of_role(is_edge_edge[i] != 0, incidence.kind, role[i]);
     for (int k = 0; k < 4; ++k) {
       const int slot = slot_of_role(is_edge_edge[i] != 0, incidence.kind, k);
@@ -56,9 +59,12 @@ struct ProbeContact {
     const ContactAt at = contact_at(incidence, reads, here.radius);
     if (at.acts()) {
       ForceAndBlock normal;
-      const float normal_force = add_contact(activation[i], at.shape, at.weight, at.majorant, here.radius, incidence.stiffness, normal);
-      if (friction) add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
-      else sum = normal;
+      const float normal_force = add_contact(activation[i], at.shape, at.weight, at.majorant, here.radius,
+                                             incidence.stiffness, normal);
+      if (friction)
+        add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
+      else
+        sum = normal;
     }
     out.store(i, sum);
   }
@@ -72,14 +78,17 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   view.old = memory.places(batch.positions);
   view.start = {memory.places(batch.start)};
   // Without a body count the material of a pair is that of its second body, here of its case.
-  const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials), 0,
-                             memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.detected)};
+  const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials),
+                             0, memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.detected)};
   const std::size_t n = batch.role.size();
-  backend.for_each(static_cast<int>(n),
-                   ProbeContact{view, tables, memory.template in<VertexFacetRecord>(batch.vertex_facet), memory.template in<EdgeEdgeRecord>(batch.edge_edge),
-                                memory.template in<float>(batch.radius), memory.template in<float>(batch.slip_limit), memory.template in<int>(batch.role),
-                                memory.template in<std::uint8_t>(batch.is_edge_edge), memory.template in<std::uint8_t>(batch.together),
-                                memory.template in<ContactActivation>(batch.activation), friction, force_arrays(memory, out, n)});
+  backend.for_each(
+      static_cast<int>(n),
+      ProbeContact{view, tables, memory.template in<VertexFacetRecord>(batch.vertex_facet),
+                   memory.template in<EdgeEdgeRecord>(batch.edge_edge), memory.template in<float>(batch.radius),
+                   memory.template in<float>(batch.slip_limit), memory.template in<int>(batch.role),
+                   memory.template in<std::uint8_t>(batch.is_edge_edge),
+                   memory.template in<std::uint8_t>(batch.together),
+                   memory.template in<ContactActivation>(batch.activation), friction, force_arrays(memory, out, n)});
   memory.fetch();
   return out;
 }

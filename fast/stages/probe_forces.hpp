@@ -1,4 +1,5 @@
-// The judge's way in to the energies: each case becomes one incidence of the sweep's streams, made and added by the functions that the sweep uses.
+// The judge's way in to the energies: each case becomes one incidence of the sweep's streams, made and added by the
+// functions that the sweep uses.
 #pragma once
 
 #include <vector>
@@ -48,9 +49,12 @@ struct ProbeMembrane {
     const SurfaceModels models = view.models[i];
     const MembraneIncidence& incidence = view.membrane[i];
     const Vec own = view.old[3 * i];
-    const bool is_default = models.membrane == compare::MembraneModel::st_venant_kirchhoff && models.damping == compare::DampingForm::strain;
-    if (is_default) add_membrane_incidence(incidence, read_membrane(view, incidence, material), material, own, sum);
-    else if (models.membrane != compare::MembraneModel::none) add_any_membrane(view, incidence, material, models, {own, own - view.start[3 * i]}, sum);
+    const bool is_default = models.membrane == compare::MembraneModel::st_venant_kirchhoff &&
+                            models.damping == compare::DampingForm::strain;
+    if (is_default)
+      add_membrane_incidence(incidence, read_membrane(view, incidence, material), material, own, sum);
+    else if (models.membrane != compare::MembraneModel::none)
+      add_any_membrane(view, incidence, material, models, {own, own - view.start[3 * i]}, sum);
     out.store(i, sum);
   }
 };
@@ -101,8 +105,10 @@ struct ProbeBending {
     const SurfaceModels models = view.models[i];
     const HingeIncidence& incidence = view.hinges[i];
     const Vec at = view.old[own[i]];
-    const bool is_default = models.bending == compare::BendingModel::discrete_hinge && models.damping == compare::DampingForm::strain;
-    if (is_default) add_hinge_incidence(incidence, read_hinge(view, incidence, material), material, at, sum);
+    const bool is_default = models.bending == compare::BendingModel::discrete_hinge &&
+                            models.damping == compare::DampingForm::strain;
+    if (is_default)
+      add_hinge_incidence(incidence, read_hinge(view, incidence, material), material, at, sum);
     else if (models.bending != compare::BendingModel::none)
       add_any_hinge(view, incidence, view.isometric[i], material, models, {at, at - view.start[own[i]]}, sum);
     out.store(i, sum);
@@ -169,7 +175,8 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   std::vector<SurfaceModels> models;
   for (int i = 0; i < n; ++i) {
     const compare::SpringCase& c = in.cases[static_cast<std::size_t>(i)];
-    incidences.push_back(detail::spring_incidence({{3 * i, 3 * i + 1, 3 * i + 2}, c.stiffness, c.rest_length, c.damping, c.ratio}, c.own, colours));
+    incidences.push_back(detail::spring_incidence(
+        {{3 * i, 3 * i + 1, 3 * i + 2}, c.stiffness, c.rest_length, c.damping, c.ratio}, c.own, colours));
     models.push_back({compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
   }
   SweepView view;

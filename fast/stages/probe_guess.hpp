@@ -1,5 +1,6 @@
-// The judge's way in to the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step are those of a scene, so each case gets
-// kernels of its own, and a control of its own to count its cut; what is held has an incidence, in a round that holds contacts.
+// The judge's way in to the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step are
+// those of a scene, so each case gets kernels of its own, and a control of its own to count its cut; what is held has
+// an incidence, in a round that holds contacts.
 #pragma once
 
 #include <cstdint>
@@ -54,14 +55,26 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   typename Backend::template Buffer<StepControl> control;
   control.upload(controls.data(), n);
   Vec *target = memory.template out<Vec>(out.target, n), *position = memory.template out<Vec>(out.position, n);
-  const BeginVertex begin{memory.template in<Vec>(column(in, &Case::start)), memory.template in<Vec>(column(in, &Case::velocity)),
-                          memory.template in<int>(std::vector<int>(n, -1)), nullptr, {}, {}, {}, position, target,
+  const BeginVertex begin{memory.template in<Vec>(column(in, &Case::start)),
+                          memory.template in<Vec>(column(in, &Case::velocity)),
+                          memory.template in<int>(std::vector<int>(n, -1)),
+                          nullptr,
+                          {},
+                          {},
+                          {},
+                          position,
+                          target,
                           nullptr};
-  const GuessVertex guess{target, memory.template in<Vec>(column(in, &Case::previous)), memory.template in<float>(column(in, &Case::bound)),
-                          memory.template in<int>(offsets), position, nullptr};
-  backend.for_each(static_cast<int>(n), ProbeGuess{begin, guess, memory.template in<Vec>(column(in, &Case::acceleration)),
-                                                   memory.template in<float>(column(in, &Case::time_step)), control.data(),
-                                                   memory.template out<std::uint8_t>(out.cut, n)});
+  const GuessVertex guess{target,
+                          memory.template in<Vec>(column(in, &Case::previous)),
+                          memory.template in<float>(column(in, &Case::bound)),
+                          memory.template in<int>(offsets),
+                          position,
+                          nullptr};
+  backend.for_each(static_cast<int>(n),
+                   ProbeGuess{begin, guess, memory.template in<Vec>(column(in, &Case::acceleration)),
+                              memory.template in<float>(column(in, &Case::time_step)), control.data(),
+                              memory.template out<std::uint8_t>(out.cut, n)});
   memory.fetch();
   return out;
 }

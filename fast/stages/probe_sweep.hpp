@@ -1,5 +1,6 @@
-// The judge's way in to the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of the question in place of its own.
-// Incidences are filled and ordered by the functors of the detection (FillIncidences, RankIncidences), so the sums have the order that they have in a step.
+// The judge's way in to the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
+// the question in place of its own. Incidences are filled and ordered by the functors of the detection (FillIncidences,
+// RankIncidences), so the sums have the order that they have in a step.
 #pragma once
 
 #include <span>
@@ -32,7 +33,8 @@ class ProbeContacts {
  public:
   ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count)
       : backend_(backend), count_(records.offsets.back()) {
-    const auto facets = static_cast<int>(records.vertex_facet.size()), edges = static_cast<int>(records.edge_edge.size());
+    const auto facets = static_cast<int>(records.vertex_facet.size()),
+               edges = static_cast<int>(records.edge_edge.size());
     overflow_.resize(1);
     overflow_.fill_zero();
     vertex_facet_.upload(records.vertex_facet.data(), records.vertex_facet.size());

@@ -1,4 +1,5 @@
-// The judge's way in: each stage as a function from its In to its Out that runs the very kernels and launches of the simulation.
+// The judge's way in: each stage as a function from its In to its Out that runs the very kernels and launches of the
+// simulation.
 #pragma once
 
 #include <cstdint>
@@ -44,9 +45,11 @@ compare::ClosestFaceOut probe_closest_face(Backend& backend, const compare::Clos
   ProbeMemory<Backend> memory(backend);
   compare::ClosestFaceOut out;
   const std::size_t n = in.point.size();
-  backend.for_each(static_cast<int>(n), ProbeClosestFace{memory.template in<Vec>(in.point), memory.template in<Corners>(in.triangle),
-                                                         memory.template out<TriangleFeature>(out.feature, n), memory.template out<Vec>(out.weights, n),
-                                                         memory.template out<float>(out.distance, n), memory.template out<float>(out.distance_below, n)});
+  backend.for_each(
+      static_cast<int>(n),
+      ProbeClosestFace{memory.template in<Vec>(in.point), memory.template in<Corners>(in.triangle),
+                       memory.template out<TriangleFeature>(out.feature, n), memory.template out<Vec>(out.weights, n),
+                       memory.template out<float>(out.distance, n), memory.template out<float>(out.distance_below, n)});
   memory.fetch();
   return out;
 }
@@ -81,12 +84,14 @@ compare::ClosestPointsOut probe_closest_points(Backend& backend, const compare::
   ProbeMemory<Backend> memory(backend);
   compare::ClosestPointsOut out;
   const std::size_t n = in.first.size();
-  backend.for_each(
-      static_cast<int>(n),
-      ProbeClosestPoints{memory.template in<Ends>(in.first), memory.template in<Ends>(in.second), memory.template out<EdgeFeature>(out.first_feature, n),
-                         memory.template out<EdgeFeature>(out.second_feature, n), memory.template out<std::uint8_t>(out.nearly_parallel, n),
-                         memory.template out<StoredParameters>(out.parameters, n), memory.template out<float>(out.contact_distance, n),
-                         memory.template out<float>(out.distance_below, n)});
+  backend.for_each(static_cast<int>(n),
+                   ProbeClosestPoints{memory.template in<Ends>(in.first), memory.template in<Ends>(in.second),
+                                      memory.template out<EdgeFeature>(out.first_feature, n),
+                                      memory.template out<EdgeFeature>(out.second_feature, n),
+                                      memory.template out<std::uint8_t>(out.nearly_parallel, n),
+                                      memory.template out<StoredParameters>(out.parameters, n),
+                                      memory.template out<float>(out.contact_distance, n),
+                                      memory.template out<float>(out.distance_below, n)});
   memory.fetch();
   return out;
 }
@@ -104,11 +109,14 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
   ProbeMemory<Backend> memory(backend);
   compare::BoundOut out;
   const std::vector<int> no_overflow{0};
-  const auto distances = [&memory](std::span<const float> d) { return memory.template in<float>(std::vector<float>(d.begin(), d.end())); };
-  backend.for_each(view.vertex_count,
-                   ConservativeBound{view.vertex_edges, view.vertex_triangles, distances(in.d_min_vertex), distances(in.d_min_edge),
-                                     distances(in.d_min_triangle), in.bound_relaxation, memory.template in<int>(no_overflow),
-                                     memory.template out<float>(out.bound, in.d_min_vertex.size())});
+  const auto distances = [&memory](std::span<const float> d) {
+    return memory.template in<float>(std::vector<float>(d.begin(), d.end()));
+  };
+  backend.for_each(
+      view.vertex_count,
+      ConservativeBound{view.vertex_edges, view.vertex_triangles, distances(in.d_min_vertex), distances(in.d_min_edge),
+                        distances(in.d_min_triangle), in.bound_relaxation, memory.template in<int>(no_overflow),
+                        memory.template out<float>(out.bound, in.d_min_vertex.size())});
   memory.fetch();
   return out;
 }
@@ -131,11 +139,12 @@ compare::ActivationOut probe_activation(Backend& backend, const compare::Activat
   ProbeMemory<Backend> memory(backend);
   compare::ActivationOut out;
   const std::size_t n = in.distance.size();
-  backend.for_each(static_cast<int>(n),
-                   ProbeActivation{memory.template in<float>(in.distance), memory.template in<float>(in.contact_radius),
-                                   memory.template in<float>(in.stiffness), memory.template in<ContactActivation>(in.activation),
-                                   memory.template out<float>(out.energy, n),
-                                   memory.template out<float>(out.slope, n), memory.template out<float>(out.curvature, n)});
+  backend.for_each(
+      static_cast<int>(n),
+      ProbeActivation{memory.template in<float>(in.distance), memory.template in<float>(in.contact_radius),
+                      memory.template in<float>(in.stiffness), memory.template in<ContactActivation>(in.activation),
+                      memory.template out<float>(out.energy, n), memory.template out<float>(out.slope, n),
+                      memory.template out<float>(out.curvature, n)});
   memory.fetch();
   return out;
 }
@@ -159,22 +168,28 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   compare::TruncateOut out;
   const std::size_t n = in.position.size();
   backend.for_each(static_cast<int>(n),
-                   ProbeTruncate{memory.template in<Vec>(in.previous), memory.template in<Vec>(in.position), memory.template in<float>(in.bound),
-                                 memory.template out<Vec>(out.position, n), memory.template out<std::uint8_t>(out.exceeded, n)});
+                   ProbeTruncate{memory.template in<Vec>(in.previous), memory.template in<Vec>(in.position),
+                                 memory.template in<float>(in.bound), memory.template out<Vec>(out.position, n),
+                                 memory.template out<std::uint8_t>(out.exceeded, n)});
   memory.fetch();
   return out;
 }
 
-/// A contestant with the stages of this header; `start` is left to the backend's own file. A step takes a backend of its own.
+/// A contestant with the stages of this header; `start` is left to the backend's own file. A step takes a backend of
+/// its own.
 template <class Backend, class Fresh = Backend (*)()>
-compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> backend, Fresh fresh = [] { return Backend{}; }) {
+compare::Contestant probe_contestant(
+    std::string name, std::shared_ptr<Backend> backend, Fresh fresh = [] { return Backend{}; }) {
   compare::Contestant contestant;
   contestant.name = std::move(name);
   contestant.closest_face = [backend](const compare::ClosestFaceIn& in) { return probe_closest_face(*backend, in); };
-  contestant.closest_points = [backend](const compare::ClosestPointsIn& in) { return probe_closest_points(*backend, in); };
+  contestant.closest_points = [backend](const compare::ClosestPointsIn& in) {
+    return probe_closest_points(*backend, in);
+  };
   contestant.detect_vertex_facet = [backend](const compare::DetectIn& in) {
     ContactSets sets = probe_detection(*backend, in);
-    return compare::DetectVertexFacetOut{std::move(sets.vertex_facet), std::move(sets.d_min_vertex), std::move(sets.d_min_triangle)};
+    return compare::DetectVertexFacetOut{std::move(sets.vertex_facet), std::move(sets.d_min_vertex),
+                                         std::move(sets.d_min_triangle)};
   };
   contestant.detect_edge_edge = [backend](const compare::DetectIn& in) {
     ContactSets sets = probe_detection(*backend, in);
@@ -187,7 +202,9 @@ compare::Contestant probe_contestant(std::string name, std::shared_ptr<Backend> 
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
   contestant.spring = [backend](const compare::SpringIn& in) { return probe_spring(*backend, in); };
   contestant.contact_force = [backend](const compare::ContactForceIn& in) { return probe_contact_force(*backend, in); };
-  contestant.friction_force = [backend](const compare::FrictionForceIn& in) { return probe_friction_force(*backend, in); };
+  contestant.friction_force = [backend](const compare::FrictionForceIn& in) {
+    return probe_friction_force(*backend, in);
+  };
   contestant.block = [backend](const compare::BlockIn& in) { return probe_block(*backend, in); };
   contestant.initial_guess = [backend](const compare::InitialGuessIn& in) { return probe_initial_guess(*backend, in); };
   contestant.rest_state = [](const compare::RestStateIn& in) { return rest_state_out(in); };

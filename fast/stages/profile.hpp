@@ -10,7 +10,9 @@ namespace ogc::fast {
 
 enum class StepStage : int { begin, detection, initial_guess, sweep, metrics };
 
-inline std::vector<std::string> step_stage_names() { return {"begin", "detection", "initial_guess", "sweep", "metrics"}; }
+inline std::vector<std::string> step_stage_names() {
+  return {"begin", "detection", "initial_guess", "sweep", "metrics"};
+}
 
 template <class Backend>
 class StageClock {

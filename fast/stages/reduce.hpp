@@ -1,6 +1,7 @@
-// Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the size of the mesh alone: item i goes to chunk
-// i mod C, C = 1024 or, for large meshes, 32768; chunks are added in runs of 32 until 32 rows are left, then those; no backend and no number of threads can
-// change a bit. A chunk is one thread's work. All kinds of items are added in one launch: a launch of its own for each would take as long as that.
+// Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the size of the
+// mesh alone: item i goes to chunk i mod C, C = 1024 or, for large meshes, 32768; chunks are added in runs of 32 until
+// 32 rows are left, then those; no backend and no number of threads can change a bit. A chunk is one thread's work. All
+// kinds of items are added in one launch: a launch of its own for each would take as long as that.
 #pragma once
 
 #include <utility>

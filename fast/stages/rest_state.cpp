@@ -1,5 +1,5 @@
-// Both ways to a rest state, from a scene and from an answer to the judge, share what no rounding enters. ∇N₀ is made of the stored ∇N₁ and ∇N₂: two
-// gradients tell the third, and an answer that carries two says all.
+// Both ways to a rest state, from a scene and from an answer to the judge, share what no rounding enters. ∇N₀ is made
+// of the stored ∇N₁ and ∇N₂: two gradients tell the third, and an answer that carries two says all.
 #include "fast/stages/rest_state.hpp"
 
 #include <algorithm>
@@ -22,17 +22,22 @@ RestState without_shape(const compare::Scene& scene) {
   const double h = scene.settings.time_step;
   for (const compare::Body& body : scene.bodies) {
     if (body.fixed) {
-      for (int v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v) rest.mobility[at(v)] = Mobility::fixed;
+      for (int v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v)
+        rest.mobility[at(v)] = Mobility::fixed;
     }
     rest.materials.push_back({static_cast<float>(body.material.lame_lambda), static_cast<float>(body.material.lame_mu),
-                              static_cast<float>(body.material.membrane_damping / h), static_cast<float>(body.material.bending_damping / h)});
+                              static_cast<float>(body.material.membrane_damping / h),
+                              static_cast<float>(body.material.bending_damping / h)});
     rest.models.push_back({body.material.membrane, body.material.bending, scene.settings.damping});
   }
   rest.activation = scene.settings.activation;
   for (const compare::Spring& spring : scene.springs) {
     const int third = spring.ratio > 0 ? spring.third : spring.second;
-    rest.springs.push_back({{spring.first, spring.second, third}, static_cast<float>(spring.stiffness), static_cast<float>(spring.rest_length),
-                            static_cast<float>(spring.damping / h), static_cast<float>(spring.ratio)});
+    rest.springs.push_back({{spring.first, spring.second, third},
+                            static_cast<float>(spring.stiffness),
+                            static_cast<float>(spring.rest_length),
+                            static_cast<float>(spring.damping / h),
+                            static_cast<float>(spring.ratio)});
   }
   for (const compare::PrescribedMotion& motion : scene.motions) {
     for (const int v : motion.vertices) rest.mobility[at(v)] = Mobility::prescribed;
@@ -41,7 +46,8 @@ RestState without_shape(const compare::Scene& scene) {
 }
 
 void complete_gradient(TriangleRest& triangle) {
-  for (int axis = 0; axis < 2; ++axis) triangle.gradient[0][axis] = -(triangle.gradient[1][axis] + triangle.gradient[2][axis]);
+  for (int axis = 0; axis < 2; ++axis)
+    triangle.gradient[0][axis] = -(triangle.gradient[1][axis] + triangle.gradient[2][axis]);
 }
 
 void add_triangles(const compare::Scene& scene, int number, std::vector<double>& mass, RestState& rest) {
@@ -72,15 +78,16 @@ void add_masses(const compare::Scene& scene, RestState& rest) {
   for (std::size_t v = 0; v < mass.size(); ++v) {
     rest.mass.push_back(static_cast<float>(mass[v]));
     if (rest.mobility[v] == Mobility::free && !(rest.mass[v] > 0)) {
-      throw compare::InputError(
-          compare::ElementNames(scene).vertex(static_cast<compare::Index>(v)) +
-          " moves but has no mass: give it a triangle and a density above zero, "
-          "or hold it by a motion or a fixed body");
+      throw compare::InputError(compare::ElementNames(scene).vertex(static_cast<compare::Index>(v)) +
+                                " moves but has no mass: give it a triangle and a density above zero, "
+                                "or hold it by a motion or a fixed body");
     }
   }
 }
 
-bool bends_isometrically(const compare::Body& body) { return !body.fixed && body.material.bending == compare::BendingModel::isometric_quadratic; }
+bool bends_isometrically(const compare::Body& body) {
+  return !body.fixed && body.material.bending == compare::BendingModel::isometric_quadratic;
+}
 
 void add_hinges(const compare::Scene& scene, const compare::Topology& topology, RestState& rest) {
   const auto& p = scene.rest_positions;
@@ -90,8 +97,11 @@ void add_hinges(const compare::Scene& scene, const compare::Topology& topology, 
     const int number = rest.body[at(edge[0])];
     const compare::Body& body = scene.bodies[at(number)];
     if (body.fixed || body.material.bending == compare::BendingModel::none) continue;
-    const RestHinge shape = rest_hinge(p[at(edge[0])], p[at(edge[1])], p[at(hinge.opposite[0])], p[at(hinge.opposite[1])]);
-    rest.hinges.push_back({{edge[0], edge[1], hinge.opposite[0], hinge.opposite[1]}, number, static_cast<float>(shape.angle),
+    const RestHinge shape = rest_hinge(p[at(edge[0])], p[at(edge[1])], p[at(hinge.opposite[0])],
+                                       p[at(hinge.opposite[1])]);
+    rest.hinges.push_back({{edge[0], edge[1], hinge.opposite[0], hinge.opposite[1]},
+                           number,
+                           static_cast<float>(shape.angle),
                            static_cast<float>(body.material.bending_stiffness * shape.factor)});
     if (!weighted) continue;
     rest.weights.emplace_back();
@@ -112,7 +122,8 @@ void add_contact_materials(const compare::Scene& scene, RestState& rest) {
     for (const compare::Body& b : scene.bodies) {
       const double ka = a.material.contact_stiffness, kb = b.material.contact_stiffness;
       const double harmonic = ka > 0 ? 2 * ka * kb / (ka + kb) : 0;
-      rest.contact.push_back({static_cast<float>(harmonic), static_cast<float>((a.material.friction + b.material.friction) / 2)});
+      rest.contact.push_back(
+          {static_cast<float>(harmonic), static_cast<float>((a.material.friction + b.material.friction) / 2)});
     }
   }
 }
@@ -132,7 +143,9 @@ compare::RestStateOut rest_state_out(const compare::RestStateIn& in) {
   const RestState rest = build_rest_state(*in.scene, *in.topology);
   compare::RestStateOut out{rest.mass, {}, {}, rest.edge_length_squared, {}};
   for (const TriangleRest& t : rest.triangles) {
-    out.triangles.push_back({{t.corner[0], t.corner[1], t.corner[2]}, t.body, t.area,
+    out.triangles.push_back({{t.corner[0], t.corner[1], t.corner[2]},
+                             t.body,
+                             t.area,
                              {{{t.gradient[1][0], t.gradient[1][1]}, {t.gradient[2][0], t.gradient[2][1]}}}});
   }
   for (std::size_t i = 0; i < rest.hinges.size(); ++i) {
@@ -150,8 +163,10 @@ RestState rest_state_of(const compare::RestStateIn& in, const compare::RestState
   rest.mass = out.mass;
   rest.edge_length_squared = out.edge_length_squared;
   for (const compare::RestTriangle& t : out.triangles) {
-    TriangleRest triangle{{t.corner[0], t.corner[1], t.corner[2]}, t.body,
-                          {{}, {t.gradient[0][0], t.gradient[0][1]}, {t.gradient[1][0], t.gradient[1][1]}}, t.area};
+    TriangleRest triangle{{t.corner[0], t.corner[1], t.corner[2]},
+                          t.body,
+                          {{}, {t.gradient[0][0], t.gradient[0][1]}, {t.gradient[1][0], t.gradient[1][1]}},
+                          t.area};
     complete_gradient(triangle);
     rest.triangles.push_back(triangle);
   }

@@ -1,5 +1,5 @@
-// Rest data of a scene, made once on the host in double and rounded once. Triangles and hinges without energy (fixed bodies, models `none`) are left
-// out here, so that no later stage has to ask.
+// Rest data of a scene, made once on the host in double and rounded once. Triangles and hinges without energy (fixed
+// bodies, models `none`) are left out here, so that no later stage has to ask.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,18 @@ namespace ogc::fast {
 enum class Mobility : std::uint8_t { free, prescribed, fixed };
 
 struct RestState {
-  std::vector<float> mass;             ///< m_v [kg]: a third of each incident triangle's; 0 on fixed bodies
+  std::vector<float> mass;  ///< m_v [kg]: a third of each incident triangle's; 0 on fixed bodies
   std::vector<Mobility> mobility;
-  std::vector<int> body;               ///< of each vertex
+  std::vector<int> body;  ///< of each vertex
   std::vector<TriangleRest> triangles;
   std::vector<HingeRest> hinges;
-  std::vector<HingeWeights> weights;       ///< by hinge; empty where no body bends isometrically
+  std::vector<HingeWeights> weights;  ///< by hinge; empty where no body bends isometrically
   std::vector<SpringRest> springs;
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<SurfaceMaterial> materials;  ///< by body
   std::vector<SurfaceModels> models;       ///< by body
   ContactActivation activation = ContactActivation::ogc;
-  std::vector<ContactMaterial> contact;    ///< of bodies a and b, at a · bodies + b
+  std::vector<ContactMaterial> contact;  ///< of bodies a and b, at a · bodies + b
 };
 
 /// Throws InputError for bodies that move and have edges without triangles: there is no energy for them here.

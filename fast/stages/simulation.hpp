@@ -1,5 +1,5 @@
-// A resident simulation: state on the backend, a frame of steps enqueued at once, rows read once a frame. The host acts between frames only: it grows the
-// lists where a step found no room and goes on at that step.
+// A resident simulation: state on the backend, a frame of steps enqueued at once, rows read once a frame. The host acts
+// between frames only: it grows the lists where a step found no room and goes on at that step.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,10 @@ namespace ogc::fast {
 template <class Backend>
 class ResidentSimulation : public compare::Simulation {
  public:
-  /// `device`: what device() answers. `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists grow by themselves.
-  ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options, std::string device, int list_capacity = 0)
+  /// `device`: what device() answers. `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists
+  /// grow by themselves.
+  ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options,
+                     std::string device, int list_capacity = 0)
       : backend_(std::move(backend)),
         device_(std::move(device)),
         scene_(rounded(scene)),
@@ -31,12 +33,15 @@ class ResidentSimulation : public compare::Simulation {
         detection_(backend_, topology_, exclusions_, list_capacity),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
-        moving_(static_cast<std::size_t>(std::count_if(rest_.mobility.begin(), rest_.mobility.end(), [](Mobility m) { return m != Mobility::fixed; }))),
-        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
+        moving_(static_cast<std::size_t>(std::count_if(rest_.mobility.begin(), rest_.mobility.end(),
+                                                       [](Mobility m) { return m != Mobility::fixed; }))),
+        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies),
+              static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
     sweep_.reserve_contacts(4 * detection_.capacity());
-    const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions), velocities = compare::to_single(scene_.velocities);
+    const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),
+                                      velocities = compare::to_single(scene_.velocities);
     upload_motion(positions, velocities);
   }
 
@@ -44,7 +49,8 @@ class ResidentSimulation : public compare::Simulation {
     std::vector<compare::StepMetrics> rows;
     std::int64_t repeats = 0;
     while (static_cast<std::int64_t>(rows.size()) < steps) {
-      const int count = static_cast<int>(std::min<std::int64_t>(steps - static_cast<std::int64_t>(rows.size()), longest_frame));
+      const int count = static_cast<int>(
+          std::min<std::int64_t>(steps - static_cast<std::int64_t>(rows.size()), longest_frame));
       const StepControl control = run(count, repeats, rows);
       if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) break;
       if (control.status != 0) {
@@ -55,7 +61,8 @@ class ResidentSimulation : public compare::Simulation {
     return rows;
   }
 
-  /// advance(1), told event by event: of a step that was repeated because a list grew, the last attempt. Needs SimulationOptions::profile; changes no bit.
+  /// advance(1), told event by event: of a step that was repeated because a list grew, the last attempt. Needs
+  /// SimulationOptions::profile; changes no bit.
   compare::StepOut trace() {
     StepTrace<Backend> trace(backend_, state_, detection_, topology_);
     step_.observe(&trace);
@@ -92,7 +99,9 @@ class ResidentSimulation : public compare::Simulation {
     lists_moved();
   }
 
-  std::vector<std::string> stage_names() const override { return clock_.on() ? step_stage_names() : std::vector<std::string>{}; }
+  std::vector<std::string> stage_names() const override {
+    return clock_.on() ? step_stage_names() : std::vector<std::string>{};
+  }
   std::string device() const override { return device_; }
 
   const Colouring& colouring() const { return colouring_; }
@@ -167,13 +176,15 @@ class ResidentSimulation : public compare::Simulation {
     for (int k = 1; k <= count; ++k) {
       const double t = static_cast<double>(step_number_ + k) * scene_.settings.time_step;
       for (const compare::PrescribedMotion& motion : scene_.motions) {
-        for (const compare::Vec3f& x : compare::prescribed_targets(scene_, motion, t)) targets.push_back({x.x, x.y, x.z});
+        for (const compare::Vec3f& x : compare::prescribed_targets(scene_, motion, t))
+          targets.push_back({x.x, x.y, x.z});
       }
     }
     if (!targets.empty()) state_.prescribed_targets.upload(targets.data(), targets.size());
   }
 
-  /// Up to `count` steps; adds a row for each that took place, and for the one that failed. Returns the control at the end.
+  /// Up to `count` steps; adds a row for each that took place, and for the one that failed. Returns the control at the
+  /// end.
   StepControl run(int count, std::int64_t& repeats, std::vector<compare::StepMetrics>& rows) {
     StepControl control;
     control.active = 1;
@@ -198,14 +209,18 @@ class ResidentSimulation : public compare::Simulation {
       rows.push_back(std::move(row));
     }
     std::int64_t redetections = 0;
-    for (int k = 0; k < control.steps_done; ++k) redetections += device_rows[static_cast<std::size_t>(k)].detections - device_rows[static_cast<std::size_t>(k)].rounds;
-    if (control.steps_done > 0) group_ = iterations_in_group(redetections, control.steps_done, static_cast<int>(scene_.settings.iterations));
+    for (int k = 0; k < control.steps_done; ++k)
+      redetections += device_rows[static_cast<std::size_t>(k)].detections -
+                      device_rows[static_cast<std::size_t>(k)].rounds;
+    if (control.steps_done > 0)
+      group_ = iterations_in_group(redetections, control.steps_done, static_cast<int>(scene_.settings.iterations));
     step_number_ += control.steps_done;
     query_radius_ = control.query_radius;
     return control;
   }
 
-  /// Each step is timed by the backend; where stages are timed too nothing is recorded, so that the clock can stand between them.
+  /// Each step is timed by the backend; where stages are timed too nothing is recorded, so that the clock can stand
+  /// between them.
   void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
     if (!clock_.on()) {
       backend_.replay(recordings_[group_ > 1 ? 1 : 0], count, [this] { step_.enqueue(group_); });

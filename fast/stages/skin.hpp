@@ -1,5 +1,6 @@
-// Memory of the list with a skin (fast/kernels/skin.hpp). Unlike the other lists it may be too small: then a detection searches, and the host, when it looks
-// the next time, gives the list more room. It begins with room for few pairs, since many callers never need it.
+// Memory of the list with a skin (fast/kernels/skin.hpp). Unlike the other lists it may be too small: then a detection
+// searches, and the host, when it looks the next time, gives the list more room. It begins with room for few pairs,
+// since many callers never need it.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +22,14 @@ class Skin {
     forget();
     if (!is_used()) return;
     anchor_.resize(size(surface.vertex_count));
-    vertex_.resize(size(surface.vertex_count)), edge_.resize(size(surface.edge_count)), triangle_.resize(size(surface.triangle_count));
+    vertex_.resize(size(surface.vertex_count)), edge_.resize(size(surface.edge_count)),
+        triangle_.resize(size(surface.triangle_count));
     pairs_.resize(size(capacity_));
   }
 
   SkinView view(float contact_radius) {
-    return {state_.data(), share_ * contact_radius, contact_radius, pairs_.data(), capacity_, anchor_.data(), vertex_.data(), edge_.data(), triangle_.data()};
+    return {state_.data(),  share_ * contact_radius, contact_radius, pairs_.data(),   capacity_,
+            anchor_.data(), vertex_.data(),          edge_.data(),   triangle_.data()};
   }
 
   /// Whether a detection may ever do anything but search.
@@ -38,7 +41,8 @@ class Skin {
     state_.upload(&fresh, 1);
   }
 
-  /// Host only: room for half as many pairs again as the longest list had, where that found none; true where something moved.
+  /// Host only: room for half as many pairs again as the longest list had, where that found none; true where something
+  /// moved.
   bool make_room() {
     const SkinState now = state();
     const int most = std::max(now.most, now.count);

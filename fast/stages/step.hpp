@@ -1,14 +1,17 @@
-// The step of Algorithm 3 with the guess loop of method.md §5.2, as one sequence of calls that is the same for every step: what happens is decided by flags on
-// the device, so the sequence can be recorded once and nothing in it waits for the host.
+// The step of Algorithm 3 with the guess loop of method.md §5.2, as one sequence of calls that is the same for every
+// step: what happens is decided by flags on the device, so the sequence can be recorded once and nothing in it waits
+// for the host.
 //
 //   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
-//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then xᵗ and x as places, for the sweep
-//   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due, X_prev ← x, detect before the next
+//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then xᵗ and x as
+//               places, for the sweep
+//   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
+//               X_prev ← x, detect before the next
 //   finish      certificate; commit and sums only if clean; one row
 //
-// A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or is thrown away, and xᵗ, vᵗ stay.
-// Only detections, sorts and iterations after a detection stand inside `when` and `repeat`, which cost a device as much as ten kernels; all else works on arrays
-// that are whole even then.
+// A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or
+// is thrown away, and xᵗ, vᵗ stay. Only detections, sorts and iterations after a detection stand inside `when` and
+// `repeat`, which cost a device as much as ten kernels; all else works on arrays that are whole even then.
 #pragma once
 
 #include <algorithm>
@@ -36,12 +39,15 @@ struct StepSettings {
   ControlSettings control;
 };
 
-/// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order ages slowly (fast/PERFORMANCE.md).
+/// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order
+/// ages slowly (fast/PERFORMANCE.md).
 inline constexpr int steps_between_sorts = 16;
 
-/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in four iterations (counted in
-/// fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
-inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) { return 4 * redetections < steps * iterations ? 5 : 1; }
+/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in
+/// four iterations (counted in fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
+inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) {
+  return 4 * redetections < steps * iterations ? 5 : 1;
+}
 
 /// `moving`: K, the number of free and prescribed vertices.
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
@@ -51,12 +57,14 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.contact_radius = static_cast<float>(from.contact_radius);
   to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
   to.bound_relaxation = static_cast<float>(from.bound_relaxation);
-  to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y), static_cast<float>(scene.gravity.z)};
+  to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
+                     static_cast<float>(scene.gravity.z)};
   to.iterations = static_cast<int>(from.iterations);
   to.energies = energies;
   to.control.contact_radius = to.contact_radius;
   to.control.largest_query_radius = static_cast<float>(from.query_radius_cap * from.contact_radius);
-  to.control.cut_threshold = std::max(1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
+  to.control.cut_threshold = std::max(
+      1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
   to.control.redetect_every = static_cast<int>(from.redetect_every);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;
@@ -64,8 +72,8 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   return to;
 }
 
-/// Resident arrays of a simulation. The sweep gathers from `places`, its two position buffers one after the other, and from `start_places`; detection and all
-/// else read `position`, the same numbers closer together.
+/// Resident arrays of a simulation. The sweep gathers from `places`, its two position buffers one after the other, and
+/// from `start_places`; detection and all else read `position`, the same numbers closer together.
 template <class Backend>
 struct StepState {
   template <class T>
@@ -89,8 +97,9 @@ struct StepState {
   Buffer<double> sums_guess, sums_end;
 };
 
-/// Follows a step from the host, part by part, whether or not the part took place (StepControl counts those that did). For traces (fast/stages/trace.hpp):
-/// it needs a clock that is on, because a recorded step has no host between its parts.
+/// Follows a step from the host, part by part, whether or not the part took place (StepControl counts those that did).
+/// For traces (fast/stages/trace.hpp): it needs a clock that is on, because a recorded step has no host between its
+/// parts.
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
@@ -103,39 +112,49 @@ template <class Backend>
 class Step {
  public:
   /// For a mesh of `vertices`; `state` is filled later.
-  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings,
-       int vertices)
-      : backend_(backend), state_(state), detection_(detection), sweep_(sweep), clock_(clock), settings_(settings), reduction_(backend, vertices) {}
+  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
+       StageClock<Backend>& clock, StepSettings settings, int vertices)
+      : backend_(backend),
+        state_(state),
+        detection_(detection),
+        sweep_(sweep),
+        clock_(clock),
+        settings_(settings),
+        reduction_(backend, vertices) {}
 
   /// Null: nobody.
   void observe(StepObserver* observer) { observer_ = observer; }
 
-  /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`: iterations that are asked together whether a
-  /// detection is due; it changes the time alone.
+  /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`:
+  /// iterations that are asked together whether a detection is due; it changes the time alone.
   void enqueue(int group) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(); });
     guess_loop();
     for (int i = 0; i < settings_.iterations; i += clock_.on() ? 1 : group) {
-      if (clock_.on()) timed_iteration(i);
-      else iterate(i, std::min(group, settings_.iterations - i));
+      if (clock_.on())
+        timed_iteration(i);
+      else
+        iterate(i, std::min(group, settings_.iterations - i));
     }
     clock_.time(StepStage::metrics, [&] { finish(); });
   }
 
  private:
   StepControl* control() { return state_.control.data(); }
-  const int* flag(int StepControl::* member) { return &(control()->*member); }
+  const int* flag(int StepControl::*member) { return &(control()->*member); }
   void observe(compare::StepEventKind part) {
     if (observer_ != nullptr) observer_->after(part, state_.position.data());
   }
 
   void begin() {
     StepState<Backend>& s = state_;
-    backend_.when(BeginStep{control(), settings_.control}, flag(&StepControl::sort), [&] { detection_.rebuild(s.start.data()); });
+    backend_.when(BeginStep{control(), settings_.control}, flag(&StepControl::sort),
+                  [&] { detection_.rebuild(s.start.data()); });
     backend_.for_each(s.vertex_count,
-                      BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(), s.prescribed_targets.data(), s.prescribed_count,
-                                  settings_.acceleration, settings_.step, s.position.data(), s.target.data(), control()});
+                      BeginVertex{s.start.data(), s.velocity.data(), s.prescribed_number.data(),
+                                  s.prescribed_targets.data(), s.prescribed_count, settings_.acceleration,
+                                  settings_.step, s.position.data(), s.target.data(), control()});
     if (s.damped) {
       backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
       backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
@@ -148,15 +167,17 @@ class Step {
     const ContactView view = detection_.view();
     const BeginBounds before{position, view.bound, state_.previous.data(), control()};
     const Both after{EndDetection{control(), detection_.overflow()}, 1,
-                     sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), detection_.overflow()), sweep_.slots()};
-    detection_.detect(position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
-                      OnTheWay{before, std::max(1, sweep_.slots()), after, sweep_.resolve_contact(view, state_.previous.data())});
+                     sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), detection_.overflow()),
+                     sweep_.slots()};
+    detection_.detect(
+        position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
+        OnTheWay{before, std::max(1, sweep_.slots()), after, sweep_.resolve_contact(view, state_.previous.data())});
   }
 
   void guess() {
     const ContactView view = detection_.view();
-    backend_.for_each(state_.vertex_count,
-                      GuessVertex{state_.target.data(), state_.previous.data(), view.bound, view.incidence_offsets, state_.position.data(), control()});
+    backend_.for_each(state_.vertex_count, GuessVertex{state_.target.data(), state_.previous.data(), view.bound,
+                                                       view.incidence_offsets, state_.position.data(), control()});
   }
 
   void guess_loop() {
@@ -164,7 +185,8 @@ class Step {
     const ChooseQueryRadius choose{control(), settings_.control};
     const EndRound end{control(), settings_.control};
     if (!clock_.on()) {
-      backend_.repeat(choose, again, [&] { detect(), guess(); }, end);
+      backend_.repeat(
+          choose, again, [&] { detect(), guess(); }, end);
     } else {
       backend_.for_each(1, choose);
       for (int round = 0; round < settings_.control.guess_rounds; ++round) timed_round(again, end);
@@ -172,7 +194,8 @@ class Step {
     clock_.time(StepStage::initial_guess, [&] {
       reduction_.sum(state_.sums_guess.data(), vertices());
       const StepState<Backend>& s = state_;
-      backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), state_.start_places.data(), state_.places.data(), s.vertex_count});
+      backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), state_.start_places.data(),
+                                                   state_.places.data(), s.vertex_count});
     });
   }
 
@@ -180,13 +203,15 @@ class Step {
   void timed_round(const int* again, const EndRound& end) {
     clock_.time(StepStage::detection, [&] { backend_.when(Decided{}, again, [&] { detect(); }); });
     observe(compare::StepEventKind::detection);
-    clock_.time(StepStage::initial_guess, [&] { backend_.when(Decided{}, again, [&] { guess(), backend_.for_each(1, end); }); });
+    clock_.time(StepStage::initial_guess,
+                [&] { backend_.when(Decided{}, again, [&] { guess(), backend_.for_each(1, end); }); });
     observe(compare::StepEventKind::guess);
   }
 
-  /// Iterations `first` to `first` + `count` − 1, each followed by a detection where one is due. A question costs a device ten launches (`when`), an iteration
-  /// that is not its turn a tenth of one. So all of them are enqueued, and those after one that asked for a detection do nothing; then, as long as one is due, it is
-  /// made and they are enqueued again.
+  /// Iterations `first` to `first` + `count` − 1, each followed by a detection where one is due. A question costs a
+  /// device ten launches (`when`), an iteration that is not its turn a tenth of one. So all of them are enqueued, and
+  /// those after one that asked for a detection do nothing; then, as long as one is due, it is made and they are
+  /// enqueued again.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
@@ -197,9 +222,13 @@ class Step {
       }
     };
     up_to_last(first, Start::after_previous);
-    if (count > 1) backend_.repeat(end(last), due, [&] { detect(), up_to_last(first + 1, Start::after_previous); }, end(last));
-    else if (first + 1 < settings_.iterations) backend_.when(end(first), due, [&] { detect(); });
-    else backend_.for_each(1, end(first));
+    if (count > 1)
+      backend_.repeat(
+          end(last), due, [&] { detect(), up_to_last(first + 1, Start::after_previous); }, end(last));
+    else if (first + 1 < settings_.iterations)
+      backend_.when(end(first), due, [&] { detect(); });
+    else
+      backend_.for_each(1, end(first));
   }
 
   /// Iteration i for a clock and an observer.
@@ -239,13 +268,17 @@ class Step {
   void finish() {
     StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
-    backend_.for_each(s.vertex_count,
-                      CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(), s.prescribed_number.data(), control()});
+    backend_.for_each(s.vertex_count, CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(),
+                                                  s.prescribed_number.data(), control()});
     backend_.for_each(1, EndCheck{control()});
-    if (settings_.energies) reduction_.sum(s.sums_end.data(), vertices(energies()));
-    else reduction_.sum(s.sums_end.data(), vertices());
-    backend_.for_each(s.vertex_count, CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
-    backend_.for_each(1, FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
+    if (settings_.energies)
+      reduction_.sum(s.sums_end.data(), vertices(energies()));
+    else
+      reduction_.sum(s.sums_end.data(), vertices());
+    backend_.for_each(s.vertex_count,
+                      CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
+    backend_.for_each(1,
+                      FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
   }
 
   // What is summed up for reports.
@@ -253,8 +286,10 @@ class Step {
   template <class Rest = NoItems>
   auto vertices(const Rest& rest = {}) {
     const StepState<Backend>& s = state_;
-    return items(s.vertex_count, VertexTerm{s.position.data(), s.start.data(), s.target.data(), s.mass.data(), s.prescribed_number.data(), settings_.acceleration,
-                                            static_cast<double>(settings_.step)}, rest);
+    return items(s.vertex_count,
+                 VertexTerm{s.position.data(), s.start.data(), s.target.data(), s.mass.data(),
+                            s.prescribed_number.data(), settings_.acceleration, static_cast<double>(settings_.step)},
+                 rest);
   }
 
   auto energies() {
@@ -262,11 +297,16 @@ class Step {
     const Vec* position = s.position.data();
     const ContactView view = detection_.view();
     const ContactTables tables = sweep_.tables(s.previous.data());
-    const auto edge_edge = items(view.edge_edge_count, EdgeEdgeTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
-    const auto contacts = items(view.vertex_facet_count, VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius}, edge_edge);
+    const auto edge_edge = items(view.edge_edge_count,
+                                 EdgeEdgeTerm{view, tables, position, sweep_.activation(), settings_.contact_radius});
+    const auto contacts = items(view.vertex_facet_count,
+                                VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius},
+                                edge_edge);
     const auto springs = items(s.spring_count, SpringTerm{s.springs.data(), position}, contacts);
-    const auto hinges = items(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position}, springs);
-    return items(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position}, hinges);
+    const auto hinges = items(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position},
+                              springs);
+    return items(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position},
+                 hinges);
   }
 
   Backend& backend_;

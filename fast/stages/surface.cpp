@@ -1,5 +1,6 @@
-// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than g++, and of two inline copies of one
-// function the linker keeps one, so an inline function with a capturing lambda must not stand in a header that both compile.
+// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than
+// g++, and of two inline copies of one function the linker keeps one, so an inline function with a capturing lambda
+// must not stand in a header that both compile.
 #include "fast/stages/surface.hpp"
 
 #include <algorithm>
@@ -80,14 +81,15 @@ class SeedFinder {
   bool has_pair(int e, int v) const {
     const auto& neighbours = topology_.vertex_neighbours[static_cast<std::size_t>(v)];
     return is_apart(v, edge(e)) && std::any_of(neighbours.begin(), neighbours.end(), [&](int w) {
-      return is_apart(w, edge(e)) && !(is_rigid(v, edge(e)) && is_rigid(w, edge(e)));
-    });
+             return is_apart(w, edge(e)) && !(is_rigid(v, edge(e)) && is_rigid(w, edge(e)));
+           });
   }
 
   /// Some triangle at e forms a pair with v.
   bool has_facet_pair(int v, int e) const {
     const auto triangles = topology_.edge_triangles[static_cast<std::size_t>(e)];
-    return std::any_of(triangles.begin(), triangles.end(), [&](int t) { return is_pair(v, topology_.triangles[static_cast<std::size_t>(t)]); });
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [&](int t) { return is_pair(v, topology_.triangles[static_cast<std::size_t>(t)]); });
   }
 
   const compare::Topology& topology_;
@@ -107,7 +109,8 @@ Facet facet_of(const compare::Topology& topology, std::size_t t) {
   return facet;
 }
 
-Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const compare::CompressedRows* partners, const std::vector<Facet>& facets) {
+Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
+                 const compare::CompressedRows* partners, const std::vector<Facet>& facets) {
   const SeedFinder finder(topology, groups, partners);
   Seeds seeds;
   for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e) seeds.edges.push_back(finder.of_edge(e));

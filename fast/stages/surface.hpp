@@ -21,7 +21,8 @@ struct Seeds {
 };
 
 /// `groups`: one number for each vertex; `partners`: null where there is none (compare/problem/exclusions.hpp).
-Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups, const compare::CompressedRows* partners, const std::vector<Facet>& facets);
+Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
+                 const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 
 template <class Backend>
 class Surface {
@@ -33,7 +34,9 @@ class Surface {
     std::vector<Facet> facets(topology.triangles.size());
     for (std::size_t t = 0; t < facets.size(); ++t) facets[t] = facet_of(topology, t);
     std::vector<EdgeEnds> edges(topology.edges.size());
-    std::transform(topology.edges.begin(), topology.edges.end(), edges.begin(), [](const compare::Edge& e) { return EdgeEnds{e[0], e[1]}; });
+    std::transform(topology.edges.begin(), topology.edges.end(), edges.begin(), [](const compare::Edge& e) {
+      return EdgeEnds{e[0], e[1]};
+    });
     facets_.upload(facets.data(), facets.size());
     edges_.upload(edges.data(), edges.size());
     neighbours_.upload(topology.vertex_neighbours);
@@ -49,9 +52,20 @@ class Surface {
   }
 
   SurfaceView view() const {
-    return {vertex_count_,        edge_count_,        triangle_count_,      facets_.data(),           edges_.data(),
-            neighbours_.view(),   opposites_.view(),  vertex_edges_.view(), vertex_triangles_.view(), groups_.data(),
-            edge_seeds_.data(),   facet_seeds_.data(), vertex_seeds_.data(), has_partners_ ? partners_.view() : Rows{}};
+    return {vertex_count_,
+            edge_count_,
+            triangle_count_,
+            facets_.data(),
+            edges_.data(),
+            neighbours_.view(),
+            opposites_.view(),
+            vertex_edges_.view(),
+            vertex_triangles_.view(),
+            groups_.data(),
+            edge_seeds_.data(),
+            facet_seeds_.data(),
+            vertex_seeds_.data(),
+            has_partners_ ? partners_.view() : Rows{}};
   }
 
  private:

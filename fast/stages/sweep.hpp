@@ -1,5 +1,6 @@
-// The sweep (Alg. 4): streams of stencils in the order in which the sweep reads them, made once on the host; the contact stream, made after each
-// detection on the device; and the launches of one iteration. Every sum has the width W, the one thing beside the input that may change a bit.
+// The sweep (Alg. 4): streams of stencils in the order in which the sweep reads them, made once on the host; the
+// contact stream, made after each detection on the device; and the launches of one iteration. Every sum has the width
+// W, the one thing beside the input that may change a bit.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 
 namespace ogc::fast {
 
-/// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes cannot fill a device otherwise.
+/// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes
+/// cannot fill a device otherwise.
 inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : (vertices <= 100000 ? 8 : 4); }
 
 /// The streams on the host, slot by slot in the order of the colouring.
@@ -25,7 +27,7 @@ struct SweepStreams {
   std::vector<HingeIncidence> hinges;
   std::vector<IsometricStencil> isometric;  ///< beside `hinges`; empty where no body bends isometrically
   std::vector<SpringIncidence> springs;
-  std::vector<SpringRow> spring_rows;       ///< by slot; empty where there is no spring
+  std::vector<SpringRow> spring_rows;  ///< by slot; empty where there is no spring
 };
 
 namespace detail {
@@ -35,19 +37,21 @@ inline int encoded(int vertex, const std::vector<int>& colour, int own_colour) {
   return colour[static_cast<std::size_t>(vertex)] < own_colour ? ~vertex : vertex;
 }
 
-inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle, int corner, const std::vector<int>& colour) {
+inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle, int corner,
+                                            const std::vector<int>& colour) {
   const TriangleRest& shape = rest.triangles[static_cast<std::size_t>(triangle)];
   const int b = (corner + 1) % 3, c = (corner + 2) % 3, own = colour[static_cast<std::size_t>(shape.corner[corner])];
   MembraneIncidence incidence;
   incidence.index[0] = encoded(shape.corner[b], colour, own);
   incidence.index[1] = encoded(shape.corner[c], colour, own);
   incidence.triangle = triangle;
-  incidence.stencil = {{shape.gradient[b][0], shape.gradient[b][1]}, {shape.gradient[c][0], shape.gradient[c][1]}, shape.area};
+  incidence.stencil = {
+      {shape.gradient[b][0], shape.gradient[b][1]}, {shape.gradient[c][0], shape.gradient[c][1]}, shape.area};
   return incidence;
 }
 
-/// The other vertices of a hinge as a vertex of this role lists them. Role 0, 1: an end of the edge; 2, 3: an opposite vertex. Exchanging both pairs at once keeps
-/// the angle (fast/kernels/bending.hpp).
+/// The other vertices of a hinge as a vertex of this role lists them. Role 0, 1: an end of the edge; 2, 3: an opposite
+/// vertex. Exchanging both pairs at once keeps the angle (fast/kernels/bending.hpp).
 inline constexpr int hinge_others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
 
 inline HingeIncidence hinge_incidence(const RestState& rest, int hinge, int role, const std::vector<int>& colour) {
@@ -63,7 +67,9 @@ inline HingeIncidence hinge_incidence(const RestState& rest, int hinge, int role
 /// Weights in the order of the hinge's incidence; that of x0 is made of the stored ones and rounded once.
 inline IsometricStencil isometric_stencil(const HingeWeights& rest, int role) {
   const float* w = rest.weight;
-  const float all[4] = {static_cast<float>(-static_cast<double>(w[0]) - static_cast<double>(w[1]) - static_cast<double>(w[2])), w[0], w[1], w[2]};
+  const float all[4] = {
+      static_cast<float>(-static_cast<double>(w[0]) - static_cast<double>(w[1]) - static_cast<double>(w[2])), w[0],
+      w[1], w[2]};
   IsometricStencil stencil;
   stencil.own = all[role];
   for (int k = 0; k < 3; ++k) stencil.other[k] = all[hinge_others[role][k]];
@@ -72,12 +78,16 @@ inline IsometricStencil isometric_stencil(const HingeWeights& rest, int role) {
 
 inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const std::vector<int>& colour) {
   const int own = colour[static_cast<std::size_t>(spring.end[end])];
-  return {{encoded(spring.end[0], colour, own), encoded(spring.end[1], colour, own), encoded(spring.end[2], colour, own)}, end, spring};
+  return {
+      {encoded(spring.end[0], colour, own), encoded(spring.end[1], colour, own), encoded(spring.end[2], colour, own)},
+      end,
+      spring};
 }
 
 /// (element, role) of each vertex, by element; −1 for a vertex: nobody has that role.
 template <class Element, class Vertices>
-std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_count, const std::vector<Element>& elements, Vertices vertices, int roles) {
+std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_count, const std::vector<Element>& elements,
+                                                         Vertices vertices, int roles) {
   std::vector<std::vector<std::pair<int, int>>> rows(vertex_count);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     for (int role = 0; role < roles; ++role) {
@@ -92,9 +102,13 @@ std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_coun
 
 /// `step` is h [s].
 inline SweepStreams build_streams(const RestState& rest, const Colouring& colouring, double step) {
-  const auto triangles = detail::incidences(rest.mass.size(), rest.triangles, [](const TriangleRest& t) { return t.corner; }, 3);
-  const auto hinges = detail::incidences(rest.mass.size(), rest.hinges, [](const HingeRest& hinge) { return hinge.vertex; }, 4);
-  const auto with_roles = [](const SpringRest& s) { return std::vector<int>{s.end[0], s.end[1], end_count(s) == 3 ? s.end[2] : -1}; };
+  const auto triangles = detail::incidences(
+      rest.mass.size(), rest.triangles, [](const TriangleRest& t) { return t.corner; }, 3);
+  const auto hinges = detail::incidences(
+      rest.mass.size(), rest.hinges, [](const HingeRest& hinge) { return hinge.vertex; }, 4);
+  const auto with_roles = [](const SpringRest& s) {
+    return std::vector<int>{s.end[0], s.end[1], end_count(s) == 3 ? s.end[2] : -1};
+  };
   const auto springs = detail::incidences(rest.mass.size(), rest.springs, with_roles, 3);
   SweepStreams streams;
   for (const int v : colouring.order) {
@@ -107,14 +121,18 @@ inline SweepStreams build_streams(const RestState& rest, const Colouring& colour
     vertex.membrane_count = static_cast<int>(triangles[i].size());
     vertex.hinge_begin = static_cast<int>(streams.hinges.size());
     vertex.hinge_count = static_cast<int>(hinges[i].size());
-    for (const auto& [triangle, corner] : triangles[i]) streams.membrane.push_back(detail::membrane_incidence(rest, triangle, corner, colouring.colour));
+    for (const auto& [triangle, corner] : triangles[i])
+      streams.membrane.push_back(detail::membrane_incidence(rest, triangle, corner, colouring.colour));
     for (const auto& [hinge, role] : hinges[i]) {
       streams.hinges.push_back(detail::hinge_incidence(rest, hinge, role, colouring.colour));
-      if (!rest.weights.empty()) streams.isometric.push_back(detail::isometric_stencil(rest.weights[static_cast<std::size_t>(hinge)], role));
+      if (!rest.weights.empty())
+        streams.isometric.push_back(detail::isometric_stencil(rest.weights[static_cast<std::size_t>(hinge)], role));
     }
-    if (!rest.springs.empty()) streams.spring_rows.push_back({static_cast<int>(streams.springs.size()), static_cast<int>(springs[i].size())});
+    if (!rest.springs.empty())
+      streams.spring_rows.push_back({static_cast<int>(streams.springs.size()), static_cast<int>(springs[i].size())});
     for (const auto& [spring, end] : springs[i])
-      streams.springs.push_back(detail::spring_incidence(rest.springs[static_cast<std::size_t>(spring)], end, colouring.colour));
+      streams.springs.push_back(
+          detail::spring_incidence(rest.springs[static_cast<std::size_t>(spring)], end, colouring.colour));
     streams.vertices.push_back(vertex);
   }
   return streams;
@@ -135,14 +153,16 @@ inline bool needs_every_model(const RestState& rest) {
   return !std::all_of(rest.models.begin(), rest.models.end(), are_default);
 }
 
-/// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each iteration (positions, bounds, control).
+/// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each
+/// iteration (positions, bounds, control).
 template <class Backend>
 class Sweep {
  public:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology, const compare::Scene& scene)
+  Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology,
+        const compare::Scene& scene)
       : backend_(backend),
         colour_begin_(colouring.begin),
         colours_(colouring.count),
@@ -191,17 +211,21 @@ class Sweep {
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return static_cast<int>(vertices_.size()); }
-  /// What makes the stream of a detection at `detected`: the rows, and the incidences as they get their places. Where *off is not 0 the old stream stays, which is whole.
+  /// What makes the stream of a detection at `detected`: the rows, and the incidences as they get their places. Where
+  /// *off is not 0 the old stream stays, which is whole.
   template <class Item>
   CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* off) {
     return {incidence_offsets, incidences, off, vertices_.data(), contact_rows_.data()};
   }
-  ResolveContact resolve_contact(const ContactView& view, const Vec* detected) { return {view, tables(detected), colour_.data(), contacts_.data()}; }
+  ResolveContact resolve_contact(const ContactView& view, const Vec* detected) {
+    return {view, tables(detected), colour_.data(), contacts_.data()};
+  }
 
   /// The stream of contacts that are there already.
   void resolve_contacts(const ContactView& view, const Vec* detected) {
-    backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr), view.incidence_offsets + vertex_count_,
-                      static_cast<int>(contacts_.size()), resolve_contact(view, detected));
+    backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr),
+                      view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
+                      resolve_contact(view, detected));
   }
 
   /// The streams of this sweep in a view; positions, targets and control are the caller's.
@@ -219,18 +243,21 @@ class Sweep {
     view.activation = activation_;
   }
 
-  /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each cut counted. `start`: overlapping after a
-  /// launch that writes nothing of what a sweep reads but whose turn it is.
+  /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each
+  /// cut counted. `start`: overlapping after a launch that writes nothing of what a sweep reads but whose turn it is.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
-    backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});  // writes what a colour reads after its wait alone
+    // writes what a colour reads after its wait alone
+    backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const int count = colour_begin_[k + 1] - colour_begin_[k];
       const bool is_first = c == 0 && prescribed == 0, asks_late = is_first && start == Start::overlapping;
       const Start own_start = is_first ? start : Start::overlapping;
-      if (every_model_) update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k], asks_late}, own_start);
-      else update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k], asks_late}, own_start);
+      if (every_model_)
+        update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k], asks_late}, own_start);
+      else
+        update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k], asks_late}, own_start);
     }
   }
 

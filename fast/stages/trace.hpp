@@ -1,4 +1,5 @@
-// What the judge sees of a step: the resident simulation's own, event by event. Only parts that took place become events; the control's counters tell.
+// What the judge sees of a step: the resident simulation's own, event by event. Only parts that took place become
+// events; the control's counters tell.
 #pragma once
 
 #include <utility>
@@ -13,7 +14,8 @@ namespace ogc::fast {
 template <class Backend>
 class StepTrace : public StepObserver {
  public:
-  StepTrace(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, const compare::Topology& topology)
+  StepTrace(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection,
+            const compare::Topology& topology)
       : backend_(backend), state_(state), detection_(detection), topology_(topology) {}
 
   void begin() override {

@@ -1,4 +1,5 @@
-// Fifty decimal digits: after the worst cancellation of the printed form (d close to τ, logarithms of metres) more than thirty are left.
+// Fifty decimal digits: after the worst cancellation of the printed form (d close to τ, logarithms of metres) more than
+// thirty are left.
 #include "reference/energies/activation.hpp"
 
 #include <algorithm>
@@ -37,10 +38,14 @@ ActivationValue activation_at(ContactActivation kind, double distance, double co
   if (distance >= contact_radius) return {};
   using Once = Derivative<Precise, 1>;
   using Twice = Derivative<Once, 1>;
-  const Twice g = activation_energy(kind, Twice(Once(Precise(distance), 0), 0), Twice(Once(Precise(contact_radius))), Twice(Once(Precise(stiffness))));
+  const Twice g = activation_energy(kind, Twice(Once(Precise(distance), 0), 0), Twice(Once(Precise(contact_radius))),
+                                    Twice(Once(Precise(stiffness))));
   ActivationValue value{plain(g.value.value), plain(g.value.slope[0]), plain(g.slope[0].slope[0])};
-  const bool logarithmic = (kind == ContactActivation::ogc || kind == ContactActivation::ogc_as_printed) && 2 * distance < contact_radius;
-  const double terms = logarithmic ? printed_terms(kind == ContactActivation::ogc_as_printed, distance, contact_radius, stiffness) : value.energy;
+  const bool logarithmic = (kind == ContactActivation::ogc || kind == ContactActivation::ogc_as_printed) &&
+                           2 * distance < contact_radius;
+  const double terms = logarithmic ? printed_terms(kind == ContactActivation::ogc_as_printed, distance, contact_radius,
+                                                   stiffness)
+                                   : value.energy;
   constexpr double least = 0x1p-102;
   value.energy_scale = std::max(terms, least);
   value.slope_scale = std::max(-value.slope, least);
@@ -51,7 +56,8 @@ ActivationValue activation_at(ContactActivation kind, double distance, double co
 compare::ActivationTruth activation(const compare::ActivationIn& in) {
   compare::ActivationTruth truth;
   for (std::size_t i = 0; i < in.distance.size(); ++i) {
-    const ActivationValue value = activation_at(in.activation[i], in.distance[i], in.contact_radius[i], in.stiffness[i]);
+    const ActivationValue value = activation_at(in.activation[i], in.distance[i], in.contact_radius[i],
+                                                in.stiffness[i]);
     truth.energy.push_back(value.energy);
     truth.slope.push_back(value.slope);
     truth.curvature.push_back(value.curvature);

@@ -1,12 +1,13 @@
-// Stage activation: Eq. 18–20 with Eq. 19 corrected (method.md §1.1), and the variants of the ablation (method.md §4.2), from contact_activation.hpp.
+// Stage activation: Eq. 18–20 with Eq. 19 corrected (method.md §1.1), and the variants of the ablation (method.md
+// §4.2), from contact_activation.hpp.
 #pragma once
 
 #include "compare/stages/activation.hpp"
 
 namespace ogc::reference {
 
-/// Values from multiprecision; scales are the moduli of the terms, of the two stages' energy as Eq. 18 and 20 print them (logarithms of metres included). Zero,
-/// with scale zero, for d ≥ r.
+/// Values from multiprecision; scales are the moduli of the terms, of the two stages' energy as Eq. 18 and 20 print
+/// them (logarithms of metres included). Zero, with scale zero, for d ≥ r.
 compare::ActivationTruth activation(const compare::ActivationIn& in);
 
 /// One value of the activation and its derivatives by d, from multiprecision.
@@ -14,6 +15,7 @@ struct ActivationValue {
   double energy = 0, slope = 0, curvature = 0;
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
-ActivationValue activation_at(compare::ContactActivation kind, double distance, double contact_radius, double stiffness);
+ActivationValue activation_at(compare::ContactActivation kind, double distance, double contact_radius,
+                              double stiffness);
 
 }  // namespace ogc::reference

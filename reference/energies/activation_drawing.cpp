@@ -19,7 +19,9 @@ Second<1> energy_at(ContactActivation kind, double distance, double stiffness) {
   return contact_activation(kind, d, 1.0, stiffness);
 }
 
-double force_at(ContactActivation kind, double distance, double stiffness) { return 0 - energy_at(kind, distance, stiffness).slope[0]; }
+double force_at(ContactActivation kind, double distance, double stiffness) {
+  return 0 - energy_at(kind, distance, stiffness).slope[0];
+}
 
 /// Where the energy pushes with this force: forces fall with the distance, so that bisection of its logarithm, which a
 /// double halves to its last bit in 64 steps, finds it.

@@ -42,22 +42,26 @@ struct Part {
 
 Part at_angle(const AngleTerms& terms, const ByVertex& angle, const Input& start) {
   const ByVertex bent = angle - ByVertex(terms.rest_angle), moved = angle - ByVertex(start);
-  Part part{ByVertex(Input(0.5) * terms.elastic) * bent * bent + ByVertex(Input(0.5) * terms.damping) * moved * moved, {}};
+  Part part{ByVertex(Input(0.5) * terms.elastic) * bent * bent + ByVertex(Input(0.5) * terms.damping) * moved * moved,
+            {}};
   add_outer(part.block, terms.elastic + terms.damping, angle, angle);
   return part;
 }
 
-/// What is left of the scales where first derivatives vanish: errors of n u · cond in the gradient, twice in the block, and in the force beside one of the
-/// moment, which takes the other roundings of a force.
+/// What is left of the scales where first derivatives vanish: errors of n u · cond in the gradient, twice in the block,
+/// and in the force beside one of the moment, which takes the other roundings of a force.
 struct SecondOrder {
   double force, block;
 };
 
 SecondOrder second_order(const Inputs& inputs, const AngleTerms& terms, const ByVertex& angle, const Input& start) {
-  constexpr double moment_share = (compare::bending_force_tolerance - compare::bending_gradient) / compare::bending_force_tolerance;
+  constexpr double moment_share = (compare::bending_force_tolerance - compare::bending_gradient) /
+                                  compare::bending_force_tolerance;
   const Input moment = terms.elastic * (angle.value - terms.rest_angle) + terms.damping * (angle.value - start);
-  const double gradient = inputs.condition(angle.slope), error = compare::bending_gradient * compare::unit_roundoff * gradient;
-  return {moment_share * error * inputs.condition({&moment, 1}), error * (terms.elastic.value + terms.damping.value) * gradient};
+  const double gradient = inputs.condition(angle.slope),
+               error = compare::bending_gradient * compare::unit_roundoff * gradient;
+  return {moment_share * error * inputs.condition({&moment, 1}),
+          error * (terms.elastic.value + terms.damping.value) * gradient};
 }
 
 /// What is asked, as numbers that know their inputs.
@@ -70,7 +74,11 @@ struct Question {
   Triple<Input> moved;  ///< of the vertex, with damping by vertex
 
   explicit Question(const compare::BendingCase& q)
-      : asked(q), x(now_of(q, inputs)), before(inputs.stencil(q.start, 0)), stiffness(inputs.number(q.stiffness)), rest_angle(inputs.number(q.rest_angle)),
+      : asked(q),
+        x(now_of(q, inputs)),
+        before(inputs.stencil(q.start, 0)),
+        stiffness(inputs.number(q.stiffness)),
+        rest_angle(inputs.number(q.rest_angle)),
         damping(inputs.number(q.damping)) {
     const auto own = static_cast<std::size_t>(q.own);
     if (by_vertex()) moved = inputs.vector(q.vertex[own], q.start[own]);
@@ -84,7 +92,8 @@ std::vector<compare::ForceAnswer> over_angles(const Question& q, bool damped, An
   const Fold<ByVertex> now(q.x);
   if (now.collapsed()) return {compare::ForceAnswer{}};
   const std::vector<ByVertex> angles = with_turn(q.inputs, now.angle());
-  std::vector<Input> starts = damped && !q.before.collapsed() ? with_turn(q.inputs, q.before.angle()) : std::vector{Input(0.0)};
+  std::vector<Input> starts = damped && !q.before.collapsed() ? with_turn(q.inputs, q.before.angle())
+                                                              : std::vector{Input(0.0)};
   if (damped && !q.before.collapsed() && q.before.may_count_as_collapsed()) starts.push_back(Input(0.0));
   std::vector<compare::ForceAnswer> answers;
   for (const ByVertex& angle : angles)
@@ -95,16 +104,19 @@ std::vector<compare::ForceAnswer> over_angles(const Question& q, bool damped, An
 
 std::vector<compare::ForceAnswer> hinge_answers(const Question& q) {
   const AngleTerms terms{q.stiffness, q.rest_angle, q.by_vertex() ? Input(0.0) : q.stiffness * q.damping};
-  constexpr double vertex_units = (compare::bending_block_tolerance + compare::per_vertex_additions) / compare::bending_force_tolerance;
+  constexpr double vertex_units = (compare::bending_block_tolerance + compare::per_vertex_additions) /
+                                  compare::bending_force_tolerance;
   return over_angles(q, terms.damping.value > 0, [&](const ByVertex& angle, const Input& start) {
     const Part part = at_angle(terms, angle, start);
     const SecondOrder left = second_order(q.inputs, terms, angle, start);
-    compare::ForceAnswer result = q.by_vertex() ? damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved)
-                                                : answer(q.inputs, part.energy, part.block);
+    compare::ForceAnswer result = q.by_vertex()
+                                      ? damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved)
+                                      : answer(q.inputs, part.energy, part.block);
     result.block_scale += q.by_vertex() ? (1 + q.damping.value) * left.block : left.block;
     result.force_scale += left.force;
     if (!q.by_vertex()) return result;
-    result.force_scale += q.damping.value * left.block * std::hypot(q.moved[0].value, q.moved[1].value, q.moved[2].value);
+    result.force_scale += q.damping.value * left.block *
+                          std::hypot(q.moved[0].value, q.moved[1].value, q.moved[2].value);
     return with_units(result, vertex_units, 1);
   });
 }
@@ -124,9 +136,12 @@ Part isometric(Question& q) {
 std::vector<compare::ForceAnswer> isometric_answers(Question& q) {
   constexpr double force_units = compare::isometric_force_tolerance / compare::bending_force_tolerance;
   constexpr double block_units = compare::isometric_block_tolerance / compare::bending_block_tolerance;
-  constexpr double vertex_units = (compare::isometric_block_tolerance + compare::per_vertex_additions) / compare::bending_force_tolerance;
+  constexpr double vertex_units = (compare::isometric_block_tolerance + compare::per_vertex_additions) /
+                                  compare::bending_force_tolerance;
   const Part part = isometric(q);
-  if (q.by_vertex()) return {with_units(damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved), vertex_units, block_units)};
+  if (q.by_vertex())
+    return {
+        with_units(damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved), vertex_units, block_units)};
   const compare::ForceAnswer elastic = with_units(answer(q.inputs, part.energy, part.block), force_units, block_units);
   if (q.damping.value == 0) return {elastic};
   const AngleTerms terms{Input(0.0), Input(0.0), q.stiffness * q.damping};

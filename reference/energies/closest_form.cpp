@@ -42,7 +42,8 @@ ClosestForm point_triangle(const Corners& x) {
   const double area = dot(normal, normal), second = dot(cross(w, v), normal), third = dot(cross(u, w), normal);
   if (area > 0 && second > 0 && third > 0 && second + third < area)
     return {FormKind::point_plane, {0, 1, 2, 3}, {1, (second + third) / area - 1, -second / area, -third / area}};
-  const ClosestForm first = point_segment(x, 0, 1, 2), middle = point_segment(x, 0, 2, 3), last = point_segment(x, 0, 3, 1);
+  const ClosestForm first = point_segment(x, 0, 1, 2), middle = point_segment(x, 0, 2, 3),
+                    last = point_segment(x, 0, 3, 1);
   return nearer(nearer(first, middle, x), last, x);
 }
 
@@ -53,7 +54,8 @@ ClosestForm negated(ClosestForm form) {
 
 double clamped(double s) { return std::clamp(s, 0.0, 1.0); }
 
-/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² with projections that overlap: the middle of the overlap on the first edge and its projection on the second (method.md §1.4).
+/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² with projections that overlap: the middle of the overlap on the first edge and its
+/// projection on the second (method.md §1.4).
 bool parallel_rule(const Corners& x, ClosestForm& form) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v);
@@ -72,8 +74,8 @@ ClosestForm edge_edge(const Corners& x) {
 
 }  // namespace
 
-/// Below an angle of 2⁻²⁰ the normal has lost so many bits to rounding that the distance of the lines means nothing: that from the nearest end differs from
-/// the true one by 2⁻²⁰ of a length at most, across the normal.
+/// Below an angle of 2⁻²⁰ the normal has lost so many bits to rounding that the distance of the lines means nothing:
+/// that from the nearest end differs from the true one by 2⁻²⁰ of a length at most, across the normal.
 ClosestForm closest_edges(const Corners& x) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], w = x[2] - x[0], normal = cross(u, v);
   const double area = dot(normal, normal), s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);

@@ -1,5 +1,6 @@
-// Where the contact points of two closed faces lie, in double, and their distance over any number type. Newton's positions are doubles between two detections,
-// so the exact predicates of reference/geometry do not apply; they are not needed either: the distance is continuous, with its slope, across the features.
+// Where the contact points of two closed faces lie, in double, and their distance over any number type. Newton's
+// positions are doubles between two detections, so the exact predicates of reference/geometry do not apply; they are
+// not needed either: the distance is continuous, with its slope, across the features.
 #pragma once
 
 #include <array>

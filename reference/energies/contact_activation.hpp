@@ -1,5 +1,6 @@
-// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation (method.md §4.2). Radius and stiffness are
-// plain numbers where only the distance is differentiated, and of the distance's type where the condition of the answer is asked for, too.
+// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation
+// (method.md §4.2). Radius and stiffness are plain numbers where only the distance is differentiated, and of the
+// distance's type where the condition of the answer is asked for, too.
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -16,7 +17,8 @@ T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   return log_stiffness * (T(log(tau)) - log(d)) + T(P(0.5) * k * depth * depth);
 }
 
-/// g(d) [J] of the formula that holds for 0 < d < r: radius r [m], stiffness k_c [N/m]. `ogc_as_printed` takes Eq. 19's numbers in metres.
+/// g(d) [J] of the formula that holds for 0 < d < r: radius r [m], stiffness k_c [N/m]. `ogc_as_printed` takes Eq. 19's
+/// numbers in metres.
 template <class T, class P>
 T activation_energy(compare::ContactActivation kind, const T& d, const P& r, const P& k) {
   using std::log;

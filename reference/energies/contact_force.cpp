@@ -36,7 +36,8 @@ compare::ForceAnswer acting(const Meeting& meeting, const compare::ContactForceC
   add_outer(block, at.second * meeting.majorant(question), of_whole, of_whole);
   compare::ForceAnswer result = answer(meeting.inputs, energy, block);
   result.force_scale += meeting.slope_doubt() / (compare::unit_roundoff * compare::contact_force_tolerance);
-  add_weight_error(meeting, question, reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}), result);
+  add_weight_error(meeting, question, reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}),
+                   result);
   return result;
 }
 
@@ -48,13 +49,18 @@ compare::ForceAnswer largest(const compare::ContactForceCase& q, double distance
   return bounds;
 }
 
-std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& question, const std::vector<Meeting>& all) {
-  return answers(all, [&](double distance) { return largest(question, distance); }, [&](const Meeting& meeting) { return acting(meeting, question); });
+std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& question,
+                                             const std::vector<Meeting>& all) {
+  return answers(
+      all, [&](double distance) { return largest(question, distance); },
+      [&](const Meeting& meeting) { return acting(meeting, question); });
 }
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question) { return answers_of(question, meetings(question)); }
+std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question) {
+  return answers_of(question, meetings(question));
+}
 
 compare::ForceTruth contact_force(const compare::ContactForceIn& in) {
   return for_all(in.cases, [](const compare::ContactForceCase& question) -> Accepted {

@@ -5,7 +5,8 @@
 
 namespace ogc::reference {
 
-/// The exact answer, then those of the features, stages and ends of action that a decision in its grey zone could give instead.
+/// The exact answer, then those of the features, stages and ends of action that a decision in its grey zone could give
+/// instead.
 std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
 
 /// All cases, in parallel over them.

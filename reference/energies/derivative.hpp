@@ -1,5 +1,6 @@
-// Forward differentiation. A number carries its derivatives by N directions; the type nests, which gives second derivatives and, with the inputs of a
-// question as the innermost directions, the condition of every derivative. No derivative of an energy is written by hand in this room.
+// Forward differentiation. A number carries its derivatives by N directions; the type nests, which gives second
+// derivatives and, with the inputs of a question as the innermost directions, the condition of every derivative. No
+// derivative of an energy is written by hand in this room.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 
 namespace ogc::reference {
 
-/// `count`: slopes from this direction on are 0. Most factors of an energy do not move, or with few of its inputs, and what is 0 need not be computed.
+/// `count`: slopes from this direction on are 0. Most factors of an energy do not move, or with few of its inputs, and
+/// what is 0 need not be computed.
 template <class T, std::size_t N>
 struct Derivative {
   T value{};
@@ -19,9 +21,7 @@ struct Derivative {
 
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
-  Derivative(double constant)
-    requires(!std::is_same_v<T, double>)
-      : value(constant) {}
+  Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
   /// The variable of direction `direction`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
@@ -74,7 +74,8 @@ Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>&
   return result;
 }
 
-/// At 0 the derivative is taken as 0: energies meet the root only where it is multiplied by a quantity that vanishes there too.
+/// At 0 the derivative is taken as 0: energies meet the root only where it is multiplied by a quantity that vanishes
+/// there too.
 template <class T, std::size_t N>
 Derivative<T, N> sqrt(const Derivative<T, N>& x) {
   using std::sqrt;
@@ -96,7 +97,8 @@ Derivative<T, N> atan2(const Derivative<T, N>& y, const Derivative<T, N>& x) {
   const T squared = x.value * x.value + y.value * y.value;
   Derivative<T, N> angle(T(atan2(y.value, x.value)));
   angle.count = std::max(x.count, y.count);
-  for (std::size_t i = 0; i < angle.count; ++i) angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
+  for (std::size_t i = 0; i < angle.count; ++i)
+    angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
   return angle;
 }
 

@@ -28,7 +28,8 @@ template <class T>
 struct Fold {
   Hinge<T> x;
   Triple<T> edge, first, second;
-  explicit Fold(const Hinge<T>& at) : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
+  explicit Fold(const Hinge<T>& at)
+      : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
   auto collapsed() const { return is_zero(first) || is_zero(second); }
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
   /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.

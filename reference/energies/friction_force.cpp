@@ -1,5 +1,5 @@
-// f₀ is the integral of f₁ (method.md §4.4), so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given with it, and finite where the
-// slip vanishes.
+// f₀ is the integral of f₁ (method.md §4.4), so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given
+// with it, and finite where the slip vanishes.
 #include "reference/energies/friction_force.hpp"
 
 #include "reference/energies/meeting.hpp"
@@ -21,7 +21,8 @@ Input length(const Inputs& inputs, const Triple<Input>& slip) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > compare::contact_grey * compare::unit_roundoff * inputs.condition(slip)) return y;
   y.count = y.slope.size();
-  for (std::size_t i = 0; i < y.count; ++i) y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
+  for (std::size_t i = 0; i < y.count; ++i)
+    y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
   return y;
 }
 
@@ -57,16 +58,19 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   const Triple<ByVertex> slip = slip_of(meeting.weight[own]), of_whole = slip_of(1.0);
   const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
   const Input y = length(inputs, u), stiffness = strength * slope_over_slip(y, limit);
-  const ByVertex energy = chained(Input(strength * potential(y, limit)), Input(Input(0.5) * stiffness), dot(slip, slip));
+  const ByVertex energy = chained(Input(strength * potential(y, limit)), Input(Input(0.5) * stiffness),
+                                  dot(slip, slip));
   Block block;
   for (const ByVertex& along : of_whole) add_outer(block, stiffness * meeting.majorant(q.contact), along, along);
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double stiff = reach(inputs, {&stiffness, 1});
   add_weight_error(meeting, q.contact, stiff * reach(inputs, u), 2 * stiff, result);
   // Where both vanish, at the radius and without slip, the first order says nothing of their product.
-  result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) * inputs.condition(u);
+  result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) *
+                        inputs.condition(u);
   const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;
-  result.force_scale += pull * over_slip * reach(inputs, u) / (compare::unit_roundoff * compare::friction_force_tolerance);
+  result.force_scale += pull * over_slip * reach(inputs, u) /
+                        (compare::unit_roundoff * compare::friction_force_tolerance);
   result.block_scale += 2 * pull * over_slip / (compare::unit_roundoff * compare::friction_block_tolerance);
   const Input beyond = y - limit;
   return {result, std::abs(beyond.value) <= compare::near_factor * inputs.condition({&beyond, 1})};
@@ -77,18 +81,21 @@ compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distanc
   compare::ForceAnswer bounds;
   const double force = q.friction * largest_slopes(q.contact, distance).first;
   bounds.force_scale = force * units_of_whole(compare::friction_force_tolerance);
-  bounds.block_scale = 2 * largest_majorant(q.contact) * std::sqrt(2.0) * force / q.slip_limit * units_of_whole(compare::friction_block_tolerance);
+  bounds.block_scale = 2 * largest_majorant(q.contact) * std::sqrt(2.0) * force / q.slip_limit *
+                       units_of_whole(compare::friction_block_tolerance);
   return bounds;
 }
 
 /// Near where the contact is, or, if it acts, the slip.
 Accepted answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
   bool near = is_near_decision(question.contact, all.front());
-  std::vector<compare::ForceAnswer> accepted = answers(all, [&](double distance) { return largest(question, distance); }, [&](const Meeting& meeting) {
-    const Friction friction = acting(meeting, question);
-    near = near || (&meeting == &all.front() && friction.near_limit);
-    return friction.answer;
-  });
+  std::vector<compare::ForceAnswer> accepted = answers(
+      all, [&](double distance) { return largest(question, distance); },
+      [&](const Meeting& meeting) {
+        const Friction friction = acting(meeting, question);
+        near = near || (&meeting == &all.front() && friction.near_limit);
+        return friction.answer;
+      });
   return {std::move(accepted), near};
 }
 
@@ -99,7 +106,9 @@ std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCas
 }
 
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {
-  return for_all(in.cases, [](const compare::FrictionForceCase& question) { return answers_of(question, meetings(question.contact)); });
+  return for_all(in.cases, [](const compare::FrictionForceCase& question) {
+    return answers_of(question, meetings(question.contact));
+  });
 }
 
 }  // namespace ogc::reference

@@ -41,7 +41,9 @@ double norm(const Rows& rows) {
   return std::sqrt(squared);
 }
 
-double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) { return sized(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])); }
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return sized(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+}
 
 }  // namespace
 
@@ -83,14 +85,17 @@ double Inputs::condition(std::span<const Input> answer) const {
   return sum;
 }
 
-Triple<ByVertex> fixed(const Triple<Input>& point) { return {ByVertex(point[0]), ByVertex(point[1]), ByVertex(point[2])}; }
+Triple<ByVertex> fixed(const Triple<Input>& point) {
+  return {ByVertex(point[0]), ByVertex(point[1]), ByVertex(point[2])};
+}
 
 Triple<ByVertex> own_vertex() { return {ByVertex(Input(0.0), 0), ByVertex(Input(0.0), 1), ByVertex(Input(0.0), 2)}; }
 
 void add_outer(Block& block, const Input& weight, const ByVertex& a, const ByVertex& b) {
   std::size_t k = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j, ++k) block[k] = block[k] + Input(0.5) * weight * (a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]);
+    for (std::size_t j = i; j < 3; ++j, ++k)
+      block[k] = block[k] + Input(0.5) * weight * (a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]);
 }
 
 void add_identity(Block& block, const Input& weight) {
@@ -110,8 +115,10 @@ compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const 
   return answer(inputs, Triple<Input>{-energy.slope[0], -energy.slope[1], -energy.slope[2]}, block);
 }
 
-compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block, const Input& damping, const Triple<Input>& moved) {
-  const Triple<Input> resisted{dot(Triple<Input>{block[0], block[1], block[2]}, moved), dot(Triple<Input>{block[1], block[3], block[4]}, moved),
+compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block,
+                                      const Input& damping, const Triple<Input>& moved) {
+  const Triple<Input> resisted{dot(Triple<Input>{block[0], block[1], block[2]}, moved),
+                               dot(Triple<Input>{block[1], block[3], block[4]}, moved),
                                dot(Triple<Input>{block[2], block[4], block[5]}, moved)};
   Triple<Input> force;
   Block grown;

@@ -1,5 +1,5 @@
-// The inputs of a stencil as innermost directions of differentiation, so that each derivative comes with its condition: the unit in which the judge
-// counts errors (compare/stages/force.hpp).
+// The inputs of a stencil as innermost directions of differentiation, so that each derivative comes with its condition:
+// the unit in which the judge counts errors (compare/stages/force.hpp).
 #pragma once
 
 #include <span>
@@ -21,10 +21,11 @@ class Inputs {
   /// p − from as one input. Exact: differences of single-precision numbers of one size have no rounding in double.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
   Input number(double value) { return number(value, std::abs(value)); }
-  /// A number that is known to u times `size`: with the condition of a number as its size, its own inputs need not be carried along.
+  /// A number that is known to u times `size`: with the condition of a number as its size, its own inputs need not be
+  /// carried along.
   Input number(double value, double size);
-  /// All points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences from any one of them: the condition is the
-  /// largest over these choices.
+  /// All points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences from any
+  /// one of them: the condition is the largest over these choices.
   template <std::size_t N>
   std::array<Triple<Input>, N> stencil(const std::array<compare::Vec3f, N>& points, std::size_t origin) {
     std::array<Triple<Input>, N> relative;
@@ -66,8 +67,10 @@ void add_identity(Block& block, const Input& weight);
 compare::ForceAnswer answer(const Inputs& inputs, const Triple<Input>& force, const Block& block);
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
-/// B moved, of a vertex that moved since the start of the step, as a force of damping `k`: −k B moved, on top of the elastic force, and (1 + k) B for B.
-compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block, const Input& damping, const Triple<Input>& moved);
+/// B moved, of a vertex that moved since the start of the step, as a force of damping `k`: −k B moved, on top of the
+/// elastic force, and (1 + k) B for B.
+compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block,
+                                      const Input& damping, const Triple<Input>& moved);
 
 /// Multiplies the units of error: what a stage's tolerance is to one of its models.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);

@@ -1,11 +1,12 @@
-// Several doubles side by side in vector registers as one number type, so that several stencils of one kind are differentiated by the code for one. Each lane
-// does what a double would do, operation by operation: no result depends on the width, or on what stands in the other lanes.
+// Several doubles side by side in vector registers as one number type, so that several stencils of one kind are
+// differentiated by the code for one. Each lane does what a double would do, operation by operation: no result depends
+// on the width, or on what stands in the other lanes.
 //
-// Branches. A comparison gives a mask, which decides a branch where all lanes agree. Where they do not, the branch is taken as if it were false and
-// `lanes_differ` is set: the caller asks again for each lane alone.
+// Branches. A comparison gives a mask, which decides a branch where all lanes agree. Where they do not, the branch is
+// taken as if it were false and `lanes_differ` is set: the caller asks again for each lane alone.
 //
-// A file that uses lanes may be compiled for several machines. Each has a namespace of its own, so that the linker never merges code for a larger one into
-// a program that runs on a smaller one.
+// A file that uses lanes may be compiled for several machines. Each has a namespace of its own, so that the linker
+// never merges code for a larger one into a program that runs on a smaller one.
 #pragma once
 
 #include <array>

@@ -14,7 +14,8 @@ namespace {
 using compare::ContactForceCase;
 using compare::ContactSides;
 
-/// Where the contact points lie: on a triangle the weights of its second and third corner, on edges the parameters from end 0 to end 1.
+/// Where the contact points lie: on a triangle the weights of its second and third corner, on edges the parameters from
+/// end 0 to end 1.
 using Parameters = std::array<Input, 2>;
 using Vertices = std::array<Triple<Input>, 4>;
 
@@ -26,9 +27,11 @@ Input foot(const Triple<Input>& p, const Triple<Input>& a, const Triple<Input>& 
   return dot(p - a, e) / dot(e, e);
 }
 
-/// A parameter that is clamped to `end`: where it can't be told from the end it may move, and keeps the derivatives that it has without the clamp.
+/// A parameter that is clamped to `end`: where it can't be told from the end it may move, and keeps the derivatives
+/// that it has without the clamp.
 Input at_end(const Inputs& inputs, Input free, double end) {
-  if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1}))) return Input(end);
+  if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1})))
+    return Input(end);
   free.value = end;
   return free;
 }
@@ -83,17 +86,21 @@ std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceC
   const std::size_t closest = membership[0].exact ? 0 : membership[1].exact ? 1 : 2;
   std::vector<Parameters> all{parameters(closest)};
   for (std::size_t feature = 0; feature < 3; ++feature) {
-    if (feature != closest && membership[feature].possible && !membership[closest].certain) all.push_back(parameters(feature));
+    if (feature != closest && membership[feature].possible && !membership[closest].certain)
+      all.push_back(parameters(feature));
   }
   return all;
 }
 
-/// The parameter on the first of two edges of its feature, opposite a feature of the second. `skew`: their lines have closest points.
-Input on_edge(const Inputs& inputs, bool skew, EdgeFeature feature, const Triple<Input>& u0, const Triple<Input>& u1, EdgeFeature other,
-              const Triple<Input>& v0, const Triple<Input>& v1) {
-  if (!skew && feature != EdgeFeature::interior && other == EdgeFeature::interior) return feature == EdgeFeature::end_1 ? one : zero;
+/// The parameter on the first of two edges of its feature, opposite a feature of the second. `skew`: their lines have
+/// closest points.
+Input on_edge(const Inputs& inputs, bool skew, EdgeFeature feature, const Triple<Input>& u0, const Triple<Input>& u1,
+              EdgeFeature other, const Triple<Input>& v0, const Triple<Input>& v1) {
+  if (!skew && feature != EdgeFeature::interior && other == EdgeFeature::interior)
+    return feature == EdgeFeature::end_1 ? one : zero;
   const Triple<Input> v = v1 - v0, n = cross(u1 - u0, v);
-  const Input free = other == EdgeFeature::interior ? dot(cross(v0 - u0, v), n) / dot(n, n) : foot(other == EdgeFeature::end_1 ? v1 : v0, u0, u1);
+  const Input free = other == EdgeFeature::interior ? dot(cross(v0 - u0, v), n) / dot(n, n)
+                                                    : foot(other == EdgeFeature::end_1 ? v1 : v0, u0, u1);
   return feature == EdgeFeature::interior ? free : at_end(inputs, free, feature == EdgeFeature::end_1 ? 1 : 0);
 }
 
@@ -115,7 +122,8 @@ std::vector<Parameters> all_on_edges(const Inputs& inputs, const ContactForceCas
   if (rule.certain) return {middle_of_overlap(x)};
   std::vector<Parameters> all;
   if (rule.exact) all.push_back(middle_of_overlap(x));
-  // Interiors that meet overlap, so the rule takes them wherever the angle is small: lines that are all but parallel need no crossing.
+  // Interiors that meet overlap, so the rule takes them wherever the angle is small: lines that are all but parallel
+  // need no crossing.
   const Margin angle = parallel(q.vertex[0], q.vertex[1], q.vertex[2], q.vertex[3]);
   const bool is_small = sign(angle) < 0 && !grey(angle), certain = are_closest(pair, closest).certain;
   if (!(is_small && closest == interiors)) all.push_back(on_edges(inputs, !is_small, closest, x));
@@ -146,8 +154,9 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
   }
 }
 
-/// e_k as one number. Its size holds, beside its condition, the square of the normal's error: 4 u ‖e‖‖e'‖ by two products and a difference of rounded
-/// edges, which is all there is where the edges are parallel and the first order vanishes.
+/// e_k as one number. Its size holds, beside its condition, the square of the normal's error: 4 u ‖e‖‖e'‖ by two
+/// products and a difference of rounded edges, which is all there is where the edges are parallel and the first order
+/// vanishes.
 Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const Triple<Input> e = own.vector(q.detected[1], q.detected[0]), f = own.vector(q.detected[3], q.detected[2]);
@@ -200,7 +209,8 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
-/// A foot is known to u d/h² of the width across a height of h, in longest sides: 3/64 at h = 2⁻⁹ for a distance of d = 3.
+/// A foot is known to u d/h² of the width across a height of h, in longest sides: 3/64 at h = 2⁻⁹ for a distance of d =
+/// 3.
 bool has_needle(const ContactForceCase& q, const Vertices& x) {
   constexpr double least_squared = 0x1p-18;
   const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };
@@ -217,7 +227,8 @@ bool has_needle(const ContactForceCase& q, const Vertices& x) {
 bool near_features(const ContactForceCase& q) {
   const auto& x = q.vertex;
   switch (q.sides) {
-    case ContactSides::point_edge: return examine(along(x[1], x[2], x[0])).near || examine(along(x[2], x[1], x[0])).near;
+    case ContactSides::point_edge:
+      return examine(along(x[1], x[2], x[0])).near || examine(along(x[2], x[1], x[0])).near;
     case ContactSides::edge_edge: {
       const EdgePair pair{{x[0], x[1]}, {x[2], x[3]}};
       return is_near_decision(pair, closest_features(pair), are_nearly_parallel(pair).exact);
@@ -257,7 +268,8 @@ Triple<Input> Meeting::separation() const {
 }
 
 double Meeting::slope_doubt() const {
-  const bool flat = activation == compare::ContactActivation::ipc_log || activation == compare::ContactActivation::cubic;
+  const bool flat = activation == compare::ContactActivation::ipc_log ||
+                    activation == compare::ContactActivation::cubic;
   if (!flat || std::abs(distance.value - radius.value) > 2 * distance_doubt) return 0;
   const Derivative<double, 1> d(std::max(0x1p-23 * radius.value, radius.value - 3 * distance_doubt), 0);
   return -activation_energy(activation, d, radius.value, stiffness.value).slope[0];
@@ -269,7 +281,8 @@ std::vector<Meeting> meetings(const ContactForceCase& question) {
   common.needle = has_needle(question, common.vertex);
   const std::vector<Parameters> all = all_parameters(common.inputs, question, common.vertex);
   const bool has_parameters = question.sides != ContactSides::point_point;
-  const Input first_error = has_parameters ? common.inputs.number(0, 1) : zero, second_error = has_parameters ? common.inputs.number(0, 1) : zero;
+  const Input first_error = has_parameters ? common.inputs.number(0, 1) : zero,
+              second_error = has_parameters ? common.inputs.number(0, 1) : zero;
   std::vector<Meeting> result;
   for (const Input& share : shares) {
     for (const Parameters& at : all) {
@@ -290,7 +303,8 @@ std::vector<Meeting> meetings(const ContactForceCase& question) {
 bool is_near_decision(const ContactForceCase& question, const Meeting& exact) {
   const double width = exact.distance_doubt * (compare::near_factor / (compare::contact_grey * compare::unit_roundoff));
   const auto near = [&](double place) { return std::abs(exact.distance.value - place) <= width; };
-  const bool has_stages = question.activation == compare::ContactActivation::ogc || question.activation == compare::ContactActivation::ogc_as_printed;
+  const bool has_stages = question.activation == compare::ContactActivation::ogc ||
+                          question.activation == compare::ContactActivation::ogc_as_printed;
   return near(exact.radius.value) || (has_stages && near(0.5 * exact.radius.value)) || near_features(question);
 }
 
@@ -307,7 +321,8 @@ LargestSlopes largest_slopes(const ContactForceCase& question, double distance) 
   return largest;
 }
 
-std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const std::function<compare::ForceAnswer(double)>& largest,
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
+                                          const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting) {
   std::vector<compare::ForceAnswer> all;
   bool none = false, any = false;
@@ -340,7 +355,9 @@ void add_weight_error(const Meeting& meeting, const ContactForceCase& question, 
                       compare::ForceAnswer& answer) {
   const Input& own = meeting.weight[static_cast<std::size_t>(question.own)];
   const std::vector<Input> all = updated_weights(meeting, question);
-  const bool is_exact = std::all_of(all.begin(), all.end(), [&](const Input& w) { return meeting.inputs.condition({&w, 1}) == 0; });
+  const bool is_exact = std::all_of(all.begin(), all.end(), [&](const Input& w) {
+    return meeting.inputs.condition({&w, 1}) == 0;
+  });
   if (is_exact) return;
   double worst = 0, sum = 0;
   for (const Input& w : meeting.weight) worst = std::max(worst, meeting.inputs.condition({&w, 1}));

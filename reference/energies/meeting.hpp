@@ -1,8 +1,9 @@
-// How the two sides of a contact meet, as numbers that know their inputs: what contact_force and friction_force share. Which features hold the closest
-// points is decided exactly; where they lie on these features is a formula, so that the condition of an answer holds the sensitivity of the weights.
+// How the two sides of a contact meet, as numbers that know their inputs: what contact_force and friction_force share.
+// Which features hold the closest points is decided exactly; where they lie on these features is a formula, so that the
+// condition of an answer holds the sensitivity of the weights.
 //
-// Weights are constants of the outer differentiation (method.md §4.2): the distance is stationary in them where they are those of the closest points, so
-// that the force is the same.
+// Weights are constants of the outer differentiation (method.md §4.2): the distance is stationary in them where they
+// are those of the closest points, so that the force is the same.
 #pragma once
 
 #include <array>
@@ -17,24 +18,27 @@
 
 namespace ogc::reference {
 
-/// One acceptable way of meeting. Coordinates are relative to the first edge's end 0, the second side's first vertex where the first side is a point.
+/// One acceptable way of meeting. Coordinates are relative to the first edge's end 0, the second side's first vertex
+/// where the first side is a point.
 struct Meeting {
   Inputs inputs;
   std::array<Triple<Input>, 4> vertex;
   std::array<Input, 4> weight;  ///< those of the first side add up to 1, those of the second to −1
   Input radius, stiffness;      ///< r; k_c e_k
   compare::ContactActivation activation = compare::ContactActivation::ogc;
-  bool across = false;          ///< asked for the other side of the jump of g' at τ, which d cannot be told from
-  Input distance;               ///< d, without derivatives where it is 0
-  double doubt = 0;             ///< how far the vector between the contact points can be off [m]
-  double distance_doubt = 0;    ///< how far d can be off, to first order [m]
-  bool needle = false;          ///< the first order may not hold for the place of the contact points (compare/stages/contact_force.hpp)
+  bool across = false;        ///< asked for the other side of the jump of g' at τ, which d cannot be told from
+  Input distance;             ///< d, without derivatives where it is 0
+  double doubt = 0;           ///< how far the vector between the contact points can be off [m]
+  double distance_doubt = 0;  ///< how far d can be off, to first order [m]
+  /// the first order may not hold for the place of the contact points (compare/stages/contact_force.hpp)
+  bool needle = false;
 
   /// |w| Σ |w_u| over the vertex asked about and those that are updated together with it.
   Input majorant(const compare::ContactForceCase& question) const;
   /// Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
-  /// The distance that slope and curvature belong to: d, but not below 2⁻²³ r. It keeps d's derivatives on both sides of that corner.
+  /// The distance that slope and curvature belong to: d, but not below 2⁻²³ r. It keeps d's derivatives on both sides
+  /// of that corner.
   template <class T>
   T acting_distance(T d) const {
     const double least = 0x1p-23 * radius.value, tau = 0.5 * radius.value;
@@ -49,9 +53,11 @@ struct Meeting {
   }
   /// Whether g' jumps where d is.
   bool may_jump() const {
-    return activation == compare::ContactActivation::ogc_as_printed && std::abs(distance.value - 0.5 * radius.value) <= distance_doubt;
+    return activation == compare::ContactActivation::ogc_as_printed &&
+           std::abs(distance.value - 0.5 * radius.value) <= distance_doubt;
   }
-  /// What first order does not say of −g': of activations whose g' has no slope at r, how large it is within the doubt about r [N].
+  /// What first order does not say of −g': of activations whose g' has no slope at r, how large it is within the doubt
+  /// about r [N].
   double slope_doubt() const;
   bool acts() const { return distance.value > 0 && distance.value < radius.value; }
   /// Whether d cannot be told from r.
@@ -67,12 +73,15 @@ struct Meeting {
 /// The exact meeting first, then those that a decision in its grey zone could give instead.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
-/// Whether a decision of the contact lies within near_factor: the features of its closest points, d = r, and d = τ of an activation with two stages.
+/// Whether a decision of the contact lies within near_factor: the features of its closest points, d = r, and d = τ of
+/// an activation with two stages.
 bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
 
-/// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force and a block, by their moduli in
-/// the scales, that no answer can exceed at this distance [m] or a larger one: where points cannot be told from touching ones, and of needles.
-std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, const std::function<compare::ForceAnswer(double)>& largest,
+/// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force
+/// and a block, by their moduli in the scales, that no answer can exceed at this distance [m] or a larger one: where
+/// points cannot be told from touching ones, and of needles.
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
+                                          const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
 
 /// The largest −g' and g'' from this distance on [N], [N/m]; 2⁻²³ r stands for all that are nearer.
@@ -89,10 +98,11 @@ inline double units_of_whole(double tolerance) { return 1 / (compare::unit_round
 /// The largest modulus that an answer of several numbers can be taken for.
 double reach(const Inputs& inputs, std::span<const Input> answer);
 
-/// Adds to the scales what the error of the own weight does beside those of its inputs: where weights are computed one by one, as in closest_face, each
-/// can be off by u times the largest condition of them all, even one that is 0, where the first order of the block's w² vanishes. `force` and `curvature`
-/// are the largest ones of w = 1. With n vertices updated together the block has |w| Σ |w_u|, which is off by the error of the one times the other, and of
-/// the other, n errors, times the one.
+/// Adds to the scales what the error of the own weight does beside those of its inputs: where weights are computed one
+/// by one, as in closest_face, each can be off by u times the largest condition of them all, even one that is 0, where
+/// the first order of the block's w² vanishes. `force` and `curvature` are the largest ones of w = 1. With n vertices
+/// updated together the block has |w| Σ |w_u|, which is off by the error of the one times the other, and of the other,
+/// n errors, times the one.
 void add_weight_error(const Meeting& meeting, const compare::ContactForceCase& question, double force, double curvature,
                       compare::ForceAnswer& answer);
 

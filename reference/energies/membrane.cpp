@@ -18,7 +18,10 @@ struct Stencil {
   Stencil(const compare::MembraneCase& q, Inputs& inputs)
       : to{inputs.vector(q.corner[1], q.corner[0]), inputs.vector(q.corner[2], q.corner[0])},
         to_start{inputs.vector(q.start[1], q.start[0]), inputs.vector(q.start[2], q.start[0])},
-        area(inputs.number(q.area)), lambda(inputs.number(q.lame_lambda)), mu(inputs.number(q.lame_mu)), damping(inputs.number(q.damping)) {
+        area(inputs.number(q.area)),
+        lambda(inputs.number(q.lame_lambda)),
+        mu(inputs.number(q.lame_mu)),
+        damping(inputs.number(q.damping)) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       for (std::size_t k = 0; k < 2; ++k) gradient[k + 1][axis] = inputs.number(q.gradient[k][axis]);
       gradient[0][axis] = -gradient[1][axis] - gradient[2][axis];
@@ -44,7 +47,9 @@ using AlongTwice = Derivative<Along, 1>;
 /// By two coordinates of the vertex.
 using ByVertexTwice = Derivative<ByVertex, 3>;
 
-Triple<ByVertexTwice> fixed_twice(const Triple<Input>& p) { return {ByVertexTwice(ByVertex(p[0])), ByVertexTwice(ByVertex(p[1])), ByVertexTwice(ByVertex(p[2]))}; }
+Triple<ByVertexTwice> fixed_twice(const Triple<Input>& p) {
+  return {ByVertexTwice(ByVertex(p[0])), ByVertexTwice(ByVertex(p[1])), ByVertexTwice(ByVertex(p[2]))};
+}
 
 /// weight · ∂²ϕ/∂G² contracted with the derivatives of G.
 void add_material(Block& block, const Input& weight, const Stencil& s, const Strain<ByVertex>& g) {
@@ -61,9 +66,11 @@ Input geometric_stiffness(const Stencil& s, const Strain<ByVertex>& g) {
   for (std::size_t i = 0; i < 3; ++i) variable[i] = ByStrain(g[i].value, i);
   const ByStrain psi = density(variable, ByStrain(s.lambda), ByStrain(s.mu));
   const AlongTwice zero(Along(Input(0.0))), moving(Along(Input(0.0), 0), 0);
-  const auto constant = [](const Triple<Input>& p) -> Triple<AlongTwice> { return {AlongTwice(Along(p[0])), AlongTwice(Along(p[1])), AlongTwice(Along(p[2]))}; };
-  const Strain<AlongTwice> moved =
-      strain(deformation<AlongTwice>({Triple<AlongTwice>{moving, zero, zero}, constant(s.to[0]), constant(s.to[1])}, s.gradients<AlongTwice>()));
+  const auto constant = [](const Triple<Input>& p) -> Triple<AlongTwice> {
+    return {AlongTwice(Along(p[0])), AlongTwice(Along(p[1])), AlongTwice(Along(p[2]))};
+  };
+  const Strain<AlongTwice> moved = strain(deformation<AlongTwice>(
+      {Triple<AlongTwice>{moving, zero, zero}, constant(s.to[0]), constant(s.to[1])}, s.gradients<AlongTwice>()));
   Input sum;
   for (std::size_t i = 0; i < 3; ++i) sum = sum + psi.slope[i] * moved[i].slope[0].slope[0];
   return sum;
@@ -73,7 +80,8 @@ Input geometric_stiffness(const Stencil& s, const Strain<ByVertex>& g) {
 Block neo_hookean_block(const Stencil& s, const Triple<Input>& normal) {
   Triple<ByVertexTwice> moving;
   for (std::size_t i = 0; i < 3; ++i) moving[i] = ByVertexTwice(ByVertex(Input(0.0), i), i);
-  const auto f = deformation<ByVertexTwice>({moving, fixed_twice(s.to[0]), fixed_twice(s.to[1])}, s.gradients<ByVertexTwice>());
+  const auto f = deformation<ByVertexTwice>({moving, fixed_twice(s.to[0]), fixed_twice(s.to[1])},
+                                            s.gradients<ByVertexTwice>());
   const auto psi = neo_hookean_density(f, ByVertexTwice(ByVertex(s.lambda)), ByVertexTwice(ByVertex(s.mu)));
   Block block;
   Input along;
@@ -96,7 +104,8 @@ struct Part {
 
 Triple<Input> values(const Triple<ByVertex>& a) { return {a[0].value, a[1].value, a[2].value}; }
 
-Part elastic(const compare::MembraneCase& q, const Stencil& s, const Deformation<ByVertex>& f, const Strain<ByVertex>& g) {
+Part elastic(const compare::MembraneCase& q, const Stencil& s, const Deformation<ByVertex>& f,
+             const Strain<ByVertex>& g) {
   Part result;
   const ByVertex lambda(s.lambda), mu(s.mu);
   if (q.model == compare::MembraneModel::st_venant_kirchhoff) {
@@ -115,8 +124,8 @@ Part elastic(const compare::MembraneCase& q, const Stencil& s, const Deformation
 
 double length(const Triple<Input>& a) { return std::hypot(a[0].value, a[1].value, a[2].value); }
 
-/// Where f₁ × f₂ cannot be told from 0: ψ without J, the rest is of unknown direction and at most A (λ + 2μ) t in the force, A (μ b² + (λ + μ) t²) in the block.
-/// Empty elsewhere. Both a hundredth larger, for J is not quite 0.
+/// Where f₁ × f₂ cannot be told from 0: ψ without J, the rest is of unknown direction and at most A (λ + 2μ) t in the
+/// force, A (μ b² + (λ + μ) t²) in the block. Empty elsewhere. Both a hundredth larger, for J is not quite 0.
 std::optional<compare::ForceAnswer> any_normal(const Inputs& inputs, const Stencil& s, const Deformation<ByVertex>& f) {
   const Triple<Input> first = values(f[0]), second = values(f[1]), normal = cross(first, second);
   constexpr double u = compare::unit_roundoff;
@@ -131,7 +140,8 @@ std::optional<compare::ForceAnswer> any_normal(const Inputs& inputs, const Stenc
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double area = 1.01 * s.area.value, lambda = s.lambda.value, mu = s.mu.value;
   result.force_scale += area * (lambda + 2 * mu) * reach / (u * compare::neo_hookean_force_tolerance);
-  result.block_scale += area * (mu * slope.value + (lambda + mu) * reach * reach) / (u * compare::neo_hookean_block_tolerance);
+  result.block_scale += area * (mu * slope.value + (lambda + mu) * reach * reach) /
+                        (u * compare::neo_hookean_block_tolerance);
   return result;
 }
 
@@ -162,7 +172,8 @@ Part both(Part a, const Part& b) {
 compare::ForceAnswer with_vertex_units(const compare::MembraneCase& q, const compare::ForceAnswer& answer) {
   const bool neo_hookean = q.model == compare::MembraneModel::stable_neo_hookean;
   const double block = neo_hookean ? compare::neo_hookean_block_tolerance : compare::membrane_block_tolerance;
-  return with_units(answer, (block + compare::per_vertex_additions) / compare::membrane_force_tolerance, neo_hookean ? block_units : 1);
+  return with_units(answer, (block + compare::per_vertex_additions) / compare::membrane_force_tolerance,
+                    neo_hookean ? block_units : 1);
 }
 
 }  // namespace
@@ -178,19 +189,22 @@ std::vector<compare::ForceAnswer> membrane(const compare::MembraneCase& question
   std::optional<compare::ForceAnswer> any = neo_hookean ? any_normal(inputs, s, f) : std::nullopt;
   if (question.damping_form == compare::DampingForm::per_vertex) {
     const Triple<Input> moved = inputs.vector(question.corner[0], question.start[0]);
-    std::vector answers{with_vertex_units(question, damped_by_vertex(inputs, exact.energy, exact.block, s.damping, moved))};
+    std::vector answers{
+        with_vertex_units(question, damped_by_vertex(inputs, exact.energy, exact.block, s.damping, moved))};
     if (!any) return answers;
     // Whatever the block is, it is no larger than its center and its scale together.
     const double largest = std::hypot(any->block[0], any->block[3], any->block[5]) +
                            compare::neo_hookean_block_tolerance * compare::unit_roundoff * any->block_scale;
-    any->force_scale += s.damping.value * largest * length(moved) / (compare::unit_roundoff * compare::neo_hookean_force_tolerance);
+    any->force_scale += s.damping.value * largest * length(moved) /
+                        (compare::unit_roundoff * compare::neo_hookean_force_tolerance);
     any->block_scale += s.damping.value * largest / (compare::unit_roundoff * compare::neo_hookean_block_tolerance);
     answers.push_back(with_vertex_units(question, *any));
     return answers;
   }
   const Part damping = damping_of_strain(s, g), all = both(exact, damping);
   std::vector answers{in_units_of_model(question.model, answer(inputs, all.energy, all.block))};
-  if (any) answers.push_back(in_units_of_model(question.model, sum(*any, answer(inputs, damping.energy, damping.block))));
+  if (any)
+    answers.push_back(in_units_of_model(question.model, sum(*any, answer(inputs, damping.energy, damping.block))));
   return answers;
 }
 

@@ -20,7 +20,8 @@ struct Accepted {
 /// `truth_of` gives the truth about one case.
 template <class Case, class TruthOf>
 compare::ForceTruth for_all(const std::vector<Case>& cases, TruthOf truth_of) {
-  compare::ForceTruth truth{std::vector<std::vector<compare::ForceAnswer>>(cases.size()), std::vector<std::uint8_t>(cases.size())};
+  compare::ForceTruth truth{std::vector<std::vector<compare::ForceAnswer>>(cases.size()),
+                            std::vector<std::uint8_t>(cases.size())};
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     Accepted accepted = truth_of(cases[i]);
     truth.accepted[i] = std::move(accepted.answers);

@@ -1,9 +1,11 @@
-// The projection of symmetric matrices to positive semidefinite ones, several matrices side by side. Most of its time is a chain of roots and quotients that
-// nothing runs beside in one matrix; side by side the chains of several hide each other's latency.
+// The projection of symmetric matrices to positive semidefinite ones, several matrices side by side. Most of its time
+// is a chain of roots and quotients that nothing runs beside in one matrix; side by side the chains of several hide
+// each other's latency.
 //
-// Householder's reduction to a tridiagonal matrix, then QL with implicit shifts (Bowdler, Martin, Reinsch and Wilkinson 1968), in which each lane has its own
-// part of the matrix at work; a lane without one is turned by nothing. Both are changes of basis, so the eigenvalues are off by some roundings of the largest
-// one at most; what QL neglects beside the diagonal is below 2⁻⁵³ of the largest entry.
+// Householder's reduction to a tridiagonal matrix, then QL with implicit shifts (Bowdler, Martin, Reinsch and Wilkinson
+// 1968), in which each lane has its own part of the matrix at work; a lane without one is turned by nothing. Both are
+// changes of basis, so the eigenvalues are off by some roundings of the largest one at most; what QL neglects beside
+// the diagonal is below 2⁻⁵³ of the largest entry.
 #pragma once
 
 #include "reference/energies/lanes.hpp"
@@ -35,9 +37,9 @@ class Eigensystem {
   }
 
  private:
-  static constexpr int most_sweeps = 30;             ///< for an eigenvalue; two are the rule
-  static constexpr double negligible = 0x1p-53;      ///< beside the diagonal
-  static constexpr double nothing = 0x1p-400;        ///< squares below it are of entries that are nothing beside 1
+  static constexpr int most_sweeps = 30;         ///< for an eigenvalue; two are the rule
+  static constexpr double negligible = 0x1p-53;  ///< beside the diagonal
+  static constexpr double nothing = 0x1p-400;    ///< squares below it are of entries that are nothing beside 1
 
   std::array<L, N> beside_;  ///< beside the diagonal: entry i couples i and i + 1; the last one is not read
 
@@ -81,10 +83,12 @@ class Eigensystem {
       }
   }
 
-  /// One sweep towards the eigenvalue `first`, in each lane from the first split of the matrix behind it. False where there is none left to do.
+  /// One sweep towards the eigenvalue `first`, in each lane from the first split of the matrix behind it. False where
+  /// there is none left to do.
   bool turn(std::size_t first) {
     L last(static_cast<double>(N - 1));
-    for (std::size_t k = N - 1; k-- > first;) last = select(abs(beside_[k]) <= L(negligible), L(static_cast<double>(k)), last);
+    for (std::size_t k = N - 1; k-- > first;)
+      last = select(abs(beside_[k]) <= L(negligible), L(static_cast<double>(k)), last);
     const M runs = last > L(static_cast<double>(first));
     if (!runs.any()) return false;
     L end(0.0);
@@ -100,7 +104,8 @@ class Eigensystem {
       // Root and quotient side by side: r/r² is 1/r but for a rounding.
       const L r = sqrt(square), inverse = r * (L(1.0) / square);
       const M turns = at_work && square > L(nothing), ends = at_work && !turns;
-      const L s = f * inverse, c = g * inverse, before = value[i + 1] - p, t = (value[i] - before) * s + L(2.0) * c * b, q = s * t;
+      const L s = f * inverse, c = g * inverse, before = value[i + 1] - p, t = (value[i] - before) * s + L(2.0) * c * b,
+              q = s * t;
       beside_[i + 1] = select(turns, r, select(ends, L(0.0), beside_[i + 1]));
       value[i + 1] = select(turns, before + q, select(ends, before, value[i + 1]));
       g = select(turns, c * t - b, g);
@@ -117,12 +122,14 @@ class Eigensystem {
     }
     value[first] = select(goes, value[first] - p, value[first]);
     beside_[first] = select(goes, g, beside_[first]);
-    for (std::size_t k = first; k < N; ++k) beside_[k] = select(runs && last == L(static_cast<double>(k)), L(0.0), beside_[k]);
+    for (std::size_t k = first; k < N; ++k)
+      beside_[k] = select(runs && last == L(static_cast<double>(k)), L(0.0), beside_[k]);
     return true;
   }
 };
 
-/// Where Gauss's elimination meets positive pivots alone, which tells a definite matrix at a hundredth of its eigenvalues' price; also where all is 0.
+/// Where Gauss's elimination meets positive pivots alone, which tells a definite matrix at a hundredth of its
+/// eigenvalues' price; also where all is 0.
 template <std::size_t N, std::size_t Packs>
 Mask<Packs> needs_none(LowerTriangle<N, Lanes<Packs>> a, const Lanes<Packs>& largest) {
   using L = Lanes<Packs>;
@@ -139,7 +146,8 @@ Mask<Packs> needs_none(LowerTriangle<N, Lanes<Packs>> a, const Lanes<Packs>& lar
   return definite || largest == L(0.0);
 }
 
-/// Replaces each negative eigenvalue by 0 or, with `absolute`, by its modulus; matrices without any are left as they are, to the bit.
+/// Replaces each negative eigenvalue by 0 or, with `absolute`, by its modulus; matrices without any are left as they
+/// are, to the bit.
 template <std::size_t N, std::size_t Packs>
 [[gnu::noinline]] void project(LowerTriangle<N, Lanes<Packs>>& h, bool absolute) {
   using L = Lanes<Packs>;

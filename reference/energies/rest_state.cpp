@@ -1,5 +1,6 @@
-// Each quantity is written once, as polynomials over a number type: exact numbers give the value, so that no needle, flat hinge or fold loses a bit before
-// the one root, quotient or angle at the end; numbers that know their inputs give the unit of its error.
+// Each quantity is written once, as polynomials over a number type: exact numbers give the value, so that no needle,
+// flat hinge or fold loses a bit before the one root, quotient or angle at the end; numbers that know their inputs give
+// the unit of its error.
 #include "reference/energies/rest_state.hpp"
 
 #include <CGAL/Mpzf.h>
@@ -23,7 +24,9 @@ Input number(const Input& x) { return x; }
 
 Point<Exact> exact(const compare::Vec3& p) { return {Exact(p.x), Exact(p.y), Exact(p.z)}; }
 
-compare::Vec3f single(const compare::Vec3& p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+compare::Vec3f single(const compare::Vec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
 
 Point<Input> input(Inputs& inputs, const compare::Vec3& p, const compare::Vec3& from) {
   const Triple<Input> v = inputs.vector(single(p), single(from));
@@ -41,7 +44,8 @@ template <class T>
 struct Shape {
   Point<T> edge, normal, across[2];  ///< across[k]: the edge opposite corner k + 1, from its first end to its second
 
-  Shape(const Point<T>& x0, const Point<T>& x1, const Point<T>& x2) : edge(x1 - x0), normal(cross(edge, x2 - x0)), across{x0 - x2, x1 - x0} {}
+  Shape(const Point<T>& x0, const Point<T>& x1, const Point<T>& x2)
+      : edge(x1 - x0), normal(cross(edge, x2 - x0)), across{x0 - x2, x1 - x0} {}
 };
 
 /// ∇N_k = n × (edge opposite k) / ‖n‖², in the frame of e and n × e.
@@ -73,15 +77,18 @@ struct Fold {
   /// 3 ‖e‖²/(A₀ + A₁).
   auto factor() const {
     using std::sqrt;
-    const auto ee = number(dot(edge, edge)), twice_first = sqrt(number(dot(first, first))), twice_second = sqrt(number(dot(second, second)));
+    const auto ee = number(dot(edge, edge)), twice_first = sqrt(number(dot(first, first))),
+               twice_second = sqrt(number(dot(second, second)));
     return decltype(ee)(6.0) * ee / (twice_first + twice_second);
   }
   /// Sums of cotangents over the edge's length: of x1, o0, o1, given the vectors to the opposite vertices from x0.
   auto weights(const Point<T>& to_first, const Point<T>& to_second) const {
     using std::sqrt;
-    const auto length = sqrt(number(dot(edge, edge))), twice_first = sqrt(number(dot(first, first))), twice_second = sqrt(number(dot(second, second)));
+    const auto length = sqrt(number(dot(edge, edge))), twice_first = sqrt(number(dot(first, first))),
+               twice_second = sqrt(number(dot(second, second)));
     const auto cotangents = number(dot(edge, to_first)) / twice_first + number(dot(edge, to_second)) / twice_second;
-    return std::array{decltype(length)(cotangents / length), decltype(length)(-length / twice_first), decltype(length)(-length / twice_second)};
+    return std::array{decltype(length)(cotangents / length), decltype(length)(-length / twice_first),
+                      decltype(length)(-length / twice_second)};
   }
 };
 
@@ -91,13 +98,18 @@ double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condit
 class Builder {
  public:
   explicit Builder(const compare::RestStateIn& in)
-      : scene_(*in.scene), topology_(*in.topology), body_(compare::body_of_vertex(scene_)), mass_(body_.size()), mass_scale_(body_.size()) {}
+      : scene_(*in.scene),
+        topology_(*in.topology),
+        body_(compare::body_of_vertex(scene_)),
+        mass_(body_.size()),
+        mass_scale_(body_.size()) {}
 
   compare::RestStateTruth build() {
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const compare::Body& body = scene_.bodies[b];
       if (body.fixed) continue;
-      for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) add_triangle(t, static_cast<Index>(b));
+      for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
+        add_triangle(t, static_cast<Index>(b));
     }
     for (std::size_t v = 0; v < mass_.size(); ++v) {
       truth_.exact.mass.push_back(static_cast<float>(mass_[v]));
@@ -165,9 +177,10 @@ class Builder {
     const double angle_scale = unit_of(inputs, reacting.angle());
     const Input bending = inputs.number(material.bending_stiffness);
     const long double angle = fold.angle(), stiffness = material.bending_stiffness * fold.factor();
-    truth_.exact.hinges.push_back({vertex, number_of_body, static_cast<float>(angle), static_cast<float>(stiffness), {}});
-    add_weights(material.bending, fold, reacting, {exact(at(vertex[2])) - exact(from), exact(at(vertex[3])) - exact(from)}, opposite,
-                inputs);
+    truth_.exact.hinges.push_back(
+        {vertex, number_of_body, static_cast<float>(angle), static_cast<float>(stiffness), {}});
+    add_weights(material.bending, fold, reacting,
+                {exact(at(vertex[2])) - exact(from), exact(at(vertex[3])) - exact(from)}, opposite, inputs);
     truth_.rest_angle.push_back(static_cast<double>(angle));
     truth_.rest_angle_scale.push_back(angle_scale);
     truth_.stiffness.push_back(static_cast<double>(stiffness));
@@ -175,8 +188,9 @@ class Builder {
   }
 
   /// Of the last hinge; 0 but in the isometric model.
-  void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting, const std::array<Point<Exact>, 2>& opposite,
-                   const std::array<Point<Input>, 2>& reacting_opposite, const Inputs& inputs) {
+  void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting,
+                   const std::array<Point<Exact>, 2>& opposite, const std::array<Point<Input>, 2>& reacting_opposite,
+                   const Inputs& inputs) {
     std::array<double, 3> weight{};
     double scale = 0;
     if (model == compare::BendingModel::isometric_quadratic) {

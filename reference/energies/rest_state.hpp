@@ -5,8 +5,8 @@
 
 namespace ogc::reference {
 
-/// Every value from exact polynomials of the coordinates as given, with one root, quotient or angle in long double; its unit from the derivatives of the
-/// same formula. The scene must be as the contract asks.
+/// Every value from exact polynomials of the coordinates as given, with one root, quotient or angle in long double; its
+/// unit from the derivatives of the same formula. The scene must be as the contract asks.
 compare::RestStateTruth rest_state(const compare::RestStateIn& in);
 
 }  // namespace ogc::reference

@@ -1,6 +1,7 @@
-// Forward differentiation to second order of a function of N variables: value, gradient and one triangle of the Hessian. Nesting Derivative in itself would
-// carry the other triangle too; Newton's method differentiates each stencil of a mesh in each iteration, so this is worth a type of its own. `Number` is a
-// double, or several of them side by side (lanes.hpp).
+// Forward differentiation to second order of a function of N variables: value, gradient and one triangle of the
+// Hessian. Nesting Derivative in itself would carry the other triangle too; Newton's method differentiates each stencil
+// of a mesh in each iteration, so this is worth a type of its own. `Number` is a double, or several of them side by
+// side (lanes.hpp).
 #pragma once
 
 #include <array>
@@ -13,19 +14,22 @@
 
 namespace ogc::reference {
 
-/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows, written out: short loops of changing length cost more than their bodies.
+/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows, written out: short loops of changing
+/// length cost more than their bodies.
 template <std::size_t N, class Visit>
 [[gnu::always_inline]] inline void for_triangle(Visit visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
-    const auto row = [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>, std::index_sequence<J...>) [[gnu::always_inline]] {
+    const auto row = [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
+                                                            std::index_sequence<J...>) [[gnu::always_inline]] {
       (visit(Row, J, Row * (Row + 1) / 2 + J), ...);
     };
     (row(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<I + 1>{}), ...);
-  }(std::make_index_sequence<N>{});
+  }
+  (std::make_index_sequence<N>{});
 }
 
-/// Public: value and slope; second derivatives by `bend`, since they are left open in what is linear: positions, edges and F. There they would be more than
-/// three quarters of all that is copied, and of what the cache must hold.
+/// Public: value and slope; second derivatives by `bend`, since they are left open in what is linear: positions, edges
+/// and F. There they would be more than three quarters of all that is copied, and of what the cache must hold.
 template <std::size_t N, class Number = double>
 class Second {
  public:
@@ -35,9 +39,7 @@ class Second {
 
   Second() : Second(Number(0.0)) {}
   Second(const Number& constant) : value(constant), slope{} {}
-  Second(double constant)
-    requires(!std::is_same_v<Number, double>)
-      : Second(Number(constant)) {}
+  Second(double constant) requires(!std::is_same_v<Number, double>) : Second(Number(constant)) {}
   Second(const Second& other) : value(other.value), slope(other.slope), linear_(other.linear_) {
     if (!linear_) bend_ = other.bend_;
   }
@@ -84,9 +86,7 @@ class Second {
     for (Number& x : a.bend_) x *= factor;
     return a;
   }
-  friend Second operator*(double factor, const Second& a)
-    requires(!std::is_same_v<Number, double>)
-  {
+  friend Second operator*(double factor, const Second& a) requires(!std::is_same_v<Number, double>) {
     return Number(factor) * a;
   }
   friend Second operator*(const Second& a, const Second& b) {
@@ -111,7 +111,8 @@ class Second {
   friend Second composed(const Number& f, const Number& first, const Number& second, const Second& x) {
     Second result(Open{}, f);
     for (std::size_t i = 0; i < N; ++i) result.slope[i] = first * x.slope[i];
-    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k) [[gnu::always_inline]] { result.bend_[k] = second * x.slope[i] * x.slope[j]; });
+    for_triangle<N>([&](std::size_t i, std::size_t j, std::size_t k)
+                        [[gnu::always_inline]] { result.bend_[k] = second * x.slope[i] * x.slope[j]; });
     if (!x.linear_)
       for (std::size_t k = 0; k < bends; ++k) result.bend_[k] += first * x.bend_[k];
     return result;
@@ -137,7 +138,8 @@ class Second {
       stretch[i] = (x.value * x.slope[i] + y.value * y.slope[i]) / squared;
       angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / squared;
       for (std::size_t j = 0; j <= i; ++j, ++k)
-        angle.bend_[k] = (x.value * y.bend(k) - y.value * x.bend(k)) / squared - (stretch[i] * angle.slope[j] + stretch[j] * angle.slope[i]);
+        angle.bend_[k] = (x.value * y.bend(k) - y.value * x.bend(k)) / squared -
+                         (stretch[i] * angle.slope[j] + stretch[j] * angle.slope[i]);
     }
     return angle;
   }

@@ -1,5 +1,5 @@
-// Derivatives of a batch of stencils: pack by pack through the energy as one function of lanes, then all of the batch through the projection, then back to the
-// vertices. For the files that are compiled for several machines.
+// Derivatives of a batch of stencils: pack by pack through the energy as one function of lanes, then all of the batch
+// through the projection, then back to the vertices. For the files that are compiled for several machines.
 #pragma once
 
 #include <utility>
@@ -19,7 +19,9 @@ void pack(One& to, Of of) {
 }
 template <class T, std::size_t N, class Of>
 void pack(std::array<T, N>& to, Of of) {
-  for (std::size_t i = 0; i < N; ++i) pack(to[i], [&](std::size_t lane) -> const auto& { return of(lane)[i]; });
+  for (std::size_t i = 0; i < N; ++i)
+    pack(
+        to[i], [&](std::size_t lane) -> const auto& { return of(lane)[i]; });
 }
 
 using LaneNumbers = std::array<std::size_t, One::width>;
@@ -30,8 +32,12 @@ TermOf<One> packed(const Terms& terms, const LaneNumbers& stencil) {
   TermOf<One> all;
   all.kinds() = terms[stencil[0]]->kinds();
   [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (pack(std::get<I>(all.numbers()), [&](std::size_t lane) -> const auto& { return std::get<I>(terms[stencil[lane]]->numbers()); }), ...);
-  }(std::make_index_sequence<std::tuple_size_v<decltype(all.numbers())>>{});
+    (pack(
+         std::get<I>(all.numbers()),
+         [&](std::size_t lane) -> const auto& { return std::get<I>(terms[stencil[lane]]->numbers()); }),
+     ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(all.numbers())>>{});
   return all;
 }
 
@@ -96,7 +102,9 @@ class SideBySide {
   using Term = typename Kind::template TermOf<double>;
   static constexpr std::size_t count = Kind::count, size = 3 * Kind::moving;
 
-  static void differentiate(const Batch<Term, count>& batch, compare::HessianProjection projection) { SideBySide(batch, projection); }
+  static void differentiate(const Batch<Term, count>& batch, compare::HessianProjection projection) {
+    SideBySide(batch, projection);
+  }
 
  private:
   using Corners = std::array<Triple<One>, count>;
@@ -113,14 +121,17 @@ class SideBySide {
   /// Lanes behind the last stencil repeat it.
   LaneNumbers stencils(std::size_t first) const {
     LaneNumbers numbers;
-    for (std::size_t lane = 0; lane < One::width; ++lane) numbers[lane] = first + lane < batch_.size ? first + lane : batch_.size - 1;
+    for (std::size_t lane = 0; lane < One::width; ++lane)
+      numbers[lane] = first + lane < batch_.size ? first + lane : batch_.size - 1;
     return numbers;
   }
   Corners corners(const LaneNumbers& stencil) const {
     Corners x;
     for (std::size_t k = 0; k < count; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        pack(x[k][axis], [&](std::size_t lane) { return batch_.corner[stencil[lane]][k][axis] - batch_.corner[stencil[lane]][0][axis]; });
+        pack(x[k][axis], [&](std::size_t lane) {
+          return batch_.corner[stencil[lane]][k][axis] - batch_.corner[stencil[lane]][0][axis];
+        });
     return x;
   }
   bool is_uniform(const LaneNumbers& stencil) const {
@@ -183,14 +194,17 @@ class SideBySide {
       along.store(&gradient[row * One::width]);
       for (std::size_t column = 0; column <= row; ++column) {
         One entry(0.0);
-        for (std::size_t d = first_coordinate(column / 3); d < Kind::moving; ++d) entry += half[3 * d + column % 3] * at.share(column / 3, d);
+        for (std::size_t d = first_coordinate(column / 3); d < Kind::moving; ++d)
+          entry += half[3 * d + column % 3] * at.share(column / 3, d);
         entry.store(&hessian[lower(row, column) * One::width]);
       }
     }
     for (std::size_t lane = 0; lane < One::width && first + lane < batch_.size; ++lane)
       scatter(first + lane, gradient.data() + lane, hessian.data() + lane);
   }
-  static constexpr std::size_t first_coordinate(std::size_t vertex) { return Kind::moving == count - 1 && vertex > 0 ? vertex - 1 : 0; }
+  static constexpr std::size_t first_coordinate(std::size_t vertex) {
+    return Kind::moving == count - 1 && vertex > 0 ? vertex - 1 : 0;
+  }
 
   /// Of one lane: entries are the width apart.
   void scatter(std::size_t stencil, const double* gradient, const double* hessian) const {
@@ -202,7 +216,8 @@ class SideBySide {
         to.gradient[to_row] = gradient[row * One::width];
         for (std::size_t column = 0; column <= row; ++column) {
           const std::size_t to_column = 3 * place(column / 3) + column % 3;
-          to.hessian[12 * to_row + to_column] = to.hessian[12 * to_column + to_row] = hessian[lower(row, column) * One::width];
+          to.hessian[12 * to_row + to_column] = to.hessian[12 * to_column + to_row] =
+              hessian[lower(row, column) * One::width];
         }
       }
     };

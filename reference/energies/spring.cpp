@@ -35,7 +35,8 @@ struct Separation {
     }
     const Input ratio = inputs.number(q.ratio);
     weight = {Input(1.0), ratio - Input(1.0), -ratio};
-    const auto now = inputs.stencil(q.vertex, static_cast<std::size_t>(q.own)), then = inputs.stencil(q.start, static_cast<std::size_t>(q.own));
+    const auto now = inputs.stencil(q.vertex, static_cast<std::size_t>(q.own)),
+               then = inputs.stencil(q.start, static_cast<std::size_t>(q.own));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       apart[axis] = ByVertex(weight[static_cast<std::size_t>(q.own)]) * own_vertex()[axis];
       before[axis] = Input(0.0);
@@ -50,10 +51,11 @@ struct Separation {
   }
 };
 
-/// What the block of a stitch may lack beyond the first order, where its length is lost in the error of Σ wᵢ xᵢ [N/m], which is known to 4 units of u · cond
-/// (compare/stages/spring.hpp). Where l is more than twice that, its inverse is known to twice its first order, for which the tolerances have room. Where it is
-/// less, l₀/l may come out as anything up to 1: the block may then lack all of max(0, 1 − l₀/l)(I − n nᵀ) if l₀ > 0. What is lost of n, and of l₀/l where l comes
-/// out as 0, is at most √2 l₀/l, and the first order accepts 44/8 of it.
+/// What the block of a stitch may lack beyond the first order, where its length is lost in the error of Σ wᵢ xᵢ [N/m],
+/// which is known to 4 units of u · cond (compare/stages/spring.hpp). Where l is more than twice that, its inverse is
+/// known to twice its first order, for which the tolerances have room. Where it is less, l₀/l may come out as anything
+/// up to 1: the block may then lack all of max(0, 1 − l₀/l)(I − n nᵀ) if l₀ > 0. What is lost of n, and of l₀/l where l
+/// comes out as 0, is at most √2 l₀/l, and the first order accepts 44/8 of it.
 double lost_block(const Inputs& inputs, const compare::SpringCase& q, const Separation& ends, const Input& length) {
   if (q.ratio == 0 || q.rest_length == 0) return 0;
   const Triple<Input> apart{ends.apart[0].value, ends.apart[1].value, ends.apart[2].value};
@@ -75,7 +77,8 @@ compare::ForceAnswer spring(const compare::SpringCase& q) {
   Inputs inputs;
   const auto own = static_cast<std::size_t>(q.own);
   const Separation ends(inputs, q);
-  const Input stiffness = inputs.number(q.stiffness), rest_length = inputs.number(q.rest_length), damping = inputs.number(q.damping);
+  const Input stiffness = inputs.number(q.stiffness), rest_length = inputs.number(q.rest_length),
+              damping = inputs.number(q.damping);
   const ByVertex length = sqrt(dot(ends.apart, ends.apart));
   ByVertex energy = spring_energy(length, ByVertex(stiffness), ByVertex(rest_length));
   Block block = elastic_block(length, ends.weight[own], stiffness, rest_length);
@@ -87,12 +90,15 @@ compare::ForceAnswer spring(const compare::SpringCase& q) {
     const double units = (block_tolerance + compare::per_vertex_additions) / compare::spring_force_tolerance;
     const Triple<Input> moved = inputs.vector(q.vertex[own], q.start[own]);
     const double distance = sqrt(dot(moved, moved)).value;
-    return with_lost(with_units(damped_by_vertex(inputs, energy, block, damping, moved), units, block_units), q.damping * lost * distance, (1 + q.damping) * lost);
+    return with_lost(with_units(damped_by_vertex(inputs, energy, block, damping, moved), units, block_units),
+                     q.damping * lost * distance, (1 + q.damping) * lost);
   }
   const Input resistance = damping * stiffness;
   energy = energy + spring_energy(length, ByVertex(resistance), ByVertex(sqrt(dot(ends.before, ends.before))));
   add_outer(block, resistance, length, length);
-  return with_lost(with_units(answer(inputs, energy, block), force_tolerance / compare::spring_force_tolerance, block_units), 0, lost);
+  return with_lost(
+      with_units(answer(inputs, energy, block), force_tolerance / compare::spring_force_tolerance, block_units), 0,
+      lost);
 }
 
 compare::ForceTruth spring(const compare::SpringIn& in) {

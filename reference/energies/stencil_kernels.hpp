@@ -1,5 +1,5 @@
-// Derivatives of stencils, several of one kind side by side: what Newton's method asks for. The functions are compiled for several machines and give the same
-// bits on each, those of a stencil alone (stencil_derivatives.hpp).
+// Derivatives of stencils, several of one kind side by side: what Newton's method asks for. The functions are compiled
+// for several machines and give the same bits on each, those of a stencil alone (stencil_derivatives.hpp).
 #pragma once
 
 #include "reference/energies/stencil_derivatives.hpp"
@@ -16,7 +16,8 @@ struct Batch {
   std::size_t size = 0;  ///< at most batch_width, at least 1
   std::array<const Term*, batch_width> term{};
   std::array<std::array<Triple<double>, Count>, batch_width> corner{};
-  std::array<std::array<std::uint8_t, Count>, batch_width> place{};  ///< of the corners in the result's gradient and Hessian
+  /// of the corners in the result's gradient and Hessian
+  std::array<std::array<std::uint8_t, Count>, batch_width> place{};
   std::array<StencilDerivatives*, batch_width> result{};
 
   void add(const Term& with, const std::array<Triple<double>, Count>& at, StencilDerivatives& to) {
@@ -24,7 +25,8 @@ struct Batch {
     for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
     add(with, at, places, to);
   }
-  void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places, StencilDerivatives& to) {
+  void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
+           StencilDerivatives& to) {
     term[size] = &with;
     corner[size] = at;
     place[size] = places;
@@ -61,7 +63,7 @@ struct StencilKernels {
   using Function = void (*)(const Batch<Term, Count>& batch, compare::HessianProjection projection);
   Function<MembraneTerm, 3> membranes;
   Function<HingeTerm, 4> hinges;
-  Function<SpringTerm, 4> springs;  ///< by Σ wᵢ xᵢ, as weighted contacts
+  Function<SpringTerm, 4> springs;           ///< by Σ wᵢ xᵢ, as weighted contacts
   Function<PlacedContact, 2> contacts_of_2;  ///< by the vertices of their forms
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;

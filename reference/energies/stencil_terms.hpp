@@ -1,6 +1,7 @@
-// The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4). Newton's method differentiates these; the
-// stages of the sweep ask for one vertex at a time and share strain and angle with them. `Number`: of what a stencil knows, a double, or one for each of
-// several stencils side by side; `numbers` are those, `kinds` is what all of them must have in common.
+// The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4).
+// Newton's method differentiates these; the stages of the sweep ask for one vertex at a time and share strain and angle
+// with them. `Number`: of what a stencil knows, a double, or one for each of several stencils side by side; `numbers`
+// are those, `kinds` is what all of them must have in common.
 #pragma once
 
 #include <tuple>
@@ -19,12 +20,13 @@ namespace ogc::reference {
 template <class Number>
 struct MembraneTermOf {
   std::array<compare::Index, 3> vertex{};
-  std::array<std::array<Number, 2>, 3> gradient{};  ///< ∇N [1/m]
+  std::array<std::array<Number, 2>, 3> gradient{};           ///< ∇N [1/m]
   Number area = 0.0, lambda = 0.0, mu = 0.0, damping = 0.0;  ///< A [m²], Lamé [N/m], k = k_d/h [1]
-  Strain<Number> start{};                            ///< Gᵗ
+  Strain<Number> start{};                                    ///< Gᵗ
   compare::MembraneModel model = compare::MembraneModel::st_venant_kirchhoff;
 
-  /// Parts of the energy by what they depend on: elastic_of a strain or, in the stable Neo-Hookean model, of F; damping of a strain.
+  /// Parts of the energy by what they depend on: elastic_of a strain or, in the stable Neo-Hookean model, of F; damping
+  /// of a strain.
   template <class T>
   T elastic_of(const Strain<T>& g) const {
     return area * density(g, lambda, mu);
@@ -59,14 +61,15 @@ struct MembraneTermOf {
 };
 using MembraneTerm = MembraneTermOf<double>;
 
-/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); what holds θ is 0 where a triangle has collapsed.
+/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); what holds θ is 0 where
+/// a triangle has collapsed.
 template <class Number>
 struct HingeTermOf {
   std::array<compare::Index, 4> vertex{};
   Number stiffness = 0.0, rest_angle = 0.0, damping = 0.0;  ///< c [J], θ₀ [rad], k [1]
-  Number start = 0.0;                                 ///< θᵗ [rad]
+  Number start = 0.0;                                       ///< θᵗ [rad]
   bool isometric = false;
-  std::array<Number, 4> weight{};                     ///< w [1/m]
+  std::array<Number, 4> weight{};  ///< w [1/m]
 
   /// What depends on the angle: all of it, or the isometric model's damping.
   template <class T>
@@ -104,13 +107,14 @@ struct HingeTermOf {
 };
 using HingeTerm = HingeTermOf<double>;
 
-/// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²), l = ‖Σ wᵢ xᵢ‖: of an end and a point between two others, or another vertex.
+/// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²), l = ‖Σ wᵢ xᵢ‖: of an end and a point between two others, or another
+/// vertex.
 template <class Number>
 struct SpringTermOf {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::array<Number, 4> weight{1.0, -1.0, 0.0, 0.0};
   Number stiffness = 0.0, rest_length = 0.0, damping = 0.0;  ///< k_s [N/m], l₀ [m], k [1]
-  Number start = 0.0;                                  ///< lᵗ [m]
+  Number start = 0.0;                                        ///< lᵗ [m]
 
   template <class T>
   T elastic(const std::array<Triple<T>, 4>& x) const {
@@ -148,8 +152,8 @@ struct ContactTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   Number radius = 0.0, stiffness = 0.0;  ///< r [m]; k_c [N/m]
-  Number mollifier = 1.0;            ///< e_k of the last detection
-  Number friction = 0.0;             ///< μ [1]
+  Number mollifier = 1.0;                ///< e_k of the last detection
+  Number friction = 0.0;                 ///< μ [1]
   compare::ContactActivation activation = compare::ContactActivation::ogc;
 
   template <class T>
@@ -175,7 +179,7 @@ struct FrictionTermOf {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::array<Number, 4> weight{};
   Triple<Number> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
-  Number force = 0.0, limit = 0.0;       ///< μ λ [N]; ε = ε_v h [m]
+  Number force = 0.0, limit = 0.0;   ///< μ λ [N]; ε = ε_v h [m]
 
   /// u over any number type, of the corners or of Σ wᵢ xᵢ.
   template <class T, std::size_t N>

@@ -1,5 +1,6 @@
-// A question about a point that is given is one conjunction. A question about the point of an edge that is closest to something first asks which face of
-// the edge holds that point: of several that could, each has its say in what is accepted.
+// A question about a point that is given is one conjunction. A question about the point of an edge that is closest to
+// something first asks which face of the edge holds that point: of several that could, each has its say in what is
+// accepted.
 #include "reference/geometry/block.hpp"
 
 #include <tbb/blocked_range.h>
@@ -49,7 +50,9 @@ Answer vertex_in_surface(const Complex& mesh, const Vec3f& x, Face a) {
 
 /// Eq. 14: the foot on a lies between a's ends, which is where the closest point of a lies in its interior.
 Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
-  const auto ends = [&mesh](Index edge) { return std::array{mesh.at(mesh.edge(edge)[0]), mesh.at(mesh.edge(edge)[1])}; };
+  const auto ends = [&mesh](Index edge) {
+    return std::array{mesh.at(mesh.edge(edge)[0]), mesh.at(mesh.edge(edge)[1])};
+  };
   const EdgePair pair{ends(a), ends(e)};
   const auto interior = [](EdgeFeatures on) { return on.first == EdgeFeature::interior; };
   Answer answer;
@@ -65,7 +68,8 @@ Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   return answer;
 }
 
-/// Eq. 15 for the point of cd that is closest to v: `plane(w)` is positive where that point lies on w's side of the plane through v.
+/// Eq. 15 for the point of cd that is closest to v: `plane(w)` is positive where that point lies on w's side of the
+/// plane through v.
 template <class Plane>
 Membership vertex_block(const Complex& mesh, Index v, Nearness& nearness, Plane plane) {
   Membership block;
@@ -84,17 +88,20 @@ Answer edge_in_vertex(const Complex& mesh, Index e, Index v) {
     Membership beyond;
     Nearness of_end;
     require(beyond, of_end, {along(from, to, x), false});
-    if (beyond.possible) add(answer, beyond, vertex_block(mesh, v, of_end, [&](const Vec3f& w) { return along(x, w, from); }));
+    if (beyond.possible)
+      add(answer, beyond, vertex_block(mesh, v, of_end, [&](const Vec3f& w) { return along(x, w, from); }));
     require(inside, of_interior, {along(from, to, x), true});
     answer.near = answer.near || of_end.is_near();
   }
-  if (inside.possible) add(answer, inside, vertex_block(mesh, v, of_interior, [&](const Vec3f& w) { return turn(x, w, c, d); }));
+  if (inside.possible)
+    add(answer, inside, vertex_block(mesh, v, of_interior, [&](const Vec3f& w) { return turn(x, w, c, d); }));
   answer.near = answer.near || of_interior.is_near();
   return answer;
 }
 
 Answer answer_to(const Complex& mesh, const BlockQuestion& question) {
-  if (question.kind == BlockQuestion::Kind::vertex_in_surface) return vertex_in_surface(mesh, mesh.at(question.of), question.face);
+  if (question.kind == BlockQuestion::Kind::vertex_in_surface)
+    return vertex_in_surface(mesh, mesh.at(question.of), question.face);
   if (question.face.kind == FaceKind::edge) return edge_in_edge(mesh, question.of, question.face.index);
   return edge_in_vertex(mesh, question.of, question.face.index);
 }
@@ -105,14 +112,15 @@ compare::BlockTruth block(const compare::BlockIn& in) {
   const Complex mesh{*in.topology, in.positions};
   const std::vector<std::uint8_t> none(in.questions.size());
   compare::BlockTruth truth{none, none, none};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.questions.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Answer answer = answer_to(mesh, in.questions[i]);
-      truth.inside[i] = answer.inside;
-      truth.grey[i] = answer.may_be_inside && answer.may_be_outside;
-      truth.near[i] = answer.near;
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.questions.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        const Answer answer = answer_to(mesh, in.questions[i]);
+                        truth.inside[i] = answer.inside;
+                        truth.grey[i] = answer.may_be_inside && answer.may_be_outside;
+                        truth.near[i] = answer.near;
+                      }
+                    });
   return truth;
 }
 

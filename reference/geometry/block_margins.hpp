@@ -22,8 +22,10 @@ struct BlockMargin {
   bool holds() const { return sign > 0 || (sign == 0 && closed); }
 };
 
-/// All boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first; x is in the block where all hold. The sphere of an edge
-/// or a triangle is the cylinder's wall or the pair of planes at distance r.
-std::vector<BlockMargin> block_margins(const Complex& mesh, Face face, const Vec3f& x, float radius, bool edge_only = false);
+/// All boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first; x is in the
+/// block where all hold. The sphere of an edge or a triangle is the cylinder's wall or the pair of planes at distance
+/// r.
+std::vector<BlockMargin> block_margins(const Complex& mesh, Face face, const Vec3f& x, float radius,
+                                       bool edge_only = false);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// A block is the face moved along each of its normals up to r: vertices sweep cones of the region N_v, edges prisms over the arc N_e, triangles a prism to
-// either side. So each picture is made of the outline of N_a.
+// A block is the face moved along each of its normals up to r: vertices sweep cones of the region N_v, edges prisms
+// over the arc N_e, triangles a prism to either side. So each picture is made of the outline of N_a.
 #include "reference/geometry/block_picture.hpp"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ class Painter {
   /// A planar, convex patch. Its outline is all around it, or `outlines`.
   void polygon(Kind kind, bool closed, const std::vector<int>& corners, std::vector<std::vector<int>> outlines = {}) {
     BlockPatch& wall = patch(kind, closed);
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k) wall.triangles.push_back({corners[0], corners[k], corners[k + 1]});
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+      wall.triangles.push_back({corners[0], corners[k], corners[k + 1]});
     wall.outlines = std::move(outlines);
     if (!wall.outlines.empty()) return;
     wall.outlines.push_back(corners);
@@ -73,7 +74,8 @@ class Painter {
 };
 
 /// The part of the sphere inside an outline, in rings towards its middle.
-void paint_cap(Painter& painter, const Point3& x, double r, const std::vector<Unit>& rim, const Unit& centre, double step) {
+void paint_cap(Painter& painter, const Point3& x, double r, const std::vector<Unit>& rim, const Unit& centre,
+               double step) {
   const int rings = std::max(2, static_cast<int>(std::ceil(1.6 / step / 2)));
   std::vector<std::vector<int>> rows;
   for (int k = 0; k < rings; ++k) {
@@ -90,7 +92,8 @@ void paint_cap(Painter& painter, const Point3& x, double r, const std::vector<Un
       cap.triangles.push_back({low[i + 1], high[i + 1], high[i]});
     }
   }
-  for (std::size_t i = 0; i + 1 < rows.back().size(); ++i) cap.triangles.push_back({rows.back()[i], rows.back()[i + 1], top});
+  for (std::size_t i = 0; i + 1 < rows.back().size(); ++i)
+    cap.triangles.push_back({rows.back()[i], rows.back()[i + 1], top});
   cap.outlines.push_back(rows.front());
 }
 
@@ -105,7 +108,8 @@ Unit middle_of(const GaussMap& map) {
 
 void paint_vertex(Painter& painter, const GaussMap& map, const Point3& x, double r, double step) {
   if (map.dimension == 0) {
-    for (const Unit& n : map.corners) painter.patch(Kind::end, true).outlines.push_back({painter.point(x), painter.point(moved(x, r, n))});
+    for (const Unit& n : map.corners)
+      painter.patch(Kind::end, true).outlines.push_back({painter.point(x), painter.point(moved(x, r, n))});
     return;
   }
   const std::vector<Unit> rim = outline(map, step);
@@ -129,7 +133,8 @@ void paint_vertex(Painter& painter, const GaussMap& map, const Point3& x, double
 
 void paint_edge(Painter& painter, const GaussMap& map, const Point3& a, const Point3& b, double r, double step) {
   const auto wall = [&](const Unit& n) {
-    const std::vector<int> c{painter.point(a), painter.point(b), painter.point(moved(b, r, n)), painter.point(moved(a, r, n))};
+    const std::vector<int> c{painter.point(a), painter.point(b), painter.point(moved(b, r, n)),
+                             painter.point(moved(a, r, n))};
     painter.polygon(Kind::wall, true, c, {{c[0], c[1]}, {c[2], c[3]}});
   };
   if (map.dimension == 0) {
@@ -167,7 +172,8 @@ std::vector<Unit> outline(const GaussMap& map, double step) {
   if (map.dimension < 1 || (map.dimension == 2 && map.closed)) return map.corners;
   const bool around = map.dimension == 2 || map.closed;
   const std::size_t arcs = around ? map.corners.size() : map.corners.size() - 1;
-  for (std::size_t k = 0; k < arcs; ++k) append_arc(points, map.corners[k], map.corners[(k + 1) % map.corners.size()], step);
+  for (std::size_t k = 0; k < arcs; ++k)
+    append_arc(points, map.corners[k], map.corners[(k + 1) % map.corners.size()], step);
   points.push_back(around ? map.corners.front() : map.corners.back());
   return points;
 }
@@ -181,7 +187,8 @@ BlockPicture block_picture(const Complex& mesh, Face face, float radius, bool ed
   if (map.dimension < 0 || (map.dimension == 2 && map.closed)) return painter.take();
   if (face.kind == FaceKind::vertex) paint_vertex(painter, map, at(0), r, step);
   if (face.kind == FaceKind::edge) paint_edge(painter, map, at(0), at(1), r, step);
-  if (face.kind == FaceKind::triangle && map.corners.size() == 2) paint_triangle(painter, map, {at(0), at(1), at(2)}, r);
+  if (face.kind == FaceKind::triangle && map.corners.size() == 2)
+    paint_triangle(painter, map, {at(0), at(1), at(2)}, r);
   return painter.take();
 }
 

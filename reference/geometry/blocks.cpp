@@ -1,4 +1,5 @@
-// The square of each distance and each plane test multiplied by positive lengths: all signs of polynomials, so nothing here rounds.
+// The square of each distance and each plane test multiplied by positive lengths: all signs of polynomials, so nothing
+// here rounds.
 #include "reference/geometry/blocks.hpp"
 
 #include <algorithm>
@@ -41,12 +42,14 @@ bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float ra
 
 Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius) {
   const auto a = mesh.vertices(pair.first).items, b = mesh.vertices(pair.second).items;
-  if (pair.first.kind == FaceKind::edge) return gap_lines(mesh.at(a[0]), mesh.at(a[1]), mesh.at(b[0]), mesh.at(b[1]), radius);
+  if (pair.first.kind == FaceKind::edge)
+    return gap_lines(mesh.at(a[0]), mesh.at(a[1]), mesh.at(b[0]), mesh.at(b[1]), radius);
   if (pair.second.kind == FaceKind::edge) return gap_line(mesh.at(b[0]), mesh.at(b[1]), mesh.at(a[0]), radius);
   return gap_points(mesh.at(a[0]), mesh.at(b[0]), radius);
 }
 
-bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first, std::span<const Index> second) {
+bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first,
+                 std::span<const Index> second) {
   if (exclusions.partners != nullptr)
     for (const Index v : first)
       for (const Index partner : (*exclusions.partners)[static_cast<std::size_t>(v)])

@@ -1,4 +1,5 @@
-// Block membership: the conditions of Eq. 8–10 (manifold), 14 and 15 (edge-only manifold), each with the face that lies across its boundary.
+// Block membership: the conditions of Eq. 8–10 (manifold), 14 and 15 (edge-only manifold), each with the face that lies
+// across its boundary.
 #pragma once
 
 #include <span>
@@ -20,7 +21,9 @@ struct Complex {
   const Vec3f& at(Index vertex) const { return positions[static_cast<std::size_t>(vertex)]; }
   const compare::Edge& edge(Index e) const { return topology.edges[static_cast<std::size_t>(e)]; }
   const compare::Triangle& triangle(Index t) const { return topology.triangles[static_cast<std::size_t>(t)]; }
-  std::span<const Index> edges_of(Index vertex) const { return topology.vertex_edges[static_cast<std::size_t>(vertex)]; }
+  std::span<const Index> edges_of(Index vertex) const {
+    return topology.vertex_edges[static_cast<std::size_t>(vertex)];
+  }
   std::span<const Index> triangles_of(Index e) const { return topology.edge_triangles[static_cast<std::size_t>(e)]; }
   /// The vertex of edge e that is not `vertex`.
   Index across(Index e, Index vertex) const { return edge(e)[0] == vertex ? edge(e)[1] : edge(e)[0]; }
@@ -47,25 +50,30 @@ struct Boundary {
   Face across;
 };
 
-/// All boundaries of U_a but the distance, for the point x (Eq. 8, 9, 10): visit(Boundary) returns false to stop. A margin that two faces share is
-/// written with its vertices in the same order by both.
+/// All boundaries of U_a but the distance, for the point x (Eq. 8, 9, 10): visit(Boundary) returns false to stop. A
+/// margin that two faces share is written with its vertices in the same order by both.
 template <class Visit>
 void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   if (face.kind == FaceKind::vertex) {
     for (const Index e : mesh.edges_of(face.index)) {
-      if (!visit(Boundary{{along(mesh.at(face.index), mesh.at(mesh.across(e, face.index)), x), false}, edge_face(e)})) return;
+      if (!visit(Boundary{{along(mesh.at(face.index), mesh.at(mesh.across(e, face.index)), x), false}, edge_face(e)}))
+        return;
     }
   } else if (face.kind == FaceKind::edge) {
     const auto [a, b] = mesh.edge(face.index);
     if (!visit(Boundary{{along(mesh.at(a), mesh.at(b), x), true}, vertex_face(a)})) return;
     if (!visit(Boundary{{along(mesh.at(b), mesh.at(a), x), true}, vertex_face(b)})) return;
     for (const Index t : mesh.triangles_of(face.index)) {
-      if (!visit(Boundary{{side(mesh.at(a), mesh.at(b), mesh.at(mesh.opposite(t, face.index)), x), false}, triangle_face(t)})) return;
+      if (!visit(Boundary{{side(mesh.at(a), mesh.at(b), mesh.at(mesh.opposite(t, face.index)), x), false},
+                          triangle_face(t)}))
+        return;
     }
   } else {
     for (const Index e : mesh.topology.triangle_edges[static_cast<std::size_t>(face.index)]) {
       const auto [a, b] = mesh.edge(e);
-      if (!visit(Boundary{{side(mesh.at(a), mesh.at(b), mesh.at(mesh.opposite(face.index, e)), x), true}, edge_face(e)})) return;
+      if (!visit(
+              Boundary{{side(mesh.at(a), mesh.at(b), mesh.at(mesh.opposite(face.index, e)), x), true}, edge_face(e)}))
+        return;
     }
   }
 }
@@ -92,7 +100,8 @@ struct PairBoundary {
   FacePair across;
 };
 
-/// That the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17), and that these are their closest points.
+/// That the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17), and that these are their
+/// closest points.
 template <class Visit>
 void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   const auto [a, b] = mesh.edge(e);
@@ -139,7 +148,8 @@ void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
 /// The distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
 Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius);
 
-/// True where a pair of primitives, given by their vertices, is none although they share no vertex (compare::Exclusions).
+/// True where a pair of primitives, given by their vertices, is none although they share no vertex
+/// (compare::Exclusions).
 bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first, std::span<const Index> second);
 
 }  // namespace ogc::reference

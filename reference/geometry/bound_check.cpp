@@ -1,4 +1,5 @@
-// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are asked only where b_v lies above that product.
+// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are asked only where
+// b_v lies above that product.
 #include "reference/geometry/bound_check.hpp"
 
 #include <tbb/blocked_range.h>
@@ -20,16 +21,19 @@ bool is_above(float b, const Margin& distance, float relaxation) {
 
 }  // namespace
 
-std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, float bound_relaxation, std::span<const float> bounds) {
+std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, float bound_relaxation,
+                                               std::span<const float> bounds) {
   if (bounds.size() != in.positions.size()) {
-    throw compare::InputError("bounds_above_exact: " + std::to_string(bounds.size()) + " bounds for " + std::to_string(in.positions.size()) +
-                              " vertices; give one for each");
+    throw compare::InputError("bounds_above_exact: " + std::to_string(bounds.size()) + " bounds for " +
+                              std::to_string(in.positions.size()) + " vertices; give one for each");
   }
   const std::vector<Margin> limits = limiting_distances(*in.topology, nearest_primitives(in));
   std::vector<char> above(bounds.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bounds.size(), 256), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t v = range.begin(); v < range.end(); ++v) above[v] = is_above(bounds[v], limits[v], bound_relaxation);
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bounds.size(), 256),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t v = range.begin(); v < range.end(); ++v)
+                        above[v] = is_above(bounds[v], limits[v], bound_relaxation);
+                    });
   std::vector<compare::Index> result;
   for (std::size_t v = 0; v < above.size(); ++v) {
     if (above[v]) result.push_back(static_cast<compare::Index>(v));

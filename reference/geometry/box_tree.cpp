@@ -12,13 +12,15 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::uint32_t worth_a_thread = 2048;
 
-/// Nodes of a tree of `count` and of one of `count + 1` primitives: halves differ by one at most, so two numbers a level are all there is.
+/// Nodes of a tree of `count` and of one of `count + 1` primitives: halves differ by one at most, so two numbers a
+/// level are all there is.
 std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
   if (count + 1 <= leaf_size) return {1, 1};
   const auto halves = node_counts(count / 2);  // of ⌊count/2⌋ and ⌊count/2⌋ + 1
   const std::uint32_t even = 1 + 2 * halves[0], odd = 1 + halves[0] + halves[1], next = 1 + 2 * halves[1];
   const auto kept = [](std::uint32_t of, std::uint32_t nodes) { return of <= leaf_size ? 1 : nodes; };
-  return count % 2 == 0 ? std::array{kept(count, even), kept(count + 1, odd)} : std::array{kept(count, odd), kept(count + 1, next)};
+  return count % 2 == 0 ? std::array{kept(count, even), kept(count + 1, odd)}
+                        : std::array{kept(count, odd), kept(count + 1, next)};
 }
 
 double middle(const Box& box, std::size_t axis) { return box.low[axis] + box.high[axis]; }
@@ -57,8 +59,8 @@ Box widened(Box box, double distance) {
 }
 
 bool meet(const Box& a, const Box& b) {
-  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] && a.low[2] <= b.high[2] &&
-         b.low[2] <= a.high[2];
+  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
+         a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
 }
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
@@ -69,7 +71,8 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
   build(0, 1, 0, count);
 }
 
-/// The nodes below `node` go to `free` and after it: two children, all below the first, all below the second. Each place is known beforehand.
+/// The nodes below `node` go to `free` and after it: two children, all below the first, all below the second. Each
+/// place is known beforehand.
 void BoxTree::build(std::uint32_t node, std::uint32_t free, std::uint32_t first, std::uint32_t count) {
   Box box;
   for (std::uint32_t k = first; k < first + count; ++k) include(box, boxes_[static_cast<std::size_t>(order_[k])]);
@@ -81,10 +84,12 @@ void BoxTree::build(std::uint32_t node, std::uint32_t free, std::uint32_t first,
   }
   const std::size_t axis = longest_axis(box);
   const std::uint32_t half = count / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, [&](Index a, Index b) {
-    const double x = middle(boxes_[static_cast<std::size_t>(a)], axis), y = middle(boxes_[static_cast<std::size_t>(b)], axis);
-    return x < y || (x == y && a < b);
-  });
+  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
+                   [&](Index a, Index b) {
+                     const double x = middle(boxes_[static_cast<std::size_t>(a)], axis),
+                                  y = middle(boxes_[static_cast<std::size_t>(b)], axis);
+                     return x < y || (x == y && a < b);
+                   });
   nodes_[node].first = free;
   const auto left = [&] { build(free, free + 2, first, half); };
   const auto right = [&] { build(free + 1, free + 1 + node_counts(half)[0], first + half, count - half); };

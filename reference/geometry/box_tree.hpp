@@ -1,4 +1,5 @@
-// Culling only: which primitives' boxes meet a box. Every decision about distance or contact is made elsewhere, exactly.
+// Culling only: which primitives' boxes meet a box. Every decision about distance or contact is made elsewhere,
+// exactly.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
-// Why a vertex may ask an edge: N_v is a convex cone that meets the star's cone in the vertex alone, so all of its directions lie on one side of the surface
-// (a flat vertex has two opposite ones, each of which touches every edge). From a direction g of N_v that is perpendicular to a spoke, the way along that
-// spoke stays off the star: for its points g·w > 0, for those of the star g·w ≤ 0. Hence v + ε g and the point above the spoke lie on the same side.
+// Why a vertex may ask an edge: N_v is a convex cone that meets the star's cone in the vertex alone, so all of its
+// directions lie on one side of the surface (a flat vertex has two opposite ones, each of which touches every edge).
+// From a direction g of N_v that is perpendicular to a spoke, the way along that spoke stays off the star: for its
+// points g·w > 0, for those of the star g·w ≤ 0. Hence v + ε g and the point above the spoke lie on the same side.
 #include "reference/geometry/closed_surface.hpp"
 
 #include <algorithm>
@@ -42,19 +43,22 @@ void check_edge(const Complex& mesh, Index e) {
   const compare::Edge& edge = mesh.edge(e);
   const auto triangles = mesh.triangles_of(e);
   if (triangles.size() != 2)
-    refuse(name("edge", e, edge) + " belongs to " + std::to_string(triangles.size()) + " triangle" + (triangles.size() == 1 ? "" : "s") +
-           ", and a closed surface has two at every edge; close the hole or take the sheet for what it is, a surface with two sides");
+    refuse(name("edge", e, edge) + " belongs to " + std::to_string(triangles.size()) + " triangle" +
+           (triangles.size() == 1 ? "" : "s") +
+           ", and a closed surface has two at every edge; close the hole or take the sheet for what it is, a surface "
+           "with two sides");
   if (runs_along(mesh.triangle(triangles[0]), edge) == runs_along(mesh.triangle(triangles[1]), edge))
-    refuse("triangles " + std::to_string(triangles[0]) + " and " + std::to_string(triangles[1]) + " run through " + name("edge", e, edge) +
-           " in the same sense; turn one of them round");
+    refuse("triangles " + std::to_string(triangles[0]) + " and " + std::to_string(triangles[1]) + " run through " +
+           name("edge", e, edge) + " in the same sense; turn one of them round");
 }
 
 void check_fold(const Complex& mesh, Index e) {
   if (bend(mesh, e) != 0) return;
   const auto triangles = mesh.triangles_of(e);
   if (sign_of(dot(normal(mesh, triangles[0]), normal(mesh, triangles[1]))) < 0)
-    refuse("triangles " + std::to_string(triangles[0]) + " and " + std::to_string(triangles[1]) + " lie folded onto each other along " +
-           name("edge", e, mesh.edge(e)) + "; nothing says which side is outside");
+    refuse("triangles " + std::to_string(triangles[0]) + " and " + std::to_string(triangles[1]) +
+           " lie folded onto each other along " + name("edge", e, mesh.edge(e)) +
+           "; nothing says which side is outside");
 }
 
 void check_volume(const Complex& mesh) {
@@ -64,7 +68,9 @@ void check_volume(const Complex& mesh) {
     volume = volume + dot(exact(mesh.at(a)), cross(exact(mesh.at(b)), exact(mesh.at(c))));
   }
   if (sign_of(volume) <= 0)
-    refuse(std::string("it encloses ") + (volume.is_zero() ? "no volume" : "a negative volume: its triangles, 0 the first, face inward; turn them round"));
+    refuse(std::string("it encloses ") +
+           (volume.is_zero() ? "no volume"
+                             : "a negative volume: its triangles, 0 the first, face inward; turn them round"));
 }
 
 /// The closed triangle holds x; n is its normal, not zero.
@@ -82,7 +88,8 @@ int generic_sign(const ExactVector& a) {
   return 0;
 }
 
-/// 1 where the ray from x leaves through the triangle, −1 where it enters, 0 where it passes by. x is not on the triangle.
+/// 1 where the ray from x leaves through the triangle, −1 where it enters, 0 where it passes by. x is not on the
+/// triangle.
 int crossing(const std::array<ExactVector, 3>& corners, const ExactVector& n, const ExactVector& x) {
   const int direction = generic_sign(n);
   for (std::size_t k = 0; k < 3; ++k)
@@ -93,7 +100,8 @@ int crossing(const std::array<ExactVector, 3>& corners, const ExactVector& n, co
 }  // namespace
 
 ClosedSurface::ClosedSurface(const Complex& mesh) : mesh_(mesh) {
-  const auto edges = static_cast<Index>(mesh.topology.edges.size()), triangles = static_cast<Index>(mesh.topology.triangles.size());
+  const auto edges = static_cast<Index>(mesh.topology.edges.size()),
+             triangles = static_cast<Index>(mesh.topology.triangles.size());
   for (Index e = 0; e < edges; ++e) check_edge(mesh, e);
   for (Index t = 0; t < triangles; ++t)
     if (is_zero(normal(mesh, t))) refuse(name("triangle", t, mesh.triangle(t)) + " has no area; remove it");
@@ -113,7 +121,8 @@ bool ClosedSurface::outward_of_vertex(Index vertex, const Vec3f& x) const {
   if (is_zero(w)) return true;
   const auto spokes = mesh_.edges_of(vertex);
   const auto touched_by = [&](const ExactVector& g) {
-    return std::find_if(spokes.begin(), spokes.end(), [&](Index e) { return dot(g, exact(mesh_.at(mesh_.across(e, vertex))) - v).is_zero(); });
+    return std::find_if(spokes.begin(), spokes.end(),
+                        [&](Index e) { return dot(g, exact(mesh_.at(mesh_.across(e, vertex))) - v).is_zero(); });
   };
   ExactVector g = w;
   auto spoke = touched_by(g);
@@ -133,7 +142,9 @@ bool ClosedSurface::outward(Face face, const Vec3f& x) const {
   return sign_of(dot(normal(mesh_, face.index), exact(x) - exact(mesh_.at(mesh_.triangle(face.index)[0])))) >= 0;
 }
 
-bool ClosedSurface::in_outward_block(Face face, const Vec3f& x, float radius) const { return in_block(mesh_, face, x, radius) && outward(face, x); }
+bool ClosedSurface::in_outward_block(Face face, const Vec3f& x, float radius) const {
+  return in_block(mesh_, face, x, radius) && outward(face, x);
+}
 
 Place ClosedSurface::locate(const Vec3f& x) const {
   const ExactVector p = exact(x);

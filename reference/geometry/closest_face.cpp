@@ -1,5 +1,6 @@
-// The seven regions are disjoint for a triangle of positive area, and lower-dimensional ones are closed towards higher-dimensional ones, so one
-// conjunction of conditions a feature decides everything; the order of the features breaks the ties of collapsed triangles.
+// The seven regions are disjoint for a triangle of positive area, and lower-dimensional ones are closed towards
+// higher-dimensional ones, so one conjunction of conditions a feature decides everything; the order of the features
+// breaks the ties of collapsed triangles.
 #include "reference/geometry/closest_face.hpp"
 
 #include <tbb/blocked_range.h>
@@ -17,7 +18,8 @@ namespace {
 
 constexpr int feature_count = 7;
 
-/// The nine margins that separate the regions, each examined once: 0 … 2 along an edge from its first end, 3 … 5 from its second end, 6 … 8 across it.
+/// The nine margins that separate the regions, each examined once: 0 … 2 along an edge from its first end, 3 … 5 from
+/// its second end, 6 … 8 across it.
 class Regions {
  public:
   Regions(const Corners& triangle, const Vec3f& point) : corners_(triangle), point_(point) {}
@@ -32,7 +34,8 @@ class Regions {
     return *known;
   }
 
-  /// Corner k: on or behind both planes across its edges. Edge k: between its ends, on or beyond its side plane. Interior: inside all side planes.
+  /// Corner k: on or behind both planes across its edges. Edge k: between its ends, on or beyond its side plane.
+  /// Interior: inside all side planes.
   struct Conditions {
     std::array<int, 3> margins{};
     std::array<bool, 3> positive{};
@@ -63,7 +66,8 @@ class Regions {
 
   bool is_near(int feature) const {
     const Conditions conditions = conditions_of(feature);
-    return std::any_of(conditions.margins.begin(), conditions.margins.begin() + conditions.count, [&](int number) { return margin(number).near; });
+    return std::any_of(conditions.margins.begin(), conditions.margins.begin() + conditions.count,
+                       [&](int number) { return margin(number).near; });
   }
 
   int closest() const {
@@ -141,22 +145,29 @@ Weights weights_of(const Regions& regions, int feature) {
 
 using Vector = Point<double>;
 
-Vector between(const Vec3f& from, const Vec3f& to) { return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z}; }
-Vector combined(double s, const Vector& a, double t, const Vector& b) { return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z}; }
+Vector between(const Vec3f& from, const Vec3f& to) {
+  return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z};
+}
+Vector combined(double s, const Vector& a, double t, const Vector& b) {
+  return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
+}
 
 /// Σ |slope · δ| over the coordinates.
-double spread(const Vector& slope, const Vector& delta) { return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z); }
+double spread(const Vector& slope, const Vector& delta) {
+  return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z);
+}
 
 /// Of w_b = (p − a)·e/‖e‖², e = b − a: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
 double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& origin) {
   const Vector e = between(a, b), x = between(a, p);
   const double squared = dot(e, e), w = dot(x, e) / squared;
   const Vector by_p = combined(1 / squared, e, 0, e), by_b = combined(1 / squared, x, -2 * w / squared, e);
-  return spread(by_p, between(origin, p)) + spread(by_b, between(origin, b)) + spread(combined(-1, by_p, -1, by_b), between(origin, a));
+  return spread(by_p, between(origin, p)) + spread(by_b, between(origin, b)) +
+         spread(combined(-1, by_p, -1, by_b), between(origin, a));
 }
 
-/// With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. Coordinates are relative
-/// to t₀.
+/// With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η
+/// g_k × e₁. Coordinates are relative to t₀.
 double interior_spread(const Corners& t, const Vec3f& p, const std::array<double, 3>& w) {
   const Vector e1 = between(t[0], t[1]), e2 = between(t[0], t[2]), x = between(t[0], p), n = cross(e1, e2);
   const double squared = dot(n, n), eta = dot(x, n) / squared;
@@ -164,16 +175,19 @@ double interior_spread(const Corners& t, const Vec3f& p, const std::array<double
   double worst = 0;
   for (const Vector& unscaled : {combined(-1, g1, -1, g2), g1, g2}) {
     const Vector g = combined(1 / squared, unscaled, 0, unscaled);
-    worst = std::max(worst, spread(g, x) + spread(combined(-w[1], g, -eta, cross(e2, g)), e1) + spread(combined(-w[2], g, -eta, cross(g, e1)), e2));
+    worst = std::max(worst, spread(g, x) + spread(combined(-w[1], g, -eta, cross(e2, g)), e1) +
+                                spread(combined(-w[2], g, -eta, cross(g, e1)), e2));
   }
   return worst;
 }
 
 /// The largest Σ|∂w/∂δᵢ||δᵢ| of the three weights, at least 1; infinite for a triangle of zero area.
-double condition_of(const Corners& t, int feature, const Vec3f& point, const std::array<double, 3>& weights, bool area) {
+double condition_of(const Corners& t, int feature, const Vec3f& point, const std::array<double, 3>& weights,
+                    bool area) {
   if (!area) return std::numeric_limits<double>::infinity();
   if (feature < 3) return 1;
-  const double worst = feature < 6 ? edge_spread(t[feature - 3], t[(feature - 2) % 3], point, t[0]) : interior_spread(t, point, weights);
+  const double worst = feature < 6 ? edge_spread(t[feature - 3], t[(feature - 2) % 3], point, t[0])
+                                   : interior_spread(t, point, weights);
   return std::isfinite(worst) ? std::max(1.0, worst) : std::numeric_limits<double>::infinity();
 }
 
@@ -205,7 +219,8 @@ void answer(compare::ClosestFaceTruth& truth, std::size_t i, const Corners& tria
   truth.exact.distance_below[i] = gap.below;
   const Weights weights = weights_of(regions, closest);
   const double condition = condition_of(triangle, closest, point, weights.values, area);
-  truth.weights[i] = weights.error <= 0x1p-40 * (area ? condition : 1) ? weights.values : exact_weights(triangle, closest, point);
+  truth.weights[i] = weights.error <= 0x1p-40 * (area ? condition : 1) ? weights.values
+                                                                       : exact_weights(triangle, closest, point);
   for (std::size_t k = 0; k < 3; ++k) truth.exact.weights[i][k] = static_cast<float>(truth.weights[i][k]);
   truth.weight_condition[i] = condition;
 }
@@ -214,7 +229,9 @@ void answer(compare::ClosestFaceTruth& truth, std::size_t i, const Corners& tria
 
 bool has_area(const Corners& triangle) { return sign(side(triangle[0], triangle[1], triangle[2], triangle[2])) > 0; }
 
-TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point) { return static_cast<TriangleFeature>(Regions(triangle, point).closest()); }
+TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point) {
+  return static_cast<TriangleFeature>(Regions(triangle, point).closest());
+}
 
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point) {
   if (feature == TriangleFeature::interior && !has_area(triangle)) return {false, false, false};
@@ -239,9 +256,11 @@ Margin feature_gap(const Corners& t, TriangleFeature feature, const Vec3f& point
 
 compare::ClosestFaceTruth closest_face(const compare::ClosestFaceIn& in) {
   compare::ClosestFaceTruth truth = sized(in.point.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.point.size(), 256), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) answer(truth, i, in.triangle[i], in.point[i]);
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.point.size(), 256),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        answer(truth, i, in.triangle[i], in.point[i]);
+                    });
   return truth;
 }
 

@@ -1,5 +1,5 @@
-// The distance of two segments is a convex function of two parameters, so the optimality conditions of a pair of features are necessary and
-// sufficient; each is the sign of one polynomial.
+// The distance of two segments is a convex function of two parameters, so the optimality conditions of a pair of
+// features are necessary and sufficient; each is the sign of one polynomial.
 #include "reference/geometry/closest_points.hpp"
 
 #include <tbb/blocked_range.h>
@@ -21,7 +21,9 @@ struct Conditions {
 /// End `i` of e and the interior of f: the end projects between f's ends, and leaving it along e does not come nearer.
 Conditions end_to_interior(const std::array<Vec3f, 2>& e, std::size_t i, const std::array<Vec3f, 2>& f) {
   const Vec3f& p = e[i];
-  return {{Condition{along(f[0], f[1], p), true}, Condition{along(f[1], f[0], p), true}, Condition{turn(p, e[1 - i], f[0], f[1]), false}}, 3};
+  return {{Condition{along(f[0], f[1], p), true}, Condition{along(f[1], f[0], p), true},
+           Condition{turn(p, e[1 - i], f[0], f[1]), false}},
+          3};
 }
 
 Conditions conditions_of(const EdgePair& pair, EdgeFeatures features) {
@@ -30,7 +32,8 @@ Conditions conditions_of(const EdgePair& pair, EdgeFeatures features) {
   const auto i = static_cast<std::size_t>(features.first), j = static_cast<std::size_t>(features.second);
   if (inside_p && inside_q) {
     return {{Condition{turn(p[0], p[1], q[0], q[1]), true}, Condition{turn(p[1], p[0], q[0], q[1]), true},
-             Condition{turn(q[0], q[1], p[0], p[1]), true}, Condition{turn(q[1], q[0], p[0], p[1]), true}}, 4};
+             Condition{turn(q[0], q[1], p[0], p[1]), true}, Condition{turn(q[1], q[0], p[0], p[1]), true}},
+            4};
   }
   if (inside_q) return end_to_interior(p, i, q);
   if (inside_p) return end_to_interior(q, j, p);
@@ -58,7 +61,8 @@ Membership both(const Membership& a, const Membership& b) {
 
 /// The bit of an answer in ClosestPointsTruth::accepted.
 std::uint32_t code_bit(EdgeFeatures features, bool is_parallel) {
-  return 1u << (static_cast<unsigned>(features.first) + 3 * static_cast<unsigned>(features.second) + (is_parallel ? 9u : 0u));
+  return 1u << (static_cast<unsigned>(features.first) + 3 * static_cast<unsigned>(features.second) +
+                (is_parallel ? 9u : 0u));
 }
 
 constexpr EdgeFeatures interiors{EdgeFeature::interior, EdgeFeature::interior};
@@ -166,9 +170,11 @@ Margin feature_gap(const EdgePair& pair, EdgeFeatures features) {
 
 compare::ClosestPointsTruth closest_points(const compare::ClosestPointsIn& in) {
   compare::ClosestPointsTruth truth = sized(in.first.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.first.size(), 256), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) answer(truth, i, {in.first[i], in.second[i]});
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.first.size(), 256),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        answer(truth, i, {in.first[i], in.second[i]});
+                    });
   return truth;
 }
 

@@ -1,4 +1,5 @@
-// Stage closest_points: the optimality conditions of the closest points of two closed edges (Alg. 2; method.md §1.2 to §1.4).
+// Stage closest_points: the optimality conditions of the closest points of two closed edges (Alg. 2; method.md §1.2 to
+// §1.4).
 #pragma once
 
 #include <array>
@@ -22,24 +23,30 @@ struct EdgeFeatures {
 
 /// All nine combinations in the order that breaks ties: ends first.
 inline constexpr int edge_feature_pairs = 9;
-inline EdgeFeatures edge_features(int number) { return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)}; }
+inline EdgeFeatures edge_features(int number) {
+  return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)};
+}
 
-/// The faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are unique unless the edges are exactly
-/// parallel; then the first in the order of edge_features. A zero-length edge is its end_0.
+/// The faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are unique
+/// unless the edges are exactly parallel; then the first in the order of edge_features. A zero-length edge is its
+/// end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
 /// Whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest ones are
 /// certain, no others can be, but of exactly parallel edges at the other end of their overlap.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
-/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the projection of the second edge on the line of the first overlaps the first in more than a point.
+/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the projection of the second edge on the line of the first overlaps the first in more
+/// than a point.
 Membership are_nearly_parallel(const EdgePair& pair);
 bool nearly_parallel(const EdgePair& pair);
 
-/// Whether the answer lies near a boundary: of the rule for nearly parallel edges, or, where that does not hold, of the region of the closest features.
+/// Whether the answer lies near a boundary: of the rule for nearly parallel edges, or, where that does not hold, of the
+/// region of the closest features.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// The distance of the points, point and line, or lines of the features, as a gap: the distance of the edges where these are the closest features.
+/// The distance of the points, point and line, or lines of the features, as a gap: the distance of the edges where
+/// these are the closest features.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
 /// All cases, in parallel over them.

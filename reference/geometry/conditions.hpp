@@ -1,5 +1,5 @@
-// A region of space is a conjunction of conditions on margins. The exact answer asks whether all hold; the grey zone asks which could hold after
-// rounding.
+// A region of space is a conjunction of conditions on margins. The exact answer asks whether all hold; the grey zone
+// asks which could hold after rounding.
 #pragma once
 
 #include "reference/geometry/margin.hpp"
@@ -21,7 +21,8 @@ struct Membership {
   bool certain = true;   ///< all hold, none of them in the grey zone
 };
 
-/// Adds one condition, by whether it holds and whether its margin is grey, to a conjunction. Once `possible` is false the rest cannot matter.
+/// Adds one condition, by whether it holds and whether its margin is grey, to a conjunction. Once `possible` is false
+/// the rest cannot matter.
 inline void require(Membership& membership, bool held, bool doubtful) {
   membership.exact = membership.exact && held;
   membership.possible = membership.possible && (held || doubtful);
@@ -33,7 +34,8 @@ inline void require(Membership& membership, const Condition& condition) {
   require(membership, (margin.sign > 0) == condition.positive, margin.grey);
 }
 
-/// Whether a conjunction lies next to where it ends or begins: no condition fails but near its boundary, and some condition is near.
+/// Whether a conjunction lies next to where it ends or begins: no condition fails but near its boundary, and some
+/// condition is near.
 class Nearness {
  public:
   void add(bool held, bool near) {

@@ -1,4 +1,5 @@
-// Nothing here is shared with the detections but the predicates that Algorithms 1 and 2 name themselves; the definitions share not even those.
+// Nothing here is shared with the detections but the predicates that Algorithms 1 and 2 name themselves; the
+// definitions share not even those.
 #include "reference/geometry/contact_sets.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -25,10 +26,13 @@ Corners corners_of(const Complex& mesh, Index t) {
 std::array<Face, 7> faces_of(const Complex& mesh, Index t) {
   const auto [a, b, c] = mesh.triangle(t);
   const auto [ab, bc, ca] = mesh.topology.triangle_edges[static_cast<std::size_t>(t)];
-  return {vertex_face(a), vertex_face(b), vertex_face(c), edge_face(ab), edge_face(bc), edge_face(ca), triangle_face(t)};
+  return {vertex_face(a), vertex_face(b), vertex_face(c),  edge_face(ab),
+          edge_face(bc),  edge_face(ca),  triangle_face(t)};
 }
 
-bool contains(std::span<const Index> vertices, Index v) { return std::find(vertices.begin(), vertices.end(), v) != vertices.end(); }
+bool contains(std::span<const Index> vertices, Index v) {
+  return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+}
 
 /// The lowest-numbered triangle that contains a face.
 Index owner_of(const Complex& mesh, Face face) {
@@ -78,7 +82,9 @@ Quotient<Exact> exact_squared_distance(const Complex& mesh, Index t, const Vec3f
     const auto found = connection(mesh, face, {exact(x)});
     if (!found) continue;
     const Quotient<Exact> d{dot(found->along, found->along), found->weight * found->weight};
-    if (sign_of(smallest.numerator) < 0 || sign_of(d.numerator * smallest.denominator - smallest.numerator * d.denominator) < 0) smallest = d;
+    if (sign_of(smallest.numerator) < 0 ||
+        sign_of(d.numerator * smallest.denominator - smallest.numerator * d.denominator) < 0)
+      smallest = d;
   }
   return smallest;
 }
@@ -93,8 +99,10 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
       if (is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
-        // A face without v is a face of some triangle without v, or of triangles with v only; Eq. 12 asks about v ⊄ a alone.
-        if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius)) found.insert({v, face, owner_of(mesh, face)});
+        // A face without v is a face of some triangle without v, or of triangles with v only; Eq. 12 asks about v ⊄ a
+        // alone.
+        if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius))
+          found.insert({v, face, owner_of(mesh, face)});
       }
     }
   }
@@ -124,7 +132,8 @@ std::vector<VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& 
   return {entered.begin(), entered.end()};
 }
 
-std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology, std::span<const VertexFacetContact> contacts) {
+std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
+                                                     std::span<const VertexFacetContact> contacts) {
   std::vector<std::vector<Index>> rows(topology.triangles.size());
   for (const VertexFacetContact& c : contacts) rows[static_cast<std::size_t>(c.owner)].push_back(c.vertex);
   for (auto& row : rows) std::sort(row.begin(), row.end());
@@ -137,16 +146,19 @@ std::vector<Index> layers(const compare::Topology& topology, std::span<const Ver
   return counts;
 }
 
-std::vector<double> penetration_depths(const Complex& mesh, std::span<const VertexFacetContact> contacts, float radius) {
+std::vector<double> penetration_depths(const Complex& mesh, std::span<const VertexFacetContact> contacts,
+                                       float radius) {
   std::vector<double> depths;
-  for (const VertexFacetContact& c : contacts) depths.push_back(-signed_length(face_gap(mesh, c.face, mesh.at(c.vertex), radius)));
+  for (const VertexFacetContact& c : contacts)
+    depths.push_back(-signed_length(face_gap(mesh, c.face, mesh.at(c.vertex), radius)));
   return depths;
 }
 
 std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float radius) {
   std::vector<Index> triangles;
   for (Index t = 0; t < static_cast<Index>(mesh.topology.triangles.size()); ++t) {
-    if (!contains(mesh.triangle(t), vertex) && sign(triangle_gap(mesh, t, mesh.at(vertex), radius)) < 0) triangles.push_back(t);
+    if (!contains(mesh.triangle(t), vertex) && sign(triangle_gap(mesh, t, mesh.at(vertex), radius)) < 0)
+      triangles.push_back(t);
   }
   return triangles;
 }

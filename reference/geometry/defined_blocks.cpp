@@ -61,11 +61,17 @@ DefinedBlocks::DefinedBlocks(const Complex& mesh) : cones_(new Cones{mesh, {}, {
 
 DefinedBlocks::~DefinedBlocks() = default;
 
-bool DefinedBlocks::contains(Face face, const Vec3f& x, float radius) const { return cones_->contains(face, {exact(x)}, radius, Sphere::closed); }
+bool DefinedBlocks::contains(Face face, const Vec3f& x, float radius) const {
+  return cones_->contains(face, {exact(x)}, radius, Sphere::closed);
+}
 
-bool DefinedBlocks::contains_edge_only(Face face, const Vec3f& x, float radius) const { return cones_->contains_edge_only(face, {exact(x)}, radius); }
+bool DefinedBlocks::contains_edge_only(Face face, const Vec3f& x, float radius) const {
+  return cones_->contains_edge_only(face, {exact(x)}, radius);
+}
 
-bool DefinedBlocks::in_contact(Face face, const Vec3f& x, float radius) const { return cones_->contains(face, {exact(x)}, radius, Sphere::open); }
+bool DefinedBlocks::in_contact(Face face, const Vec3f& x, float radius) const {
+  return cones_->contains(face, {exact(x)}, radius, Sphere::open);
+}
 
 bool DefinedBlocks::has_normals(Face face) const { return !cones_->of(face).generators().empty(); }
 

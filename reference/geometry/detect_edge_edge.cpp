@@ -1,5 +1,5 @@
-// Algorithm 2 over unordered pairs, each visited once, from its lower-numbered edge. As in detect_vertex_facet the grey zone is asked separately, about
-// all nine pairs of faces of two edges within r.
+// Algorithm 2 over unordered pairs, each visited once, from its lower-numbered edge. As in detect_vertex_facet the grey
+// zone is asked separately, about all nine pairs of faces of two edges within r.
 #include "reference/geometry/detect_edge_edge.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,7 +18,8 @@ namespace {
 
 /// Neither adjacent nor inside one rigid group.
 bool is_candidate_pair(const compare::DetectIn& in, Index e, Index f) {
-  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(f)];
+  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
+                      &b = in.topology->edges[static_cast<std::size_t>(f)];
   const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
   return !adjacent && !is_excluded(in.exclusions, a, b);
 }
@@ -55,7 +56,8 @@ class EdgeQuery {
   std::array<Vec3f, 2> ends(Index e) const { return {mesh_.at(mesh_.edge(e)[0]), mesh_.at(mesh_.edge(e)[1])}; }
 
   Face face_of(Index e, EdgeFeature feature) const {
-    return feature == EdgeFeature::interior ? edge_face(e) : vertex_face(mesh_.edge(e)[static_cast<std::size_t>(feature)]);
+    return feature == EdgeFeature::interior ? edge_face(e)
+                                            : vertex_face(mesh_.edge(e)[static_cast<std::size_t>(feature)]);
   }
 
   FacePair faces_of(Index other, EdgeFeatures features) const {
@@ -145,8 +147,10 @@ class EdgeQuery {
     return face.index == mesh_.edge(e)[0] || face.index == mesh_.edge(e)[1];
   }
 
-  /// One of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the order of closest_features.
-  void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest, const Membership& rule) {
+  /// One of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the order
+  /// of closest_features.
+  void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest,
+                      const Membership& rule) {
     const FacePair faces = faces_of(other, features);
     const bool is_closest = features == closest;
     if (!is_closest) {
@@ -158,7 +162,8 @@ class EdgeQuery {
     // The rule for nearly parallel edges gives the interiors too, so only other features are in doubt about it.
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
-    add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact), is_closest && inside.certain && unaffected);
+    add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact),
+        is_closest && inside.certain && unaffected);
     if (!unaffected) answer_.doubts.push_back({faces, interiors(other), true});
     if (!inside.certain) note_boundaries(faces);
   }
@@ -202,13 +207,17 @@ std::vector<Box> edge_boxes(const compare::DetectIn& in) {
 
 /// Whether a pair, too far apart for a contact, grey ones included, lowers no smallest distance either.
 bool changes_nothing(const compare::DetectIn& in, Index e, Index other, Smallest& of_edge) {
-  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(other)];
+  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
+                      &b = in.topology->edges[static_cast<std::size_t>(other)];
   const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };
-  const double known = double{std::max(of_edge.so_far(static_cast<std::size_t>(e)), of_edge.so_far(static_cast<std::size_t>(other)))};
-  return surely_beyond_edge({at(a[0]), at(a[1]), at(b[0]), at(b[1])}, std::max(known, in.contact_radius * search_margin));
+  const double known = double{
+      std::max(of_edge.so_far(static_cast<std::size_t>(e)), of_edge.so_far(static_cast<std::size_t>(other)))};
+  return surely_beyond_edge({at(a[0]), at(a[1]), at(b[0]), at(b[1])},
+                            std::max(known, in.contact_radius * search_margin));
 }
 
-EdgeAnswer query_edge(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, const Box& box, Index e, Smallest& of_edge) {
+EdgeAnswer query_edge(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, const Box& box, Index e,
+                      Smallest& of_edge) {
   EdgeQuery query(in, e);
   tree.query(widened(box, in.query_radius * search_margin), [&](Index other) {
     if (other <= e || !is_candidate_pair(in, e, other)) return;
@@ -225,9 +234,11 @@ compare::DetectEdgeEdgeTruth detected(const compare::DetectIn& in, DetectionExte
   const BoxTree tree(boxes);
   Smallest of_edge(boxes.size(), in.query_radius);
   std::vector<EdgeAnswer> answers(boxes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t e = range.begin(); e < range.end(); ++e) answers[e] = query_edge(in, extent, tree, boxes[e], static_cast<Index>(e), of_edge);
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t e = range.begin(); e < range.end(); ++e)
+                        answers[e] = query_edge(in, extent, tree, boxes[e], static_cast<Index>(e), of_edge);
+                    });
   compare::DetectEdgeEdgeTruth truth;
   std::vector<Generated> generated;
   std::vector<Doubt> doubts;
@@ -249,7 +260,11 @@ compare::DetectEdgeEdgeTruth detected(const compare::DetectIn& in, DetectionExte
 
 }  // namespace
 
-compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) { return detected(in, DetectionExtent::judged); }
-compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in) { return detected(in, DetectionExtent::exact).exact; }
+compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in) {
+  return detected(in, DetectionExtent::judged);
+}
+compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in) {
+  return detected(in, DetectionExtent::exact).exact;
+}
 
 }  // namespace ogc::reference

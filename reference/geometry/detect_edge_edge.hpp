@@ -9,7 +9,8 @@ namespace ogc::reference {
 /// interior–interior where closest points of theirs lie in each other's blocks, and wherever neither has a triangle.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 
-/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not examined.
+/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not
+/// examined.
 compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in);
 
 }  // namespace ogc::reference

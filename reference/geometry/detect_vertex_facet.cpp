@@ -1,5 +1,6 @@
-// Algorithm 1 in its own order: distance, smallest distances, closest face, feasible region. The grey zone is asked separately, about every face of
-// every triangle within r: a doubtful face of a neighbour matters even where Algorithm 1 never looks at it.
+// Algorithm 1 in its own order: distance, smallest distances, closest face, feasible region. The grey zone is asked
+// separately, about every face of every triangle within r: a doubtful face of a neighbour matters even where Algorithm
+// 1 never looks at it.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <tbb/blocked_range.h>
@@ -32,7 +33,8 @@ struct VertexAnswer {
 
 class VertexQuery {
  public:
-  VertexQuery(const compare::DetectIn& in, Index vertex) : in_(in), mesh_{*in.topology, in.positions}, vertex_(vertex), x_(mesh_.at(vertex)) {}
+  VertexQuery(const compare::DetectIn& in, Index vertex)
+      : in_(in), mesh_{*in.topology, in.positions}, vertex_(vertex), x_(mesh_.at(vertex)) {}
 
   /// One non-adjacent triangle whose box is near. Returns the distance, rounded down.
   float visit(Index t) {
@@ -44,7 +46,8 @@ class VertexQuery {
     if (d < in_.query_radius) ++answer_.pairs;
     const bool within = d < in_.contact_radius;
     if (within) enter(face_of(t, feature));
-    answer_.near = answer_.near || examine(with_radius(gap, in_.contact_radius)).near || (within && near_feature(corners, feature, x_));
+    answer_.near = answer_.near || examine(with_radius(gap, in_.contact_radius)).near ||
+                   (within && near_feature(corners, feature, x_));
     if (within || grey(with_radius(gap, in_.contact_radius))) ask_about(t, corners);
     return d;
   }
@@ -76,14 +79,16 @@ class VertexQuery {
   std::vector<Index> triangles_around(Face face) const {
     if (face.kind == FaceKind::triangle) return {face.index};
     const auto i = static_cast<std::size_t>(face.index);
-    const auto around = face.kind == FaceKind::vertex ? mesh_.topology.vertex_triangles[i] : mesh_.topology.edge_triangles[i];
+    const auto around = face.kind == FaceKind::vertex ? mesh_.topology.vertex_triangles[i]
+                                                      : mesh_.topology.edge_triangles[i];
     return {around.begin(), around.end()};
   }
 
   VertexFacetContact contact(Face face) const { return {vertex_, face, triangles_around(face).front()}; }
 
   bool entered(Face face) const {
-    return std::any_of(answer_.contacts.begin(), answer_.contacts.end(), [&](const VertexFacetContact& c) { return c.face == face; });
+    return std::any_of(answer_.contacts.begin(), answer_.contacts.end(),
+                       [&](const VertexFacetContact& c) { return c.face == face; });
   }
 
   /// Alg. 1 lines 9–20.
@@ -101,7 +106,8 @@ class VertexQuery {
     answer_.contacts.push_back(contact(face));
   }
 
-  /// The faces of a triangle within r that are or could be closest: which of them are doubtful, and what they are doubtful against.
+  /// The faces of a triangle within r that are or could be closest: which of them are doubtful, and what they are
+  /// doubtful against.
   void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);
     std::vector<Face> closest;
@@ -112,7 +118,8 @@ class VertexQuery {
     if (!has_area(corners)) note_ties(closest);
   }
 
-  /// A collapsed triangle has several closest faces at once; Algorithm 1 takes one, another order of its corners would take another.
+  /// A collapsed triangle has several closest faces at once; Algorithm 1 takes one, another order of its corners would
+  /// take another.
   void note_ties(const std::vector<Face>& closest) {
     for (const Face face : closest) {
       if (!membership(face).possible) continue;
@@ -165,10 +172,13 @@ class VertexQuery {
     return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
   }
 
-  /// Eq. 12 ranges over faces of triangles, and at least one of them must make a pair with the vertex that is not left out.
+  /// Eq. 12 ranges over faces of triangles, and at least one of them must make a pair with the vertex that is not left
+  /// out.
   bool is_candidate(Face face) const {
     const std::vector<Index> around = triangles_around(face);
-    return std::any_of(around.begin(), around.end(), [&](Index t) { return !is_excluded(in_.exclusions, {&vertex_, 1}, mesh_.triangle(t)); });
+    return std::any_of(around.begin(), around.end(), [&](Index t) {
+      return !is_excluded(in_.exclusions, {&vertex_, 1}, mesh_.triangle(t));
+    });
   }
 
   const compare::DetectIn& in_;
@@ -193,17 +203,21 @@ BoxTree triangle_tree(const compare::DetectIn& in) {
 bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of_vertex, Smallest& of_triangle) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
   const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };
-  const double known = double{std::max(of_vertex.so_far(static_cast<std::size_t>(v)), of_triangle.so_far(static_cast<std::size_t>(t)))};
-  return surely_beyond_triangle({at(v), at(corners[0]), at(corners[1]), at(corners[2])}, std::max(known, in.contact_radius * search_margin));
+  const double known = double{
+      std::max(of_vertex.so_far(static_cast<std::size_t>(v)), of_triangle.so_far(static_cast<std::size_t>(t)))};
+  return surely_beyond_triangle({at(v), at(corners[0]), at(corners[1]), at(corners[2])},
+                                std::max(known, in.contact_radius * search_margin));
 }
 
-VertexAnswer query_vertex(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, Index v, Smallest& of_vertex, Smallest& of_triangle) {
+VertexAnswer query_vertex(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, Index v,
+                          Smallest& of_vertex, Smallest& of_triangle) {
   VertexQuery query(in, v);
   Box box;
   include(box, in.positions[static_cast<std::size_t>(v)]);
   tree.query(widened(box, in.query_radius * search_margin), [&](Index t) {
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
-    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in.exclusions, {&v, 1}, corners)) return;
+    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in.exclusions, {&v, 1}, corners))
+      return;
     if (extent == DetectionExtent::exact && changes_nothing(in, v, t, of_vertex, of_triangle)) return;
     const float d = query.visit(t);
     of_vertex.lower(static_cast<std::size_t>(v), d);
@@ -218,7 +232,8 @@ compare::DetectVertexFacetTruth detected(const compare::DetectIn& in, DetectionE
   Smallest of_vertex(count, in.query_radius), of_triangle(in.topology->triangles.size(), in.query_radius);
   std::vector<VertexAnswer> answers(count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t v = range.begin(); v < range.end(); ++v) answers[v] = query_vertex(in, extent, tree, static_cast<Index>(v), of_vertex, of_triangle);
+    for (std::size_t v = range.begin(); v < range.end(); ++v)
+      answers[v] = query_vertex(in, extent, tree, static_cast<Index>(v), of_vertex, of_triangle);
   });
   compare::DetectVertexFacetTruth truth;
   for (VertexAnswer& answer : answers) {
@@ -234,7 +249,11 @@ compare::DetectVertexFacetTruth detected(const compare::DetectIn& in, DetectionE
 
 }  // namespace
 
-compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in) { return detected(in, DetectionExtent::judged); }
-compare::DetectVertexFacetOut exact_vertex_facet(const compare::DetectIn& in) { return detected(in, DetectionExtent::exact).exact; }
+compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in) {
+  return detected(in, DetectionExtent::judged);
+}
+compare::DetectVertexFacetOut exact_vertex_facet(const compare::DetectIn& in) {
+  return detected(in, DetectionExtent::exact).exact;
+}
 
 }  // namespace ogc::reference

@@ -8,7 +8,8 @@ namespace ogc::reference {
 /// Vertices in parallel; the answer does not depend on the number of threads.
 compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in);
 
-/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not examined.
+/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not
+/// examined.
 compare::DetectVertexFacetOut exact_vertex_facet(const compare::DetectIn& in);
 
 }  // namespace ogc::reference

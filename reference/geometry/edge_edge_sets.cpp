@@ -26,7 +26,8 @@ void enter(Entered& entered, const FacePair& faces, const EdgeNumbers& edges) {
 }
 
 bool is_candidate(const compare::DetectIn& in, Index e, Index f) {
-  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)], &b = in.topology->edges[static_cast<std::size_t>(f)];
+  const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
+                      &b = in.topology->edges[static_cast<std::size_t>(f)];
   const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
   return !adjacent && !is_excluded(in.exclusions, a, b);
 }
@@ -77,7 +78,9 @@ struct Parameter {
   bool inside() const { return sign_of(s) > 0 && sign_of(weight - s) > 0; }
 };
 
-ExactPoint point_at(const Segment& segment, const Parameter& p) { return {plus(times(p.weight, segment.a), times(p.s, segment.d)), p.weight}; }
+ExactPoint point_at(const Segment& segment, const Parameter& p) {
+  return {plus(times(p.weight, segment.a), times(p.s, segment.d)), p.weight};
+}
 
 /// Closest points of two features, if they lie inside what is called interior.
 struct Candidate {
@@ -99,7 +102,8 @@ std::optional<Candidate> between_lines(const Segment& e, const Segment& f) {
 }
 
 std::optional<Candidate> candidate(const Segment& e, const Segment& f, EdgeFeatures features) {
-  const bool first_inside = features.first == EdgeFeature::interior, second_inside = features.second == EdgeFeature::interior;
+  const bool first_inside = features.first == EdgeFeature::interior,
+             second_inside = features.second == EdgeFeature::interior;
   if (first_inside && second_inside) return between_lines(e, f);
   if (first_inside) {
     const ExactVector q = end(f, features.second);
@@ -118,7 +122,9 @@ Quotient<Exact> squared_distance(const Candidate& c) {
   return {dot(d, d), weight * weight};
 }
 
-bool smaller(const Quotient<Exact>& a, const Quotient<Exact>& b) { return sign_of(a.numerator * b.denominator - b.numerator * a.denominator) < 0; }
+bool smaller(const Quotient<Exact>& a, const Quotient<Exact>& b) {
+  return sign_of(a.numerator * b.denominator - b.numerator * a.denominator) < 0;
+}
 
 /// A pair of features with its closest points.
 struct Closest {
@@ -151,7 +157,9 @@ bool by_rule_parallel(const Segment& e, const Segment& f) {
   return sign_of(high) > 0 && sign_of(ee - low) > 0 && sign_of(high - low) > 0;
 }
 
-std::array<Vec3f, 2> ends_of(const Complex& mesh, Index e) { return {mesh.at(mesh.edge(e)[0]), mesh.at(mesh.edge(e)[1])}; }
+std::array<Vec3f, 2> ends_of(const Complex& mesh, Index e) {
+  return {mesh.at(mesh.edge(e)[0]), mesh.at(mesh.edge(e)[1])};
+}
 
 bool are_in_blocks(const Complex& mesh, const FacePair& faces) {
   bool inside = true;
@@ -189,7 +197,8 @@ struct Ball {
   double squared_radius;
 };
 
-/// The middle may be rounded, for the radius reaches from it to the farther end. The radius takes eight roundings of 2⁻⁵³ at most; the factor is more.
+/// The middle may be rounded, for the radius reaches from it to the farther end. The radius takes eight roundings of
+/// 2⁻⁵³ at most; the factor is more.
 Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
   const std::array<double, 3> a{ends[0].x, ends[0].y, ends[0].z}, b{ends[1].x, ends[1].y, ends[1].z};
   Ball ball{};
@@ -264,7 +273,8 @@ std::vector<EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in) {
   return canonical(mesh, entered);
 }
 
-std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology, std::span<const EdgeEdgeContact> contacts) {
+std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology,
+                                                        std::span<const EdgeEdgeContact> contacts) {
   std::vector<std::vector<std::size_t>> rows(topology.edges.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     rows[static_cast<std::size_t>(contacts[i].first_edge)].push_back(i);

@@ -1,4 +1,5 @@
-// Values come from exact margins where a quotient can cancel, derivatives from the same formulas over differentiating numbers.
+// Values come from exact margins where a quotient can cancel, derivatives from the same formulas over differentiating
+// numbers.
 #include "reference/geometry/edge_parameters.hpp"
 
 #include <algorithm>
@@ -54,7 +55,8 @@ double condition_of(const std::array<Number, 2>& parameters, const std::array<Po
 Number share(const Number& margin, const Number& other) { return margin / (margin + other); }
 
 /// The parameter of one of the edges: of its point closest to the other edge, both given by the feature there.
-double parameter_value(const std::array<Vec3f, 2>& e, EdgeFeature feature, const std::array<Vec3f, 2>& other, EdgeFeature other_feature) {
+double parameter_value(const std::array<Vec3f, 2>& e, EdgeFeature feature, const std::array<Vec3f, 2>& other,
+                       EdgeFeature other_feature) {
   if (feature != EdgeFeature::interior) return feature == EdgeFeature::end_1 ? 1 : 0;
   if (other_feature == EdgeFeature::interior) {
     const std::array<Margin, 2> margins{turn(e[0], e[1], other[0], other[1]), turn(e[1], e[0], other[0], other[1])};
@@ -65,8 +67,8 @@ double parameter_value(const std::array<Vec3f, 2>& e, EdgeFeature feature, const
   return shares(margins)[0];
 }
 
-Number parameter_number(const Point<Number>& e0, const Point<Number>& e1, EdgeFeature feature, const Point<Number>& f0, const Point<Number>& f1,
-                        EdgeFeature other_feature) {
+Number parameter_number(const Point<Number>& e0, const Point<Number>& e1, EdgeFeature feature, const Point<Number>& f0,
+                        const Point<Number>& f1, EdgeFeature other_feature) {
   if (feature != EdgeFeature::interior) return Number(feature == EdgeFeature::end_1 ? 1 : 0);
   if (other_feature == EdgeFeature::interior) return share(turn(e0, e1, f0, f1), turn(e1, e0, f0, f1));
   const Point<Number>& end = other_feature == EdgeFeature::end_1 ? f1 : f0;
@@ -85,7 +87,8 @@ T clamped(const T& x) {
 template <class T>
 std::array<T, 2> middle_of_overlap(const std::array<Point<T>, 4>& ends) {
   const Point<T> u = ends[1] - ends[0], v = ends[3] - ends[2];
-  const T s0 = clamped(T(dot(ends[2] - ends[0], u) / dot(u, u))), s1 = clamped(T(dot(ends[3] - ends[0], u) / dot(u, u)));
+  const T s0 = clamped(T(dot(ends[2] - ends[0], u) / dot(u, u))),
+          s1 = clamped(T(dot(ends[3] - ends[0], u) / dot(u, u)));
   const T s = (s0 + s1) * T(0.5);
   const Point<T> at{ends[0].x + s * u.x, ends[0].y + s * u.y, ends[0].z + s * u.z};
   return {s, clamped(T(dot(at - ends[2], v) / dot(v, v)))};
@@ -98,8 +101,10 @@ EdgeParameters closest_parameters(const EdgePair& pair, EdgeFeatures features) {
   result.values = {parameter_value(pair.first, features.first, pair.second, features.second),
                    parameter_value(pair.second, features.second, pair.first, features.first)};
   const auto ends = seeded_ends(pair);
-  result.condition = condition_of({parameter_number(ends[0], ends[1], features.first, ends[2], ends[3], features.second),
-                                   parameter_number(ends[2], ends[3], features.second, ends[0], ends[1], features.first)}, ends);
+  result.condition = condition_of(
+      {parameter_number(ends[0], ends[1], features.first, ends[2], ends[3], features.second),
+       parameter_number(ends[2], ends[3], features.second, ends[0], ends[1], features.first)},
+      ends);
   return result;
 }
 

@@ -1,5 +1,5 @@
-// Each thread adds to its own counters, which nobody else writes; the lock is taken where a thread comes, goes or asks for the sum. The list outlives
-// all threads: it is never destroyed.
+// Each thread adds to its own counters, which nobody else writes; the lock is taken where a thread comes, goes or asks
+// for the sum. The list outlives all threads: it is never destroyed.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <atomic>
@@ -51,7 +51,9 @@ class OwnCounters {
  private:
   using Counter = std::atomic<std::uint64_t>;
   /// Only the owner writes, so this is an ordinary addition.
-  static void increment(Counter& counter) { counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
+  static void increment(Counter& counter) {
+    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
 
   std::array<Counter, filtered_predicates> calls_{}, undecided_{};
 };
@@ -59,8 +61,9 @@ class OwnCounters {
 }  // namespace
 
 std::string_view name(Filtered predicate) {
-  constexpr std::array<std::string_view, filtered_predicates> names{"along",    "side",      "turn",      "parallel",       "gap_points",
-                                                                     "gap_line", "gap_plane", "gap_lines", "distance_below", "nearer"};
+  constexpr std::array<std::string_view, filtered_predicates> names{
+      "along",    "side",      "turn",      "parallel",       "gap_points",
+      "gap_line", "gap_plane", "gap_lines", "distance_below", "nearer"};
   return names[static_cast<std::size_t>(predicate)];
 }
 

@@ -1,5 +1,5 @@
-// How often double and interval arithmetic decide by themselves: every predicate that asks them first is counted, thread by thread, so that counting costs no
-// more than an addition.
+// How often double and interval arithmetic decide by themselves: every predicate that asks them first is counted,
+// thread by thread, so that counting costs no more than an addition.
 #pragma once
 
 #include <array>
@@ -9,9 +9,20 @@
 
 namespace ogc::reference {
 
-/// A predicate behind an interval filter: the signs of the margins (in the order of MarginKind), a distance rounded down, and which of two distances
-/// is smaller.
-enum class Filtered : std::uint8_t { along, side, turn, parallel, gap_points, gap_line, gap_plane, gap_lines, distance_below, nearer };
+/// A predicate behind an interval filter: the signs of the margins (in the order of MarginKind), a distance rounded
+/// down, and which of two distances is smaller.
+enum class Filtered : std::uint8_t {
+  along,
+  side,
+  turn,
+  parallel,
+  gap_points,
+  gap_line,
+  gap_plane,
+  gap_lines,
+  distance_below,
+  nearer
+};
 inline constexpr std::size_t filtered_predicates = 10;
 
 /// "gap_plane".
@@ -33,7 +44,8 @@ struct FilterCounts {
   FilterCounts since(const FilterCounts& earlier) const;
 };
 
-/// Of all threads since the program began. Complete for work that has been joined; a predicate that another thread asks meanwhile may be missing.
+/// Of all threads since the program began. Complete for work that has been joined; a predicate that another thread asks
+/// meanwhile may be missing.
 FilterCounts filter_counts();
 
 /// For the predicates themselves.

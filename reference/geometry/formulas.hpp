@@ -1,5 +1,6 @@
-// Every polynomial of the contact geometry, written once over a number type: intervals and exact numbers decide its sign, differentiating numbers
-// give its sensitivity. Squaring and multiplying by positive lengths has removed all roots and divisions.
+// Every polynomial of the contact geometry, written once over a number type: intervals and exact numbers decide its
+// sign, differentiating numbers give its sensitivity. Squaring and multiplying by positive lengths has removed all
+// roots and divisions.
 #pragma once
 
 #include <array>
@@ -33,15 +34,16 @@ T along(const Point<T>& a, const Point<T>& b, const Point<T>& p) {
   return dot(p - a, b - a);
 }
 
-/// ((b−a)×(p−a))·((b−a)×(c−a)): > 0 where p lies on c's side of the plane through ab across the plane of abc (Eq. 9 times −‖e‖², Eq. 10).
+/// ((b−a)×(p−a))·((b−a)×(c−a)): > 0 where p lies on c's side of the plane through ab across the plane of abc (Eq. 9
+/// times −‖e‖², Eq. 10).
 template <class T>
 T side(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& p) {
   const Point<T> e = b - a;
   return dot(cross(e, p - a), cross(e, c - a));
 }
 
-/// ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 where a step from p towards x comes nearer to the line q₀q₁. With c the foot of p on that line
-/// it is ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
+/// ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 where a step from p towards x comes nearer to the line q₀q₁. With c the foot
+/// of p on that line it is ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
 template <class T>
 T turn(const Point<T>& p, const Point<T>& x, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> v = q1 - q0;

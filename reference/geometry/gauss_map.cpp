@@ -12,7 +12,9 @@ namespace {
 
 Unit minus(const Unit& a, const Unit& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double inner(const Unit& a, const Unit& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Unit outer(const Unit& a, const Unit& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Unit outer(const Unit& a, const Unit& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 Unit normalised(const Unit& a) {
   const double length = std::hypot(a[0], a[1], a[2]);
@@ -29,7 +31,8 @@ Unit unit(const ExactVector& a) {
 
 int rank_of(const std::vector<ExactVector>& g) {
   if (g.empty()) return 0;
-  const auto second = std::find_if(g.begin(), g.end(), [&](const ExactVector& a) { return !is_zero(cross(g.front(), a)); });
+  const auto second = std::find_if(g.begin(), g.end(),
+                                   [&](const ExactVector& a) { return !is_zero(cross(g.front(), a)); });
   if (second == g.end()) return 1;
   const ExactVector n = cross(g.front(), *second);
   return std::any_of(g.begin(), g.end(), [&](const ExactVector& a) { return !dot(n, a).is_zero(); }) ? 3 : 2;
@@ -74,8 +77,8 @@ double triangle_area(const Unit& a, const Unit& b, const Unit& c) {
   return 2 * std::atan2(inner(a, outer(b, c)), 1 + inner(a, b) + inner(b, c) + inner(c, a));
 }
 
-/// The spokes of a vertex in order around it, from one end of the fan to the other; empty where its triangles are not one fan. A closed fan repeats its
-/// first spoke at the end.
+/// The spokes of a vertex in order around it, from one end of the fan to the other; empty where its triangles are not
+/// one fan. A closed fan repeats its first spoke at the end.
 std::vector<Index> spokes_in_order(const Complex& mesh, Index vertex) {
   const auto triangles = mesh.topology.vertex_triangles[static_cast<std::size_t>(vertex)];
   const auto rim = [&](Index t) {
@@ -98,7 +101,8 @@ std::vector<Index> spokes_in_order(const Complex& mesh, Index vertex) {
   Index start = rim(triangles.front())[0];
   for (const Index t : triangles) {
     const Index v = rim(t)[0];  // a boundary spoke that its triangle leaves in its own orientation
-    const auto count = std::count_if(triangles.begin(), triangles.end(), [&](Index other) { return holds(rim(other), v); });
+    const auto count = std::count_if(triangles.begin(), triangles.end(),
+                                     [&](Index other) { return holds(rim(other), v); });
     if (count == 1) start = v;
   }
   std::vector<Index> spokes{start};
@@ -157,7 +161,8 @@ double solid_angle(const GaussMap& map) {
                                  ? std::vector<Unit>{outer(map.corners[0], map.corners[1])}
                                  : map.corners);
   double area = 0;
-  for (std::size_t k = 0; k < map.corners.size(); ++k) area += triangle_area(centre, map.corners[k], map.corners[(k + 1) % map.corners.size()]);
+  for (std::size_t k = 0; k < map.corners.size(); ++k)
+    area += triangle_area(centre, map.corners[k], map.corners[(k + 1) % map.corners.size()]);
   return std::abs(area);
 }
 

@@ -1,5 +1,5 @@
-// §3.1 as it is meant: the normals of each face by the closest-point principle, the kinds of vertices, Echeverria's indicatrix. Exact where something is
-// decided; unit vectors in double where something is drawn or integrated.
+// §3.1 as it is meant: the normals of each face by the closest-point principle, the kinds of vertices, Echeverria's
+// indicatrix. Exact where something is decided; unit vectors in double where something is drawn or integrated.
 #pragma once
 
 #include <array>
@@ -14,13 +14,16 @@ using Unit = std::array<double, 3>;  ///< of length 1 up to a rounding
 
 /// Fig. 5, decided exactly.
 enum class VertexKind : std::uint8_t {
-  convex,  ///< has normals, and the plane of each triangle at v leaves all neighbours on one side or on it (flat ones, corners of a sheet included)
+  /// has normals, and the plane of each triangle at v leaves all neighbours on one side or on it (flat ones, corners of
+  /// a sheet included)
+  convex,
   mixed,   ///< has normals, but not convex
   saddle,  ///< has none: x_v is inside the convex hull of its neighbours
 };
 VertexKind classify(const Complex& mesh, Index vertex);
 
-/// Whether an edge at v "remains as an edge in the convex hull of star(v)" (§3.2): the hull has a crease along it. Flat edges have none.
+/// Whether an edge at v "remains as an edge in the convex hull of star(v)" (§3.2): the hull has a crease along it. Flat
+/// edges have none.
 bool is_hull_edge(const Complex& mesh, Index vertex, Index edge);
 
 /// The normals of a face, to look at.
@@ -33,7 +36,8 @@ struct GaussMap {
 /// N_a of a face of the surface, or with `edge_only` of M^e (§3.5).
 GaussMap gauss_map(const Complex& mesh, Face face, bool edge_only = false);
 
-/// Area of N_a on the unit sphere [sr]; 0 below dimension 2. For a convex inner vertex this is the angle deficit (Gauss–Bonnet).
+/// Area of N_a on the unit sphere [sr]; 0 below dimension 2. For a convex inner vertex this is the angle deficit
+/// (Gauss–Bonnet).
 double solid_angle(const GaussMap& map);
 
 /// Echeverria's polygon of a vertex: the normals of its triangles in order around it; inverted parts are kept.

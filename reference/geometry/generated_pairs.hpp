@@ -17,7 +17,8 @@ struct Generated {
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
-/// A doubtful pair of faces that nothing replaces on the other side of a boundary, or (`joined`) that another one replaces.
+/// A doubtful pair of faces that nothing replaces on the other side of a boundary, or (`joined`) that another one
+/// replaces.
 struct Doubt {
   FacePair faces, other;
   bool joined = false;

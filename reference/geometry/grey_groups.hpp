@@ -28,7 +28,8 @@ class GreyGroups {
     bool absence = false;
   };
 
-  /// The groups by their smallest key, keys ascending. A join to a contact that is not doubtful leaves the doubtful one replaceable by nothing.
+  /// The groups by their smallest key, keys ascending. A join to a contact that is not doubtful leaves the doubtful one
+  /// replaceable by nothing.
   std::vector<Group> groups() {
     for (const auto& [a, b] : joins_) unite(a, b);
     std::map<Key, Group> by_root;

@@ -16,9 +16,11 @@ std::vector<DrawingPanel> limitations() {
   return panels;
 }
 
-constexpr std::array<std::string_view, 9> names{"fig02_models", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22"};
-constexpr std::array<std::vector<DrawingPanel> (*)(), names.size()> makers{contact_models, contact_face_sets, offset_geometries, vertex_kinds, face_normals,
-                                                                           surface_blocks, edge_only_blocks,  one_iteration,     limitations};
+constexpr std::array<std::string_view, 9> names{"fig02_models", "fig03", "fig04", "fig05", "fig06",
+                                                "fig07",        "fig08", "fig09", "fig22"};
+constexpr std::array<std::vector<DrawingPanel> (*)(), names.size()> makers{
+    contact_models, contact_face_sets, offset_geometries, vertex_kinds, face_normals,
+    surface_blocks, edge_only_blocks,  one_iteration,     limitations};
 
 }  // namespace
 

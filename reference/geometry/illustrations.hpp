@@ -1,4 +1,5 @@
-// The data of the paper's drawings (Fig. 2c to e, 3 to 9, 22), computed by the very functions that decide; plots only draw them.
+// The data of the paper's drawings (Fig. 2c to e, 3 to 9, 22), computed by the very functions that decide; plots only
+// draw them.
 #pragma once
 
 #include <array>
@@ -11,12 +12,12 @@ namespace ogc::reference {
 
 /// Points with what connects them. Lengths in units of the drawing, which has no scale, but in Fig. 9 and 22b metres.
 struct DrawingLayer {
-  std::string name;                             ///< what it shows: "surface", "block", "gauss_map", "arrows of OGC", …
+  std::string name;  ///< what it shows: "surface", "block", "gauss_map", "arrows of OGC", …
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::vector<int>> lines;
-  std::vector<double> values;                   ///< one for each point of a field or curve; otherwise empty
-  bool closed = true;                           ///< boundaries that belong to a block; open ones are drawn dashed
+  std::vector<double> values;  ///< one for each point of a field or curve; otherwise empty
+  bool closed = true;          ///< boundaries that belong to a block; open ones are drawn dashed
 };
 
 /// One part of a figure, in the order of its caption.

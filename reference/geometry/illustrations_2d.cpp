@@ -1,4 +1,5 @@
-// Fig. 2c to e, 3, 4 and 22a: slices of swept polylines. Contact sets, layers and distances come from the surface; only the drawing is plane.
+// Fig. 2c to e, 3, 4 and 22a: slices of swept polylines. Contact sets, layers and distances come from the surface; only
+// the drawing is plane.
 #include <algorithm>
 
 #include "reference/geometry/contact_sets.hpp"
@@ -51,7 +52,8 @@ Push push_on(const Slice& slice, SliceFace face, const Point2& x, double r) {
   return {face, c, {(r - d) * dx / d, (r - d) * dy / d}};
 }
 
-DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vector<SliceFace>& faces, const Point2& x, double r) {
+DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vector<SliceFace>& faces, const Point2& x,
+                    double r) {
   DrawingLayer layer{name, {}, {}, {}, {}, true};
   for (const SliceFace face : faces) {
     const Push push = push_on(slice, face, x, r);
@@ -65,7 +67,8 @@ DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vect
   return layer;
 }
 
-/// The segments of some triangles. Segments that end at the vertex are left out with `without`: in the plane they contain it (Eq. 3).
+/// The segments of some triangles. Segments that end at the vertex are left out with `without`: in the plane they
+/// contain it (Eq. 3).
 std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>& triangles, Index without = -1) {
   const SliceFace own = without < 0 ? SliceFace{true, -2} : slice.face_of(vertex_face(without));
   std::vector<SliceFace> faces;
@@ -92,24 +95,28 @@ std::vector<SliceFace> ogc_faces(const Slice& slice, Index vertex, float r) {
   return faces;
 }
 
-DrawingPanel face_set_panel(const std::string& name, const std::string& caption, const Slice& slice, Index vertex, float r) {
+DrawingPanel face_set_panel(const std::string& name, const std::string& caption, const Slice& slice, Index vertex,
+                            float r) {
   const Complex mesh = slice.mesh();
   const Point2 x{mesh.at(vertex).x, mesh.at(vertex).y};
   DrawingPanel panel{name, caption, {polyline_layer(slice), circle(x, r), {"x", {{x[0], x[1], 0}}, {}, {}, {}, true}}};
   const bool on_line = vertex < slice.extra(0);
-  panel.layers.push_back(arrows("IPC", slice, segments_of(slice, ipc_face_set(mesh, vertex, r), on_line ? vertex : -1), x, r));
+  panel.layers.push_back(
+      arrows("IPC", slice, segments_of(slice, ipc_face_set(mesh, vertex, r), on_line ? vertex : -1), x, r));
   panel.layers.push_back(arrows("SDF", slice, segments_of(slice, sdf_face_set(mesh, mesh.at(vertex), r)), x, r));
   panel.layers.push_back(arrows("OGC", slice, ogc_faces(slice, vertex, r), x, r));
   return panel;
 }
 
-/// A grid of nx × ny points over a rectangle, x fastest; the spacing is no number with few digits, so that points hardly ever lie on boundaries.
+/// A grid of nx × ny points over a rectangle, x fastest; the spacing is no number with few digits, so that points
+/// hardly ever lie on boundaries.
 template <class Value>
 DrawingLayer field(const std::string& name, const std::array<double, 4>& rectangle, int nx, int ny, Value value) {
   DrawingLayer layer{name, {}, {}, {}, {}, true};
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
-      const double x = rectangle[0] + (rectangle[1] - rectangle[0]) * (i + 0.501) / nx, y = rectangle[2] + (rectangle[3] - rectangle[2]) * (j + 0.499) / ny;
+      const double x = rectangle[0] + (rectangle[1] - rectangle[0]) * (i + 0.501) / nx,
+                   y = rectangle[2] + (rectangle[3] - rectangle[2]) * (j + 0.499) / ny;
       layer.points.push_back({x, y, 0});
       layer.values.push_back(value(Vec3f{static_cast<float>(x), static_cast<float>(y), 0}));
     }
@@ -121,19 +128,32 @@ DrawingLayer field(const std::string& name, const std::array<double, 4>& rectang
 DrawingLayer bisector(const Slice& slice, std::size_t i, double length) {
   const Point2 &a = slice.polyline()[i - 1], &b = slice.polyline()[i], &c = slice.polyline()[i + 1];
   const double to_a = std::hypot(a[0] - b[0], a[1] - b[1]), to_c = std::hypot(c[0] - b[0], c[1] - b[1]);
-  const double x = (a[0] - b[0]) / to_a + (c[0] - b[0]) / to_c, y = (a[1] - b[1]) / to_a + (c[1] - b[1]) / to_c, scale = length / std::hypot(x, y);
+  const double x = (a[0] - b[0]) / to_a + (c[0] - b[0]) / to_c, y = (a[1] - b[1]) / to_a + (c[1] - b[1]) / to_c,
+               scale = length / std::hypot(x, y);
   return {"bisector", {{b[0], b[1], 0}, {b[0] + scale * x, b[1] + scale * y, 0}}, {}, {{0, 1}}, {}, true};
 }
 
 /// Two strands of one curve that come near each other.
-Slice hairpin() { return Slice({{-3, 0.9f}, {-1.5f, 0.55f}, {0, 0.5f}, {1.5f, 0.6f}, {2.5f, 0}, {1.5f, -0.6f}, {0, -0.35f}, {-1.5f, -0.6f}, {-3, -0.8f}}); }
+Slice hairpin() {
+  return Slice({{-3, 0.9f},
+                {-1.5f, 0.55f},
+                {0, 0.5f},
+                {1.5f, 0.6f},
+                {2.5f, 0},
+                {1.5f, -0.6f},
+                {0, -0.35f},
+                {-1.5f, -0.6f},
+                {-3, -0.8f}});
+}
 
-/// Boundaries of a segment's block in the plane, one layer for the closed lines at distance r and one for the open walls.
+/// Boundaries of a segment's block in the plane, one layer for the closed lines at distance r and one for the open
+/// walls.
 std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double r) {
   const Complex mesh = slice.mesh();
   Index t = 0;
   while (slice.face_of(triangle_face(t)) != SliceFace{true, segment}) ++t;
-  const auto &a = slice.polyline()[static_cast<std::size_t>(segment)], &b = slice.polyline()[static_cast<std::size_t>(segment) + 1];
+  const auto &a = slice.polyline()[static_cast<std::size_t>(segment)],
+             &b = slice.polyline()[static_cast<std::size_t>(segment) + 1];
   const std::string name = "block of facet " + std::to_string(segment);
   DrawingLayer closed{name, {}, {}, {{0, 1}, {2, 3}}, {}, true}, open{name, {}, {}, {{0, 2}, {1, 3}}, {}, false};
   for (const Unit& n : gauss_map(mesh, triangle_face(t)).corners) {
@@ -143,9 +163,11 @@ std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double 
   return {closed, open};
 }
 
-/// What IPC's model makes of a segment: all points within r of it. A circle cut in two by the segment's normal, its halves around the two ends.
+/// What IPC's model makes of a segment: all points within r of it. A circle cut in two by the segment's normal, its
+/// halves around the two ends.
 DrawingLayer capsule(const Slice& slice, int segment, double r) {
-  const auto &a = slice.polyline()[static_cast<std::size_t>(segment)], &b = slice.polyline()[static_cast<std::size_t>(segment) + 1];
+  const auto &a = slice.polyline()[static_cast<std::size_t>(segment)],
+             &b = slice.polyline()[static_cast<std::size_t>(segment) + 1];
   const double along = std::atan2(static_cast<double>(b[1]) - a[1], static_cast<double>(b[0]) - a[0]);
   constexpr int half = 48;
   DrawingLayer layer{"capsule of facet " + std::to_string(segment), {}, {}, {{}}, {}, false};
@@ -160,14 +182,16 @@ DrawingLayer capsule(const Slice& slice, int segment, double r) {
 }
 
 /// The pushes of both models' sets from each of some vertices, and where these are.
-DrawingPanel model_panel(const std::string& name, const std::string& caption, const Slice& slice, const std::vector<Index>& vertices, float r, bool ogc) {
+DrawingPanel model_panel(const std::string& name, const std::string& caption, const Slice& slice,
+                         const std::vector<Index>& vertices, float r, bool ogc) {
   const Complex mesh = slice.mesh();
   DrawingPanel panel{name, caption, {polyline_layer(slice)}};
   DrawingLayer points{"points", {}, {}, {}, {}, true};
   for (const Index v : vertices) {
     const Point2 x{mesh.at(v).x, mesh.at(v).y};
     points.points.push_back({x[0], x[1], 0});
-    const auto faces = ogc ? ogc_faces(slice, v, r) : segments_of(slice, ipc_face_set(mesh, v, r), v < slice.extra(0) ? v : -1);
+    const auto faces = ogc ? ogc_faces(slice, v, r)
+                           : segments_of(slice, ipc_face_set(mesh, v, r), v < slice.extra(0) ? v : -1);
     panel.layers.push_back(arrows("arrows", slice, faces, x, r));
   }
   panel.layers.push_back(std::move(points));
@@ -178,13 +202,17 @@ DrawingPanel model_panel(const std::string& name, const std::string& caption, co
 
 std::vector<DrawingPanel> contact_models() {
   const std::vector<Point2> around{{-1.02f, 0.2f}, {0.15f, 0.38f}, {0.98f, -0.25f}};
-  const Slice facet({{-0.75f, 0}, {0.75f, 0}}, around), sheet({{-1.6f, 0.04f}, {-0.8f, 0}, {0, 0.06f}, {0.8f, 0}, {1.6f, 0.04f}}, around);
+  const Slice facet({{-0.75f, 0}, {0.75f, 0}}, around),
+      sheet({{-1.6f, 0.04f}, {-0.8f, 0}, {0, 0.06f}, {0.8f, 0}, {1.6f, 0.04f}}, around);
   constexpr float r = 0.55f, large = 1.1f;
   const std::vector<Index> strangers{facet.extra(0), facet.extra(1), facet.extra(2)};
-  std::vector<DrawingPanel> panels{model_panel("c", "IPC: a facet offset in all directions; beyond its ends it pushes along itself, too", facet, strangers, r, false),
-                                   model_panel("d", "IPC, radius of more than an edge: a sheet's own neighbours push each other", sheet, {sheet.vertex(1), sheet.vertex(3)}, large, false),
-                                   model_panel("e", "OGC: the blocks of the facets; neighbours in the sheet's plane are in none", sheet,
-                                               {sheet.vertex(1), sheet.vertex(3), sheet.extra(1)}, large, true)};
+  std::vector<DrawingPanel> panels{
+      model_panel("c", "IPC: a facet offset in all directions; beyond its ends it pushes along itself, too", facet,
+                  strangers, r, false),
+      model_panel("d", "IPC, radius of more than an edge: a sheet's own neighbours push each other", sheet,
+                  {sheet.vertex(1), sheet.vertex(3)}, large, false),
+      model_panel("e", "OGC: the blocks of the facets; neighbours in the sheet's plane are in none", sheet,
+                  {sheet.vertex(1), sheet.vertex(3), sheet.extra(1)}, large, true)};
   panels[0].layers.push_back(capsule(facet, 0, r));
   for (const int segment : {0, 1, 2, 3}) {
     panels[1].layers.push_back(capsule(sheet, segment, large));
@@ -199,9 +227,12 @@ std::vector<DrawingPanel> contact_face_sets() {
   const Slice row({{-2, 0.1f}, {-1, -0.05f}, {0, 0}, {1, -0.05f}, {2, 0.1f}, {3, 0}});
   const std::vector<Point2> between{{0.02f, 0.55f}};
   const Slice valley({{-1.6f, 1.1f}, {0, 0}, {1.6f, 1.1f}}, between);
-  std::vector<DrawingPanel> panels{face_set_panel("a", "IPC over a ridge: two facets, neither push normal to its facet", ridge, ridge.extra(0), 1),
-                                   face_set_panel("b", "IPC and a vertex's own neighbourhood: the second ring is pushed away", row, row.vertex(2), 1.4f),
-                                   face_set_panel("c", "SDF in a valley: one facet at a time, on either side of the bisector", valley, valley.extra(0), 1)};
+  std::vector<DrawingPanel> panels{
+      face_set_panel("a", "IPC over a ridge: two facets, neither push normal to its facet", ridge, ridge.extra(0), 1),
+      face_set_panel("b", "IPC and a vertex's own neighbourhood: the second ring is pushed away", row, row.vertex(2),
+                     1.4f),
+      face_set_panel("c", "SDF in a valley: one facet at a time, on either side of the bisector", valley,
+                     valley.extra(0), 1)};
   panels[2].layers.push_back(bisector(valley, 1, 1.8));
   return panels;
 }
@@ -211,8 +242,10 @@ std::vector<DrawingPanel> offset_geometries() {
   constexpr std::array<double, 4> rectangle{-3.8, 3.4, -1.7, 1.8};
   constexpr int nx = 360, ny = 175;
   const Slice slice = hairpin();
-  const auto layers = field("layers", rectangle, nx, ny, [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
-  const auto inside = field("inside", rectangle, nx, ny, [&](const Vec3f& x) { return sdf_face_set(slice.mesh(), x, r).empty() ? 0.0 : 1.0; });
+  const auto layers = field("layers", rectangle, nx, ny,
+                            [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
+  const auto inside = field("inside", rectangle, nx, ny,
+                            [&](const Vec3f& x) { return sdf_face_set(slice.mesh(), x, r).empty() ? 0.0 : 1.0; });
   return {{"a", "the original geometry M", {polyline_layer(slice)}},
           {"b", "the offset geometry of Eq. 5", {polyline_layer(slice), inside}},
           {"c", "the intersection-aware manifold with its layers", {polyline_layer(slice), layers}}};
@@ -239,13 +272,18 @@ std::vector<DrawingPanel> force_along_a_path() {
     left.lines[0].push_back(k);
     right.lines[0].push_back(k);
   }
-  const auto layers = field("layers", {-3, 3, -1, 2}, 300, 150, [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
-  DrawingPanel way{"path", "a path through a valley, the blocks of its facets (dashed: open), and the number of layers", {polyline_layer(slice), layers, path}};
+  const auto layers = field("layers", {-3, 3, -1, 2}, 300, 150,
+                            [&](const Vec3f& x) { return static_cast<double>(slice.layers(x, r).size()); });
+  DrawingPanel way{"path",
+                   "a path through a valley, the blocks of its facets (dashed: open), and the number of layers",
+                   {polyline_layer(slice), layers, path}};
   for (const int segment : {0, 1}) {
     for (DrawingLayer& boundary : segment_block(slice, segment, r)) way.layers.push_back(std::move(boundary));
   }
   return {std::move(way),
-          {"force", "force of each facet along the path (quadratic stage): it jumps where the open boundary is entered", {left, right}}};
+          {"force",
+           "force of each facet along the path (quadratic stage): it jumps where the open boundary is entered",
+           {left, right}}};
 }
 
 }  // namespace ogc::reference

@@ -10,8 +10,10 @@ struct Shape {
   std::vector<Vec3f> positions;
   compare::Topology topology;
 
-  Shape(std::vector<Vec3f> at, const std::vector<compare::Triangle>& triangles, const std::vector<compare::Edge>& loose = {})
-      : positions(std::move(at)), topology(compare::build_topology(static_cast<Index>(positions.size()), triangles, loose)) {}
+  Shape(std::vector<Vec3f> at, const std::vector<compare::Triangle>& triangles,
+        const std::vector<compare::Edge>& loose = {})
+      : positions(std::move(at)),
+        topology(compare::build_topology(static_cast<Index>(positions.size()), triangles, loose)) {}
   Complex mesh() const { return {topology, positions}; }
 };
 
@@ -52,7 +54,8 @@ DrawingLayer face_layer(const Complex& mesh, Face face) {
 
 void add_block(DrawingPanel& panel, const Complex& mesh, Face face, float radius, bool edge_only) {
   const BlockPicture picture = block_picture(mesh, face, radius, edge_only, 0.06);
-  for (const BlockPatch& patch : picture.patches) panel.layers.push_back({"block", picture.points, patch.triangles, patch.outlines, {}, patch.closed});
+  for (const BlockPatch& patch : picture.patches)
+    panel.layers.push_back({"block", picture.points, patch.triangles, patch.outlines, {}, patch.closed});
 }
 
 DrawingLayer curve(const std::string& name, const std::vector<Unit>& points) {
@@ -79,7 +82,8 @@ void add_normals(DrawingPanel& panel, const Complex& mesh, Face face, bool edge_
   panel.layers.push_back({"corners", polygon->normals, {}, {}, {polygon->area}, true});
 }
 
-DrawingPanel panel_of(const std::string& name, const std::string& caption, const Shape& shape, Face face, float radius, bool edge_only = false) {
+DrawingPanel panel_of(const std::string& name, const std::string& caption, const Shape& shape, Face face, float radius,
+                      bool edge_only = false) {
   const Complex mesh = shape.mesh();
   DrawingPanel panel{name, caption, {surface_of(mesh), face_layer(mesh, face)}};
   add_block(panel, mesh, face, radius, edge_only);
@@ -92,10 +96,12 @@ Shape roof() { return {{{-1, 0, 0}, {1, 0, 0}, {0, 1.2f, -0.7f}, {0, -1.2f, -0.7
 }  // namespace
 
 std::vector<DrawingPanel> vertex_kinds() {
-  return {panel_of("convex", "a convex vertex: the indicatrix is the boundary of N_v", star({-0.6f, -0.6f, -0.6f, -0.6f, -0.6f}), vertex_face(0), 0.8f),
-          panel_of("mixed", "a mixed vertex: N_v is the part of positive curvature, the rest of the polygon is inverted",
-                   star({-0.4f, -0.9f, -0.4f, -0.4f, -0.4f, -0.4f}), vertex_face(0), 0.8f),
-          panel_of("saddle", "a saddle vertex: no normals", star({0.5f, -0.5f, 0.5f, -0.5f}), vertex_face(0), 0.8f)};
+  return {
+      panel_of("convex", "a convex vertex: the indicatrix is the boundary of N_v",
+               star({-0.6f, -0.6f, -0.6f, -0.6f, -0.6f}), vertex_face(0), 0.8f),
+      panel_of("mixed", "a mixed vertex: N_v is the part of positive curvature, the rest of the polygon is inverted",
+               star({-0.4f, -0.9f, -0.4f, -0.4f, -0.4f, -0.4f}), vertex_face(0), 0.8f),
+      panel_of("saddle", "a saddle vertex: no normals", star({0.5f, -0.5f, 0.5f, -0.5f}), vertex_face(0), 0.8f)};
 }
 
 std::vector<DrawingPanel> face_normals() {
@@ -105,7 +111,8 @@ std::vector<DrawingPanel> face_normals() {
 
 std::vector<DrawingPanel> surface_blocks() {
   const Shape sheet{{{-1, 0, 0}, {1, 0, 0}, {0, 1.4f, 0}}, {{0, 1, 2}}};
-  return {panel_of("triangle", "U_t (Eq. 10)", sheet, triangle_face(0), 0.7f), panel_of("edge", "U_e (Eq. 9)", roof(), edge_face(0), 0.7f),
+  return {panel_of("triangle", "U_t (Eq. 10)", sheet, triangle_face(0), 0.7f),
+          panel_of("edge", "U_e (Eq. 9)", roof(), edge_face(0), 0.7f),
           panel_of("boundary edge", "U_e of a boundary edge", sheet, edge_face(0), 0.7f),
           panel_of("vertex", "U_v (Eq. 8)", star({-0.6f, -0.6f, -0.6f, -0.6f, -0.6f}), vertex_face(0), 0.7f)};
 }
@@ -113,8 +120,9 @@ std::vector<DrawingPanel> surface_blocks() {
 std::vector<DrawingPanel> edge_only_blocks() {
   const Shape line{{{-1, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}};
   const Shape bend{{{0, 0, 0}, {-1, 0, -0.6f}, {1, 0.3f, -0.6f}}, {}, {{0, 1}, {0, 2}}};
-  return {panel_of("edge", "U_e of M^e (Eq. 14): N_e is a circle", line, edge_face(0), 0.6f, true),
-          panel_of("vertex", "U_v of M^e (Eq. 15): N_v is the sphere cut by two planes", bend, vertex_face(0), 0.6f, true)};
+  return {
+      panel_of("edge", "U_e of M^e (Eq. 14): N_e is a circle", line, edge_face(0), 0.6f, true),
+      panel_of("vertex", "U_v of M^e (Eq. 15): N_v is the sphere cut by two planes", bend, vertex_face(0), 0.6f, true)};
 }
 
 }  // namespace ogc::reference

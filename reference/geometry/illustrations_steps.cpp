@@ -1,5 +1,6 @@
-// Fig. 9 and 22b: steps that are cut. Detections, bounds and truncations are the reference's own, on lengths of a cloth; in Fig. 9 a slice of swept polylines,
-// as in illustrations_2d.cpp. What stands beside them for comparison, the line search of Fig. 9b, is the first root of a quadratic.
+// Fig. 9 and 22b: steps that are cut. Detections, bounds and truncations are the reference's own, on lengths of a
+// cloth; in Fig. 9 a slice of swept polylines, as in illustrations_2d.cpp. What stands beside them for comparison, the
+// line search of Fig. 9b, is the first root of a quadratic.
 #include <algorithm>
 
 #include "compare/problem/settings.hpp"
@@ -16,7 +17,8 @@ namespace {
 using Point2 = Slice::Point2;
 using Plane = std::array<double, 2>;
 
-std::vector<float> bounds_of(const compare::Topology& topology, const std::vector<Vec3f>& positions, float radius, float query_radius) {
+std::vector<float> bounds_of(const compare::Topology& topology, const std::vector<Vec3f>& positions, float radius,
+                             float query_radius) {
   const std::vector<Index> no_groups;
   const compare::DetectIn in{&topology, no_groups, positions, radius, query_radius};
   const auto facets = detect_vertex_facet(in).exact;
@@ -80,7 +82,8 @@ std::vector<float> bounds_beside(const OneStep& step) {
   std::vector<compare::Triangle> triangles = line.mesh().topology.triangles;
   const auto shift = static_cast<Index>(positions.size());
   positions.insert(positions.end(), obstacle.mesh().positions.begin(), obstacle.mesh().positions.end());
-  for (const auto& t : obstacle.mesh().topology.triangles) triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  for (const auto& t : obstacle.mesh().topology.triangles)
+    triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   const auto topology = compare::build_topology(static_cast<Index>(positions.size()), triangles);
   const std::vector<float> all = bounds_of(topology, positions, 0.005f, 0.02f);
   std::vector<float> bounds;
@@ -96,7 +99,8 @@ Plane along(const Plane& a, const Plane& b, double s) { return {a[0] + s * (b[0]
 double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>& a, const std::array<Plane, 2>& b) {
   const auto at = [&](const std::array<Plane, 2>& x, double s) { return along(x[0], x[1], s); };
   const auto area = [&](double s) { return crossed(less(at(b, s), at(a, s)), less(at(point, s), at(a, s))); };
-  const double c0 = area(0), middle = area(0.5), c1 = area(1), c2 = 2 * (c0 + c1 - 2 * middle), slope = c1 - c0 - c2;  // c0 + slope s + c2 s²
+  // c0 + slope s + c2 s²
+  const double c0 = area(0), middle = area(0.5), c1 = area(1), c2 = 2 * (c0 + c1 - 2 * middle), slope = c1 - c0 - c2;
   const double root = std::sqrt(std::max(0.0, slope * slope - 4 * c0 * c2));
   double first = 1;
   for (const double s : {2 * c0 / (-slope + root), 2 * c0 / (-slope - root)}) {
@@ -108,7 +112,8 @@ double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>
   return first;
 }
 
-/// The share of the step at which anything of M first touches the obstacle: what a line search with continuous detection leaves of it.
+/// The share of the step at which anything of M first touches the obstacle: what a line search with continuous
+/// detection leaves of it.
 double first_collision(const OneStep& step) {
   double first = 1;
   for (std::size_t i = 0; i < step.before.size(); ++i) {
@@ -116,7 +121,8 @@ double first_collision(const OneStep& step) {
     for (std::size_t k = 0; k + 1 < step.obstacle.size(); ++k) {
       const Plane &a = step.obstacle[k], &b = step.obstacle[k + 1];
       first = std::min(first, first_touch(v, {a, a}, {b, b}));
-      if (i + 1 < step.before.size()) first = std::min(first, first_touch({a, a}, v, {step.before[i + 1], step.target[i + 1]}));
+      if (i + 1 < step.before.size())
+        first = std::min(first, first_touch({a, a}, v, {step.before[i + 1], step.target[i + 1]}));
     }
   }
   return first;
@@ -129,18 +135,20 @@ constexpr int most_rounds = 64;
 
 struct Fall {
   std::vector<Vec3f> start, target;
-  std::vector<std::vector<Vec3f>> rounds;   ///< positions after each round
-  std::vector<std::vector<float>> bounds;   ///< b_v at the beginning of each
+  std::vector<std::vector<Vec3f>> rounds;  ///< positions after each round
+  std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each
 };
 
 /// Rounds of detection and truncation until no vertex is cut. Everything falls alike, so nothing comes into contact.
 Fall fall(double speed) {
   Fall f;
-  f.start = {{-0.025f, 0, 0}, {-0.005f, 0, 0}, {-0.015f, 0.015f, 0}, {0.005f, 0, 0}, {0.025f, 0, 0}, {0.015f, 0.015f, 0}};
+  f.start = {{-0.025f, 0, 0}, {-0.005f, 0, 0}, {-0.015f, 0.015f, 0},
+             {0.005f, 0, 0},  {0.025f, 0, 0},  {0.015f, 0.015f, 0}};
   const auto topology = compare::build_topology(6, std::vector<compare::Triangle>{{0, 1, 2}, {3, 4, 5}});
   const double way = time_step * speed + time_step * time_step * gravity;
   for (const Vec3f& x : f.start) f.target.push_back({x.x, static_cast<float>(x.y - way), x.z});
-  const float query_radius = std::min(contact_radius + static_cast<float>(way), static_cast<float>(compare::Settings{}.query_radius_cap) * contact_radius);
+  const float query_radius = std::min(contact_radius + static_cast<float>(way),
+                                      static_cast<float>(compare::Settings{}.query_radius_cap) * contact_radius);
   std::vector<Vec3f> x = f.start;
   for (bool cut = true; cut && static_cast<int>(f.rounds.size()) < most_rounds;) {
     f.bounds.push_back(bounds_of(topology, x, contact_radius, query_radius));
@@ -155,7 +163,8 @@ Fall fall(double speed) {
   return f;
 }
 
-DrawingLayer triangles_at(const std::string& name, const std::vector<Vec3f>& positions, std::vector<double> values = {}) {
+DrawingLayer triangles_at(const std::string& name, const std::vector<Vec3f>& positions,
+                          std::vector<double> values = {}) {
   DrawingLayer layer{name, {}, {{0, 1, 2}, {3, 4, 5}}, {{0, 1, 2, 0}, {3, 4, 5, 3}}, std::move(values), true};
   for (const Vec3f& x : positions) layer.points.push_back({x.x, x.y, x.z});
   return layer;
@@ -177,12 +186,20 @@ std::vector<DrawingPanel> one_iteration() {
     const Plane all = less(step.target[i], step.before[i]), part = less(local.back(), step.before[i]);
     shares.push_back(std::hypot(part[0], part[1]) / std::hypot(all[0], all[1]));
   }
-  const DrawingLayer before = polyline("before", step.before), target = polyline("target", step.target), obstacle = polyline("obstacle", step.obstacle);
+  const DrawingLayer before = polyline("before", step.before), target = polyline("target", step.target),
+                     obstacle = polyline("obstacle", step.obstacle);
   const std::vector<double> same(step.before.size(), share);
-  return {{"a", "the state X^prev, and the full step of the optimizer (dashed), which penetrates", {before, target, obstacle}},
-          {"b", "the whole step truncated where the first collision happens", {before, target, obstacle, polyline("after", global, same)}},
-          {"c", "the conservative bounds b_v, one for each vertex", {before, target, obstacle, polyline("bounds", step.before, {bounds.begin(), bounds.end()})}},
-          {"d", "each vertex truncated to its own bound", {before, target, obstacle, polyline("after", local, shares)}}};
+  return {
+      {"a",
+       "the state X^prev, and the full step of the optimizer (dashed), which penetrates",
+       {before, target, obstacle}},
+      {"b",
+       "the whole step truncated where the first collision happens",
+       {before, target, obstacle, polyline("after", global, same)}},
+      {"c",
+       "the conservative bounds b_v, one for each vertex",
+       {before, target, obstacle, polyline("bounds", step.before, {bounds.begin(), bounds.end()})}},
+      {"d", "each vertex truncated to its own bound", {before, target, obstacle, polyline("after", local, shares)}}};
 }
 
 std::vector<DrawingPanel> falling_triangles() {
@@ -204,7 +221,8 @@ std::vector<DrawingPanel> falling_triangles() {
   }
   const auto limit = static_cast<double>(compare::Settings{}.guess_rounds);
   const DrawingLayer most{"guess_rounds", {{0, limit, 0}, {rounds.points.back()[0], limit, 0}}, {}, {{0, 1}}, {}, true};
-  return {std::move(way), {"rounds", "rounds of detection and truncation until the target is reached", {std::move(rounds), most}}};
+  return {std::move(way),
+          {"rounds", "rounds of detection and truncation until the target is reached", {std::move(rounds), most}}};
 }
 
 }  // namespace ogc::reference

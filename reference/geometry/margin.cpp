@@ -1,5 +1,5 @@
-// Double with an error bound first, then intervals, then exact numbers: one in some ten thousand random cases needs the last, and structured meshes with few
-// digits need none, because an interval without rounding is a point.
+// Double with an error bound first, then intervals, then exact numbers: one in some ten thousand random cases needs the
+// last, and structured meshes with few digits need none, because an interval without rounding is a point.
 #include "reference/geometry/margin.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -134,52 +134,59 @@ Points<T> constants(const std::array<std::array<double, 3>, 4>& delta) {
 }
 
 /// Σ|sᵢxᵢ|.
-double spread(const Point<double>& slope, const Point<double>& x) { return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z); }
+double spread(const Point<double>& slope, const Point<double>& x) {
+  return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z);
+}
 
 Point<double> operator*(double s, const Point<double>& a) { return {s * a.x, s * a.y, s * a.z}; }
 Point<double> operator+(const Point<double>& a, const Point<double>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
 /// Of `side`, m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c) + c × (e × p).
 double side_sensitivity(const Points<double>& at) {
-  const Point<double> &e = at[1], &c = at[2], &p = at[3], to_c = cross(e, c), to_p = cross(e, p);
+  const Point<double>&e = at[1], &c = at[2], &p = at[3], to_c = cross(e, c), to_p = cross(e, p);
   return spread(cross(to_c, e), p) + spread(cross(to_p, e), c) + spread(cross(p, to_c) + cross(c, to_p), e);
 }
 
-/// Of `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), by its own place ∂m/∂q = v × (x × v), and
-/// ∂m/∂v = (x × v) × q + (q × v) × x, which goes to q₁ and with the other sign to q.
+/// Of `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), by its own place ∂m/∂q
+/// = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x, which goes to q₁ and with the other sign to q.
 double turn_sensitivity(const Points<double>& at) {
-  const Point<double> &x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v), by_v = cross(of_x, q) + cross(of_q, x);
+  const Point<double>&x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v),
+        by_v = cross(of_x, q) + cross(of_q, x);
   return spread(cross(v, of_q), x) + spread(cross(v, of_x) - by_v, q) + spread(by_v, at[3]);
 }
 
-/// Of `parallel`, m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u, ∂m/∂v = 2·10⁶ c × u − 2 (u·u) v.
+/// Of `parallel`, m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u, ∂m/∂v = 2·10⁶ c × u − 2
+/// (u·u) v.
 double parallel_sensitivity(const Points<double>& at) {
-  const Point<double> &u = at[1], v = at[3] - at[2], c = cross(u, v);
+  const Point<double>&u = at[1], v = at[3] - at[2], c = cross(u, v);
   const Point<double> by_u = 2e6 * cross(v, c) - 2 * dot(v, v) * u, by_v = 2e6 * cross(c, u) - 2 * dot(u, u) * v;
   return spread(by_u, u) + spread(by_v, at[2]) + spread(by_v, at[3]);
 }
 
 /// Of a point's gap from a line, m = c·c − r² e·e with c = e × p: ∂m/∂p = 2 c × e, ∂m/∂e = 2 (p × c − r² e).
 double line_sensitivity(const Points<double>& at, double radius) {
-  const Point<double> &e = at[1], &p = at[2], c = cross(e, p);
+  const Point<double>&e = at[1], &p = at[2], c = cross(e, p);
   return 2 * (spread(cross(c, e), p) + spread(cross(p, c) - radius * radius * e, e));
 }
 
-/// Of the gap between two lines or of a point from a plane, m = (w·n)² − r² n·n with n = u × v: with s = 2 w·n and g = ∂m/∂n = s w − 2 r² n it is
-/// ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w of a plane, u, w, w + v of two lines.
+/// Of the gap between two lines or of a point from a plane, m = (w·n)² − r² n·n with n = u × v: with s = 2 w·n and g =
+/// ∂m/∂n = s w − 2 r² n it is ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w of a plane, u, w, w + v
+/// of two lines.
 double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
-  const Point<double> &u = at[1], w = is_plane ? at[3] : at[2], v = is_plane ? at[2] : at[3] - at[2], n = cross(u, v);
+  const Point<double>&u = at[1], w = is_plane ? at[3] : at[2], v = is_plane ? at[2] : at[3] - at[2], n = cross(u, v);
   const double s = 2 * dot(w, n);
   const Point<double> g = s * w - 2 * radius * radius * n, by_u = cross(v, g), by_v = cross(g, u), by_w = s * n;
   if (is_plane) return spread(by_u, u) + spread(by_v, v) + spread(by_w, w);
   return spread(by_u, u) + spread(by_w - by_v, w) + spread(by_v, at[3]);
 }
 
-/// Σ|∂m/∂δᵢ||δᵢ|, derivatives written out, as they are asked for in every doubtful decision; `delta` as `relative` gives it.
+/// Σ|∂m/∂δᵢ||δᵢ|, derivatives written out, as they are asked for in every doubtful decision; `delta` as `relative`
+/// gives it.
 double sensitivity_at(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
   const Points<double> at = constants<double>(delta);
   switch (margin.kind) {
-    case MarginKind::along: return 2 * (std::abs(at[1].x * at[2].x) + std::abs(at[1].y * at[2].y) + std::abs(at[1].z * at[2].z));
+    case MarginKind::along:
+      return 2 * (std::abs(at[1].x * at[2].x) + std::abs(at[1].y * at[2].y) + std::abs(at[1].z * at[2].z));
     case MarginKind::side: return side_sensitivity(at);
     case MarginKind::turn: return turn_sensitivity(at);
     case MarginKind::parallel: return parallel_sensitivity(at);
@@ -189,9 +196,10 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
   }
 }
 
-/// Largest error of a value in double, in units of its modulus. On the longest way from a coordinate to a margin lie 18 roundings (of a plane's gap: a
-/// difference twice, a product and a difference for n; a difference, a product and two sums for the height; that twice, the square, and the difference from
-/// r² n²); the modulus itself may be as much too small. Neither overflow nor underflow: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+/// Largest error of a value in double, in units of its modulus. On the longest way from a coordinate to a margin lie 18
+/// roundings (of a plane's gap: a difference twice, a product and a difference for n; a difference, a product and two
+/// sums for the height; that twice, the square, and the difference from r² n²); the modulus itself may be as much too
+/// small. Neither overflow nor underflow: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
 
 /// The margin in double, with the sum of the moduli of its terms.
@@ -250,8 +258,9 @@ int filtered_sign(const Margin& margin, const Measured& m) {
   return decided ? *decided : exact_sign(margin);
 }
 
-/// The distance lies between these; where the first is the larger one, nothing is known. A numerator is the square of a number or vector, each component of
-/// which is off by `rounding` times the modulus of its own terms at most, so its root is off by as much of the root of their squares' sum.
+/// The distance lies between these; where the first is the larger one, nothing is known. A numerator is the square of a
+/// number or vector, each component of which is off by `rounding` times the modulus of its own terms at most, so its
+/// root is off by as much of the root of their squares' sum.
 std::pair<double, double> filtered_distance(const Margin& gap) {
   const Quotient<Measured> squared = squared_distance(gap.kind, constants<Measured>(relative(gap)));
   const Measured& d = squared.denominator;
@@ -361,7 +370,8 @@ double signed_length(const Margin& margin) {
   if (d.denominator.is_zero()) return 0;
   const long double length = std::sqrt(to_long_double(d.numerator) / to_long_double(d.denominator));
   const long double sum = length + to_long_double(radius);
-  return sum > 0 ? static_cast<double>(to_long_double(evaluate<Exact>(margin)) / to_long_double(d.denominator) / sum) : 0;
+  return sum > 0 ? static_cast<double>(to_long_double(evaluate<Exact>(margin)) / to_long_double(d.denominator) / sum)
+                 : 0;
 }
 
 std::vector<double> shares(std::span<const Margin> margins) {

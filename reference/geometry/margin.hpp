@@ -1,5 +1,5 @@
-// A margin is a polynomial in given coordinates whose sign decides something. Its sign is exact; whether it lies in the grey zone and what its
-// neighbours weigh comes from the same formula. CGAL stays behind this header.
+// A margin is a polynomial in given coordinates whose sign decides something. Its sign is exact; whether it lies in the
+// grey zone and what its neighbours weigh comes from the same formula. CGAL stays behind this header.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ namespace ogc::reference {
 
 using compare::Vec3f;
 
-/// Which formula of formulas.hpp; a gap is numerator − r² · denominator of a squared distance, < 0 where it is smaller than r.
+/// Which formula of formulas.hpp; a gap is numerator − r² · denominator of a squared distance, < 0 where it is smaller
+/// than r.
 enum class MarginKind : std::uint8_t { along, side, turn, parallel, gap_points, gap_line, gap_plane, gap_lines };
 
 /// A formula with its points; the first is the one to which the coordinates δ of the grey zone are relative.
@@ -25,11 +26,21 @@ struct Margin {
 };
 
 inline Margin along(const Vec3f& a, const Vec3f& b, const Vec3f& p) { return {MarginKind::along, {a, b, p}}; }
-inline Margin side(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p) { return {MarginKind::side, {a, b, c, p}}; }
-inline Margin turn(const Vec3f& p, const Vec3f& x, const Vec3f& q0, const Vec3f& q1) { return {MarginKind::turn, {p, x, q0, q1}}; }
-inline Margin parallel(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const Vec3f& q1) { return {MarginKind::parallel, {p0, p1, q0, q1}}; }
-inline Margin gap_points(const Vec3f& a, const Vec3f& p, float radius = 0) { return {MarginKind::gap_points, {a, p}, radius}; }
-inline Margin gap_line(const Vec3f& a, const Vec3f& b, const Vec3f& p, float radius = 0) { return {MarginKind::gap_line, {a, b, p}, radius}; }
+inline Margin side(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p) {
+  return {MarginKind::side, {a, b, c, p}};
+}
+inline Margin turn(const Vec3f& p, const Vec3f& x, const Vec3f& q0, const Vec3f& q1) {
+  return {MarginKind::turn, {p, x, q0, q1}};
+}
+inline Margin parallel(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const Vec3f& q1) {
+  return {MarginKind::parallel, {p0, p1, q0, q1}};
+}
+inline Margin gap_points(const Vec3f& a, const Vec3f& p, float radius = 0) {
+  return {MarginKind::gap_points, {a, p}, radius};
+}
+inline Margin gap_line(const Vec3f& a, const Vec3f& b, const Vec3f& p, float radius = 0) {
+  return {MarginKind::gap_line, {a, b, p}, radius};
+}
 inline Margin gap_plane(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p, float radius = 0) {
   return {MarginKind::gap_plane, {a, b, c, p}, radius};
 }
@@ -60,8 +71,9 @@ int sign(const Margin& margin);
 /// Σ|∂m/∂δᵢ||δᵢ|, δᵢ the coordinates relative to the first point; the radius carries no derivative.
 double sensitivity(const Margin& margin);
 
-/// 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius is given and carries no derivative. Where the sum is 0 no relative change of the δᵢ moves
-/// the margin off its sign, so there is no other side: a vertex straight above a vertex of an axis-parallel grid is not grey.
+/// 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius is given and carries no derivative. Where the sum is 0 no
+/// relative change of the δᵢ moves the margin off its sign, so there is no other side: a vertex straight above a vertex
+/// of an axis-parallel grid is not grey.
 bool grey(const Margin& margin);
 
 /// Distance of a gap [m], within 1 ulp of double. The denominator must be positive.
@@ -80,14 +92,16 @@ GapDistance measure(const Margin& gap);
 /// scale · d < b for the distance d of the gap, exactly; scale, b ≥ 0. Denominator as above.
 bool scaled_distance_less(const Margin& gap, float scale, float b);
 
-/// −1, 0 or 1: the distance of `a` is smaller than, as large as, larger than that of `b`, exactly. Denominators as above.
+/// −1, 0 or 1: the distance of `a` is smaller than, as large as, larger than that of `b`, exactly. Denominators as
+/// above.
 int compare_distances(const Margin& a, const Margin& b);
 
 /// (scale · d)² [m²] for the distance d of the gap, as a fraction in lowest terms: "num/den". Denominator as above.
 std::string squared_distance(const Margin& gap, float scale = 1);
 
-/// The margin as a length [m] with its sign, within 1 ulp of double: of `along` and `side` the distance of the last point from the plane, of a gap d − r
-/// (without cancellation). 0 where the line or plane is not defined. Not for `turn` and `parallel`, which are no lengths: std::logic_error.
+/// The margin as a length [m] with its sign, within 1 ulp of double: of `along` and `side` the distance of the last
+/// point from the plane, of a gap d − r (without cancellation). 0 where the line or plane is not defined. Not for
+/// `turn` and `parallel`, which are no lengths: std::logic_error.
 double signed_length(const Margin& margin);
 
 /// m_k / Σ m_j for margins that are no gaps and whose exact sum is positive; within 1 ulp of double each.

@@ -1,5 +1,5 @@
-// A distance rounded down decides between two pairs nearly always; where both round to one number, the quotients are compared. Which pair wins depends
-// on no order of threads: distances are exact and ties go to the lowest number.
+// A distance rounded down decides between two pairs nearly always; where both round to one number, the quotients are
+// compared. Which pair wins depends on no order of threads: distances are exact and ties go to the lowest number.
 #include "reference/geometry/nearest.hpp"
 
 #include <tbb/blocked_range.h>
@@ -71,11 +71,12 @@ class Search {
   template <class Visit>
   void for_near(const std::vector<Box>& queries, const std::vector<Box>& boxes, Visit visit) const {
     const BoxTree tree(boxes);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        tree.query(widened(queries[i], in_.query_radius), [&](Index j) { visit(static_cast<Index>(i), j); });
-      }
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, queries.size(), 16), [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            tree.query(widened(queries[i], in_.query_radius), [&](Index j) { visit(static_cast<Index>(i), j); });
+          }
+        });
   }
 
   void find_facets(NearestPrimitives& result) const {
@@ -145,7 +146,8 @@ std::vector<Margin> limiting_distances(const compare::Topology& topology, const 
 ExactSquares exact_squares(const compare::DetectIn& in, float bound_relaxation) {
   const NearestPrimitives nearest = nearest_primitives(in);
   ExactSquares result{squares(nearest.vertex), squares(nearest.edge), squares(nearest.triangle), {}};
-  for (const Margin& limit : limiting_distances(*in.topology, nearest)) result.bound.push_back(squared_distance(limit, bound_relaxation));
+  for (const Margin& limit : limiting_distances(*in.topology, nearest))
+    result.bound.push_back(squared_distance(limit, bound_relaxation));
   return result;
 }
 

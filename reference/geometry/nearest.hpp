@@ -1,5 +1,5 @@
-// Eq. 22, 24 and 26 without rounding: which pair holds each smallest distance, so that its square is known as a fraction and any bound can be held
-// against it.
+// Eq. 22, 24 and 26 without rounding: which pair holds each smallest distance, so that its square is known as a
+// fraction and any bound can be held against it.
 #pragma once
 
 #include <span>
@@ -11,14 +11,15 @@
 
 namespace ogc::reference {
 
-/// The nearest non-adjacent candidate of a primitive; of several equally near ones the lowest-numbered. `gap` is the distance between the two (Margin), or
-/// r_q where nothing is nearer; then `partner` is −1.
+/// The nearest non-adjacent candidate of a primitive; of several equally near ones the lowest-numbered. `gap` is the
+/// distance between the two (Margin), or r_q where nothing is nearer; then `partner` is −1.
 struct Nearest {
   compare::Index partner = -1;
   Margin gap;
 };
 
-/// d_min,v with a triangle as partner (Eq. 22), d_min,e with an edge (Eq. 24), d_min,t with a vertex (Eq. 26), by primitive.
+/// d_min,v with a triangle as partner (Eq. 22), d_min,e with an edge (Eq. 24), d_min,t with a vertex (Eq. 26), by
+/// primitive.
 struct NearestPrimitives {
   std::vector<Nearest> vertex, edge, triangle;
 };
@@ -26,7 +27,8 @@ struct NearestPrimitives {
 /// Decided exactly; what the detections leave out is left out.
 NearestPrimitives nearest_primitives(const compare::DetectIn& in);
 
-/// The smallest of d_min,v, of d_min,e of v's edges and of d_min,t of v's triangles, by vertex (Eq. 21, 23, 25 before γ_p).
+/// The smallest of d_min,v, of d_min,e of v's edges and of d_min,t of v's triangles, by vertex (Eq. 21, 23, 25 before
+/// γ_p).
 std::vector<Margin> limiting_distances(const compare::Topology& topology, const NearestPrimitives& nearest);
 
 /// Squares [m²] as fractions in lowest terms, "num/den".

@@ -1,5 +1,6 @@
-// A cone of dimension 3 is bounded by planes n·d = 0, so its extreme rays lie on two of them; of smaller rank the directions leave a line or plane of
-// normals free, and what remains is found in the plane or on the line that they span.
+// A cone of dimension 3 is bounded by planes n·d = 0, so its extreme rays lie on two of them; of smaller rank the
+// directions leave a line or plane of normals free, and what remains is found in the plane or on the line that they
+// span.
 #include "reference/geometry/normal_cone.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 Exact determinant(const ExactVector& a, const ExactVector& b, const ExactVector& c) { return dot(a, cross(b, c)); }
 
 bool allowed(const ExactVector& n, std::span<const ExactVector> directions) {
-  return std::all_of(directions.begin(), directions.end(), [&](const ExactVector& d) { return sign_of(dot(n, d)) <= 0; });
+  return std::all_of(directions.begin(), directions.end(),
+                     [&](const ExactVector& d) { return sign_of(dot(n, d)) <= 0; });
 }
 
 bool same_ray(const ExactVector& a, const ExactVector& b) { return sign_of(dot(a, b)) > 0 && is_zero(cross(a, b)); }
@@ -32,24 +34,28 @@ bool on_two(const ExactVector& g, const ExactVector& h, const ExactVector& n) {
 bool on_three(const ExactVector& g, const ExactVector& h, const ExactVector& k, const ExactVector& n) {
   const int d = sign_of(determinant(g, h, k));
   if (d == 0) return false;
-  return sign_of(determinant(n, h, k)) * d >= 0 && sign_of(determinant(g, n, k)) * d >= 0 && sign_of(determinant(g, h, n)) * d >= 0;
+  return sign_of(determinant(n, h, k)) * d >= 0 && sign_of(determinant(g, n, k)) * d >= 0 &&
+         sign_of(determinant(g, h, n)) * d >= 0;
 }
 
 /// A direction that is not parallel to `first`, or nullptr.
 const ExactVector* second_direction(const ExactVector& first, std::span<const ExactVector> directions) {
-  const auto it = std::find_if(directions.begin(), directions.end(), [&](const ExactVector& d) { return !is_zero(cross(first, d)); });
+  const auto it = std::find_if(directions.begin(), directions.end(),
+                               [&](const ExactVector& d) { return !is_zero(cross(first, d)); });
   return it == directions.end() ? nullptr : &*it;
 }
 
 bool spans_space(const ExactVector& normal, std::span<const ExactVector> directions) {
-  return std::any_of(directions.begin(), directions.end(), [&](const ExactVector& d) { return !dot(normal, d).is_zero(); });
+  return std::any_of(directions.begin(), directions.end(),
+                     [&](const ExactVector& d) { return !dot(normal, d).is_zero(); });
 }
 
 }  // namespace
 
 void NormalCone::add(const ExactVector& n, std::span<const ExactVector> directions) {
   if (is_zero(n) || !allowed(n, directions)) return;
-  if (std::none_of(generators_.begin(), generators_.end(), [&](const ExactVector& g) { return same_ray(g, n); })) generators_.push_back(n);
+  if (std::none_of(generators_.begin(), generators_.end(), [&](const ExactVector& g) { return same_ray(g, n); }))
+    generators_.push_back(n);
 }
 
 NormalCone::NormalCone(std::span<const ExactVector> directions) {
@@ -57,7 +63,8 @@ NormalCone::NormalCone(std::span<const ExactVector> directions) {
     add(n, directions);
     add(opposite(n), directions);
   };
-  const auto first = std::find_if(directions.begin(), directions.end(), [](const ExactVector& d) { return !is_zero(d); });
+  const auto first = std::find_if(directions.begin(), directions.end(),
+                                  [](const ExactVector& d) { return !is_zero(d); });
   if (first == directions.end()) {
     for (int axis = 0; axis < 3; ++axis) both({Exact(axis == 0), Exact(axis == 1), Exact(axis == 2)});
     lineality_ = 3;
@@ -93,7 +100,8 @@ bool NormalCone::contains(const ExactVector& n) const {
       if (on_two(g[i], g[j], n)) return true;
     }
   }
-  // A pointed cone is the union of the triangles that its first corner makes with two others; one with lines has few generators.
+  // A pointed cone is the union of the triangles that its first corner makes with two others; one with lines has few
+  // generators.
   const std::size_t roots = lineality_ == 0 ? std::min<std::size_t>(1, g.size()) : g.size();
   for (std::size_t i = 0; i < roots; ++i) {
     for (std::size_t j = i + 1; j < g.size(); ++j) {

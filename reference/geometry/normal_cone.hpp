@@ -1,6 +1,6 @@
-// The set of normals of a face as a convex cone, given by its generators: the corners of the polyhedral Gauss map. It answers the same questions as the
-// half-spaces of blocks.hpp from the other side, and shares no formula with them, so each can be tested by the other. Only .cpp files of this room include
-// this header: it shows CGAL's number type.
+// The set of normals of a face as a convex cone, given by its generators: the corners of the polyhedral Gauss map. It
+// answers the same questions as the half-spaces of blocks.hpp from the other side, and shares no formula with them, so
+// each can be tested by the other. Only .cpp files of this room include this header: it shows CGAL's number type.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -31,8 +31,8 @@ inline ExactVector plus(const ExactVector& a, const ExactVector& b) { return {a.
 inline bool is_zero(const ExactVector& a) { return a.x.is_zero() && a.y.is_zero() && a.z.is_zero(); }
 inline int sign_of(const Exact& a) { return static_cast<int>(a.sign()); }
 
-/// {n : n·d ≤ 0 for all d}, the polar cone of the directions in which a surface leaves a point, as the set of sums of non-negative multiples of
-/// `generators()`. No generators: {0}, the point has no normal (Eq. 8's saddle).
+/// {n : n·d ≤ 0 for all d}, the polar cone of the directions in which a surface leaves a point, as the set of sums of
+/// non-negative multiples of `generators()`. No generators: {0}, the point has no normal (Eq. 8's saddle).
 class NormalCone {
  public:
   NormalCone() = default;
@@ -51,8 +51,8 @@ class NormalCone {
   int lineality_ = 0;
 };
 
-/// The directions in which the star of a face leaves its interior, along the face itself in both senses. Faces of the surface (§3.1) or, with `edge_only`,
-/// of M^e (§3.5; vertices and edges only).
+/// The directions in which the star of a face leaves its interior, along the face itself in both senses. Faces of the
+/// surface (§3.1) or, with `edge_only`, of M^e (§3.5; vertices and edges only).
 std::vector<ExactVector> star_directions(const Complex& mesh, Face face, bool edge_only = false);
 
 }  // namespace ogc::reference

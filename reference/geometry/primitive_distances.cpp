@@ -1,5 +1,6 @@
-// Two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states; the second searches each primitive's own box, widened
-// by what is known then. A pair is met from either side, so each primitive finds its own nearest and needs nobody else's search for it.
+// Two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states; the second
+// searches each primitive's own box, widened by what is known then. A pair is met from either side, so each primitive
+// finds its own nearest and needs nobody else's search for it.
 #include "reference/geometry/primitive_distances.hpp"
 
 #include <tbb/blocked_range.h>
@@ -32,7 +33,10 @@ void for_each(std::size_t count, Work work) {
 class Facets {
  public:
   explicit Facets(const compare::DetectIn& in)
-      : in_(in), mesh_{*in.topology, in.positions}, of_vertex_(in.positions.size(), in.query_radius), of_triangle_(in.topology->triangles.size(), in.query_radius) {}
+      : in_(in),
+        mesh_{*in.topology, in.positions},
+        of_vertex_(in.positions.size(), in.query_radius),
+        of_triangle_(in.topology->triangles.size(), in.query_radius) {}
 
   void search(PrimitiveDistances& result) {
     std::vector<Box> points(in_.positions.size()), boxes(in_.topology->triangles.size());
@@ -42,10 +46,12 @@ class Facets {
     const BoxTree vertices(points), triangles(boxes);
     for_each(boxes.size(), [&](Index t) { meet_ring(t); });
     for_each(points.size(), [&](Index v) {
-      triangles.query(widened(points[at(v)], double{of_vertex_.so_far(at(v))} * search_margin), [&](Index t) { meet(v, t, of_vertex_.so_far(at(v))); });
+      triangles.query(widened(points[at(v)], double{of_vertex_.so_far(at(v))} * search_margin),
+                      [&](Index t) { meet(v, t, of_vertex_.so_far(at(v))); });
     });
     for_each(boxes.size(), [&](Index t) {
-      vertices.query(widened(boxes[at(t)], double{of_triangle_.so_far(at(t))} * search_margin), [&](Index v) { meet(v, t, of_triangle_.so_far(at(t))); });
+      vertices.query(widened(boxes[at(t)], double{of_triangle_.so_far(at(t))} * search_margin),
+                     [&](Index v) { meet(v, t, of_triangle_.so_far(at(t))); });
     });
     result.vertex = of_vertex_.take();
     result.triangle = of_triangle_.take();
@@ -62,7 +68,8 @@ class Facets {
   /// Lowers both by their distance unless it is surely beyond `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
-    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in_.exclusions, {&v, 1}, corners)) return;
+    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in_.exclusions, {&v, 1}, corners))
+      return;
     const Corners places{mesh_.at(corners[0]), mesh_.at(corners[1]), mesh_.at(corners[2])};
     if (surely_beyond_triangle({mesh_.at(v), places[0], places[1], places[2]}, double{known})) return;
     const float d = distance_below(feature_gap(places, closest_feature(places, mesh_.at(v)), mesh_.at(v)));
@@ -78,7 +85,8 @@ class Facets {
 /// Distances of edges.
 class Edges {
  public:
-  explicit Edges(const compare::DetectIn& in) : in_(in), mesh_{*in.topology, in.positions}, of_edge_(in.topology->edges.size(), in.query_radius) {}
+  explicit Edges(const compare::DetectIn& in)
+      : in_(in), mesh_{*in.topology, in.positions}, of_edge_(in.topology->edges.size(), in.query_radius) {}
 
   void search(PrimitiveDistances& result) {
     std::vector<Box> boxes(in_.topology->edges.size());
@@ -87,7 +95,8 @@ class Edges {
     const BoxTree tree(boxes);
     for_each(boxes.size(), [&](Index e) { meet_ring(e); });
     for_each(boxes.size(), [&](Index e) {
-      tree.query(widened(boxes[at(e)], double{of_edge_.so_far(at(e))} * search_margin), [&](Index other) { meet(e, other, of_edge_.so_far(at(e))); });
+      tree.query(widened(boxes[at(e)], double{of_edge_.so_far(at(e))} * search_margin),
+                 [&](Index other) { meet(e, other, of_edge_.so_far(at(e))); });
     });
     result.edge = of_edge_.take();
   }
@@ -99,7 +108,8 @@ class Edges {
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));
   }
 
-  /// Lowers both by their distance unless it is surely beyond `known`. The lower-numbered edge goes first, as in the detection, for the sake of its last bit.
+  /// Lowers both by their distance unless it is surely beyond `known`. The lower-numbered edge goes first, as in the
+  /// detection, for the sake of its last bit.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];

@@ -1,5 +1,6 @@
-// A cheap question before the exact ones: are two primitives certainly farther apart than this? Two parallel planes with nothing between them prove it, in
-// whatever direction they were drawn, so that only the width of the slab needs an error bound.
+// A cheap question before the exact ones: are two primitives certainly farther apart than this? Two parallel planes
+// with nothing between them prove it, in whatever direction they were drawn, so that only the width of the slab needs
+// an error bound.
 #pragma once
 
 #include <array>
@@ -11,7 +12,9 @@ namespace ogc::reference {
 /// What a detection is asked for.
 enum class DetectionExtent {
   judged,  ///< all of the stage's truth: pairs counted, near and grey decisions listed
-  exact    ///< `exact` alone: a pair that can be neither a contact nor lower a smallest distance is left out, and out of `pairs`, too
+  /// `exact` alone: a pair that can be neither a contact nor lower a smallest distance is left out, and out of `pairs`,
+  /// too
+  exact
 };
 
 /// Whether point x[0] and triangle x[1] x[2] x[3] are farther apart than `distance` [m]; false where no slab shows it.

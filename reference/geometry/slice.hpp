@@ -1,4 +1,5 @@
-// The plane drawings of the paper as slices of surfaces: a polyline swept along z, cut where its middle row of vertices lies.
+// The plane drawings of the paper as slices of surfaces: a polyline swept along z, cut where its middle row of vertices
+// lies.
 #pragma once
 
 #include <array>
@@ -25,9 +26,11 @@ class Slice {
 
   Complex mesh() const { return {topology_, positions_}; }
   const std::vector<Point2>& polyline() const { return polyline_; }
-  Index vertex(int i) const { return middle_ + i; }                                              ///< of the polyline, in the plane
+  /// of the polyline, in the plane
+  Index vertex(int i) const { return middle_ + i; }
   Index extra(int i) const { return static_cast<Index>(positions_.size()) - extra_count_ + i; }
-  SliceFace face_of(Face face) const;                                                            ///< what a face of the surface is in the plane
+  /// what a face of the surface is in the plane
+  SliceFace face_of(Face face) const;
 
   /// The faces of the polyline whose blocks hold the point, ascending: one for each layer.
   std::vector<SliceFace> layers(const Vec3f& x, float radius) const;

@@ -16,8 +16,7 @@ class Smallest {
   void lower(std::size_t i, float distance) {
     const std::atomic_ref<float> value(values_[i]);
     float seen = value.load(std::memory_order_relaxed);
-    while (distance < seen && !value.compare_exchange_weak(seen, distance, std::memory_order_relaxed)) {
-    }
+    while (distance < seen && !value.compare_exchange_weak(seen, distance, std::memory_order_relaxed)) {}
   }
 
   /// The smallest so far; later ones are no larger.
@@ -29,8 +28,8 @@ class Smallest {
   std::vector<float> values_;
 };
 
-/// Boxes are searched a little beyond r_q, so that a grey distance just outside r is seen even where r_q = r. The grey zone of a distance is wider than
-/// this only for faces whose shape leaves fewer than some ten bits of it.
+/// Boxes are searched a little beyond r_q, so that a grey distance just outside r is seen even where r_q = r. The grey
+/// zone of a distance is wider than this only for faces whose shape leaves fewer than some ten bits of it.
 inline constexpr double search_margin = 1 + 1.0 / 64;
 
 }  // namespace ogc::reference

@@ -1,5 +1,6 @@
-// The tree's data are boxes, not triangles: CGAL asks its kernel about each datum and wants no degenerate ones. Splitting compares coordinates, and a
-// ball against a box is a filtered exact predicate of the kernel, so no step of a query rounds.
+// The tree's data are boxes, not triangles: CGAL asks its kernel about each datum and wants no degenerate ones.
+// Splitting compares coordinates, and a ball against a box is a filtered exact predicate of the kernel, so no step of a
+// query rounds.
 #include "reference/geometry/sphere_tree.hpp"
 
 #include <CGAL/AABB_traits.h>
@@ -22,7 +23,8 @@ struct NumberedBox {
   using Datum_reference = const Datum&;
 
   NumberedBox(Index index, const Box& box)
-      : number(index), cuboid(Point(box.low[0], box.low[1], box.low[2]), Point(box.high[0], box.high[1], box.high[2])) {}
+      : number(index),
+        cuboid(Point(box.low[0], box.low[1], box.low[2]), Point(box.high[0], box.high[1], box.high[2])) {}
   Id id() const { return number; }
   Datum_reference datum() const { return cuboid; }
   Point_reference reference_point() const { return (cuboid.min)(); }
@@ -45,7 +47,8 @@ SphereTree::~SphereTree() = default;
 std::vector<Index> SphereTree::within(const std::array<double, 3>& centre, double squared_radius) const {
   std::vector<Index> found;
   if (tree_->empty()) return found;
-  tree_->all_intersected_primitives(Kernel::Sphere_3(Kernel::Point_3(centre[0], centre[1], centre[2]), squared_radius), std::back_inserter(found));
+  tree_->all_intersected_primitives(Kernel::Sphere_3(Kernel::Point_3(centre[0], centre[1], centre[2]), squared_radius),
+                                    std::back_inserter(found));
   return found;
 }
 

@@ -1,5 +1,6 @@
-// Where the map from the complex to space is locally injective: inside tetrahedra and through triangles by their signs; around an inner edge if they wind once;
-// at an inner vertex then too, because their directions cover the sphere without branching, if they hang together.
+// Where the map from the complex to space is locally injective: inside tetrahedra and through triangles by their signs;
+// around an inner edge if they wind once; at an inner vertex then too, because their directions cover the sphere
+// without branching, if they hang together.
 #include "reference/geometry/tet_checks.hpp"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ bool even(const compare::Triangle& t) { return (t[0] < t[1]) + (t[1] < t[2]) + (
 
 bool holds(const Tetrahedron& t, Index v) { return std::find(t.begin(), t.end(), v) != t.end(); }
 
-/// Tetrahedra by the triangle that they share, named by its sorted vertices; entry k of a tetrahedron is 4 i + the corner left out.
+/// Tetrahedra by the triangle that they share, named by its sorted vertices; entry k of a tetrahedron is 4 i + the
+/// corner left out.
 using Sides = std::map<compare::Triangle, std::vector<Index>>;
 
 Sides sides_of(std::span<const Tetrahedron> tetrahedra) {
@@ -50,12 +52,13 @@ std::string list(std::span<const Index> numbers) {
 void check_sides(const Sides& sides, std::span<const Tetrahedron> tetrahedra) {
   for (const auto& [key, owners] : sides) {
     const std::string name = "the triangle of vertices " + list(key);
-    if (owners.size() > 2) refuse(name + " belongs to " + std::to_string(owners.size()) + " tetrahedra; two are the most");
+    if (owners.size() > 2)
+      refuse(name + " belongs to " + std::to_string(owners.size()) + " tetrahedra; two are the most");
     if (owners.size() < 2) continue;
     const auto side = [&](Index owner) { return side_of(tetrahedra[at(owner / 4)], at(owner % 4)); };
     if (even(side(owners[0])) == even(side(owners[1])))
-      refuse("tetrahedra " + std::to_string(owners[0] / 4) + " and " + std::to_string(owners[1] / 4) + " lie on the same side of " + name +
-             "; the body is folded there");
+      refuse("tetrahedra " + std::to_string(owners[0] / 4) + " and " + std::to_string(owners[1] / 4) +
+             " lie on the same side of " + name + "; the body is folded there");
   }
 }
 
@@ -64,7 +67,8 @@ int turn_about(const RationalPoint& a, const RationalPoint& b, const RationalPoi
   return CGAL::sign(dot(cross(b - a, c - a), d - a));
 }
 
-/// The half-plane of `u` lies between those of c (included) and d (excluded), less than half a turn apart, seen along ab.
+/// The half-plane of `u` lies between those of c (included) and d (excluded), less than half a turn apart, seen along
+/// ab.
 bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const RationalPoint& u) {
   const auto& [a, b, c, d] = abcd;
   const int after = turn_about(a, b, c, u);
@@ -75,7 +79,9 @@ bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const Rationa
 /// How often the tetrahedra with edge ab cover the half-plane of the first one's third corner.
 int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron>& around) {
   const RationalPoint u = corners_of(positions, around.front())[2];
-  return static_cast<int>(std::count_if(around.begin(), around.end(), [&](const Tetrahedron& t) { return between_half_planes(corners_of(positions, t), u); }));
+  return static_cast<int>(std::count_if(around.begin(), around.end(), [&](const Tetrahedron& t) {
+    return between_half_planes(corners_of(positions, t), u);
+  }));
 }
 
 /// The same tetrahedron, same sign, with the corners i and j first.
@@ -99,9 +105,11 @@ void for_each_edge(const Tetrahedron& t, Visit visit) {
       if (t[i] < t[j]) visit(i, j);
 }
 
-void check_edges(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra, std::span<const BoundaryTriangle> boundary) {
+void check_edges(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra,
+                 std::span<const BoundaryTriangle> boundary) {
   std::map<compare::Edge, std::vector<Tetrahedron>> around;
-  for (const Tetrahedron& t : tetrahedra) for_each_edge(t, [&](std::size_t i, std::size_t j) { around[{t[i], t[j]}].push_back(with_first(t, i, j)); });
+  for (const Tetrahedron& t : tetrahedra)
+    for_each_edge(t, [&](std::size_t i, std::size_t j) { around[{t[i], t[j]}].push_back(with_first(t, i, j)); });
   for (const BoundaryTriangle& side : boundary) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(side.vertices[k], side.vertices[(k + 1) % 3]);
@@ -110,7 +118,9 @@ void check_edges(std::span<const Vec3f> positions, std::span<const Tetrahedron> 
   }
   for (const auto& [edge, ring] : around) {
     const int turns = turns_around(positions, ring);
-    if (turns != 1) refuse("those around the inner edge of vertices " + list(edge) + " wind " + std::to_string(turns) + " times around it; once is right");
+    if (turns != 1)
+      refuse("those around the inner edge of vertices " + list(edge) + " wind " + std::to_string(turns) +
+             " times around it; once is right");
   }
 }
 
@@ -127,7 +137,8 @@ void check_vertex(Index vertex, std::span<const Tetrahedron> tetrahedra, std::sp
     waiting.erase(first, waiting.end());
   }
   if (!waiting.empty())
-    refuse("tetrahedra " + std::to_string(around[0]) + " and " + std::to_string(waiting[0]) + " hang together by the inner vertex " + std::to_string(vertex) +
+    refuse("tetrahedra " + std::to_string(around[0]) + " and " + std::to_string(waiting[0]) +
+           " hang together by the inner vertex " + std::to_string(vertex) +
            " alone; give each part a vertex of its own");
 }
 
@@ -143,7 +154,8 @@ std::vector<BoundaryTriangle> boundary_of(const Sides& sides, std::span<const Te
 
 }  // namespace
 
-std::vector<BoundaryTriangle> checked_boundary(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra,
+std::vector<BoundaryTriangle> checked_boundary(std::span<const Vec3f> positions,
+                                               std::span<const Tetrahedron> tetrahedra,
                                                std::span<const std::vector<Index>> tetrahedra_of) {
   const Sides sides = sides_of(tetrahedra);
   check_sides(sides, tetrahedra);
@@ -161,12 +173,14 @@ void check_shape(std::span<const Vec3f> positions, std::span<const Tetrahedron> 
   for (std::size_t i = 0; i < tetrahedra.size(); ++i) {
     for (const Index v : tetrahedra[i])
       if (v < 0 || at(v) >= positions.size())
-        refuse("tetrahedron " + std::to_string(i) + " names vertex " + std::to_string(v) + ", and there are " + std::to_string(positions.size()));
+        refuse("tetrahedron " + std::to_string(i) + " names vertex " + std::to_string(v) + ", and there are " +
+               std::to_string(positions.size()));
     const auto c = corners_of(positions, tetrahedra[i]);
     const Rational volume = weights(c, c[0])[0];
     if (volume <= 0)
       refuse("tetrahedron " + std::to_string(i) + (volume == 0 ? " is flat" : " is inverted") +
-             "; shortest paths are defined for positive tetrahedra only: take a state, or an order of its vertices, in which all are positive");
+             "; shortest paths are defined for positive tetrahedra only: take a state, or an order of its vertices, in "
+             "which all are positive");
   }
 }
 

@@ -1,5 +1,6 @@
-// The walk keeps, for each tetrahedron, the earliest parameter at which a path from the start can be in it. Inside a tetrahedron the segment is one stretch, so
-// earlier is better: whoever can be there at t can be there at every later parameter of the stretch.
+// The walk keeps, for each tetrahedron, the earliest parameter at which a path from the start can be in it. Inside a
+// tetrahedron the segment is one stretch, so earlier is better: whoever can be there at t can be there at every later
+// parameter of the stretch.
 #include "reference/geometry/tet_volume.hpp"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 /// Adjacent doubles around an exact number ≥ 0.
 std::array<double, 2> enclosing(const Rational& square) {
   double low = CGAL::to_interval(square).first;
-  for (double next = std::nextafter(low, HUGE_VAL); Rational(next) <= square; next = std::nextafter(low, HUGE_VAL)) low = next;
+  for (double next = std::nextafter(low, HUGE_VAL); Rational(next) <= square; next = std::nextafter(low, HUGE_VAL))
+    low = next;
   return {low, Rational(low) == square ? low : std::nextafter(low, HUGE_VAL)};
 }
 
@@ -39,7 +41,8 @@ std::array<bool, 4> shared(const Tetrahedron& one, const Tetrahedron& other) {
   return marked;
 }
 
-/// The corners with positive weight at x, sorted: the simplex that holds x in its interior; empty where the tetrahedron does not hold x.
+/// The corners with positive weight at x, sorted: the simplex that holds x in its interior; empty where the tetrahedron
+/// does not hold x.
 std::vector<Index> carrier(std::span<const Vec3f> positions, const Tetrahedron& tetrahedron, const RationalPoint& x) {
   const auto w = weights(corners_of(positions, tetrahedron), x);
   std::vector<Index> vertices;
@@ -54,7 +57,8 @@ std::vector<Index> carrier(std::span<const Vec3f> positions, const Tetrahedron& 
 /// The tetrahedra that a path along one segment can reach.
 class Walk {
  public:
-  Walk(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra, std::span<const std::vector<Index>> tetrahedra_of)
+  Walk(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra,
+       std::span<const std::vector<Index>> tetrahedra_of)
       : positions_(positions), tetrahedra_(tetrahedra), tetrahedra_of_(tetrahedra_of) {}
 
   bool reaches(Index from, Index goal, const RationalPoint& start, const RationalPoint& end) {
@@ -125,7 +129,8 @@ std::vector<std::vector<Index>> TetVolume::sheets(const Vec3f& x) const {
 std::vector<TetVolume::Candidate> TetVolume::candidates(const Vec3f& x, Index tetrahedron) const {
   const bool known = tetrahedron >= 0 && at(tetrahedron) < tetrahedra_.size();
   if (!known || carrier(positions_, tetrahedra_[at(tetrahedron)], rational(x)).empty())
-    throw compare::InputError("shortest path: tetrahedron " + std::to_string(tetrahedron) + " does not hold the point; take one that `sheets` names");
+    throw compare::InputError("shortest path: tetrahedron " + std::to_string(tetrahedron) +
+                              " does not hold the point; take one that `sheets` names");
   std::vector<Candidate> all;
   for (const BoundaryTriangle& side : boundary_) {
     const auto corner = [&](std::size_t k) { return rational(positions_[at(side.vertices[k])]); };
@@ -137,7 +142,11 @@ std::vector<TetVolume::Candidate> TetVolume::candidates(const Vec3f& x, Index te
 
 BoundaryPath TetVolume::path(Index triangle, const Candidate& candidate, bool valid) const {
   const auto& [end, square] = candidate;
-  return {triangle, valid, {CGAL::to_double(end.x), CGAL::to_double(end.y), CGAL::to_double(end.z)}, root_below(square), enclosing(square)};
+  return {triangle,
+          valid,
+          {CGAL::to_double(end.x), CGAL::to_double(end.y), CGAL::to_double(end.z)},
+          root_below(square),
+          enclosing(square)};
 }
 
 std::vector<BoundaryPath> TetVolume::boundary_paths(const Vec3f& x, Index tetrahedron) const {
@@ -145,7 +154,8 @@ std::vector<BoundaryPath> TetVolume::boundary_paths(const Vec3f& x, Index tetrah
   Walk walk(positions_, tetrahedra_, tetrahedra_of_);
   std::vector<BoundaryPath> paths;
   for (std::size_t i = 0; i < all.size(); ++i)
-    paths.push_back(path(static_cast<Index>(i), all[i], walk.reaches(tetrahedron, boundary_[i].tetrahedron, rational(x), all[i].end)));
+    paths.push_back(path(static_cast<Index>(i), all[i],
+                         walk.reaches(tetrahedron, boundary_[i].tetrahedron, rational(x), all[i].end)));
   return paths;
 }
 
@@ -159,11 +169,14 @@ BoundaryDepth TetVolume::shortest_path_to_boundary(const Vec3f& x, Index tetrahe
   std::vector<Index> refused;
   for (const Index i : order) {
     if (!depth.equally_near.empty() && all[at(i)].square > all[at(depth.equally_near[0])].square) break;
-    (walk.reaches(tetrahedron, boundary_[at(i)].tetrahedron, rational(x), all[at(i)].end) ? depth.equally_near : refused).push_back(i);
+    (walk.reaches(tetrahedron, boundary_[at(i)].tetrahedron, rational(x), all[at(i)].end) ? depth.equally_near
+                                                                                          : refused)
+        .push_back(i);
   }
   const Candidate& nearest = all[at(depth.equally_near.at(0))];
   depth.path = path(depth.equally_near[0], nearest, true);
-  depth.refused = static_cast<std::size_t>(std::count_if(refused.begin(), refused.end(), [&](Index i) { return all[at(i)].square < nearest.square; }));
+  depth.refused = static_cast<std::size_t>(
+      std::count_if(refused.begin(), refused.end(), [&](Index i) { return all[at(i)].square < nearest.square; }));
   return depth;
 }
 

@@ -44,19 +44,22 @@ std::array<RationalPoint, 4> corners_of(std::span<const Vec3f> positions, const 
 }
 
 std::array<Rational, 4> weights(const std::array<RationalPoint, 4>& c, const RationalPoint& x) {
-  return {volume(x, c[1], c[2], c[3]), volume(c[0], x, c[2], c[3]), volume(c[0], c[1], x, c[3]), volume(c[0], c[1], c[2], x)};
+  return {volume(x, c[1], c[2], c[3]), volume(c[0], x, c[2], c[3]), volume(c[0], c[1], x, c[3]),
+          volume(c[0], c[1], c[2], x)};
 }
 
 RationalPoint closest_point(const std::array<RationalPoint, 3>& corners, const RationalPoint& x) {
   const auto& [a, b, c] = corners;
   const RationalPoint n = cross(b - a, c - a);
   bool above = true;
-  for (std::size_t k = 0; k < 3; ++k) above = above && dot(cross(corners[(k + 1) % 3] - corners[k], x - corners[k]), n) >= 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    above = above && dot(cross(corners[(k + 1) % 3] - corners[k], x - corners[k]), n) >= 0;
   if (above) {
     const Rational height = dot(n, x - a) / dot(n, n);
     return {x.x - height * n.x, x.y - height * n.y, x.z - height * n.z};
   }
-  const std::array<RationalPoint, 3> candidates{closest_on_segment(a, b, x), closest_on_segment(b, c, x), closest_on_segment(c, a, x)};
+  const std::array<RationalPoint, 3> candidates{closest_on_segment(a, b, x), closest_on_segment(b, c, x),
+                                                closest_on_segment(c, a, x)};
   return *std::min_element(candidates.begin(), candidates.end(), [&](const RationalPoint& p, const RationalPoint& q) {
     return squared_distance(p, x) < squared_distance(q, x);
   });

@@ -1,4 +1,5 @@
-// The flag is the sign of a gap of two points; the scaled position cancels nothing, so long double rounds to the right double.
+// The flag is the sign of a gap of two points; the scaled position cancels nothing, so long double rounds to the right
+// double.
 #include "reference/geometry/truncate.hpp"
 
 #include <cmath>
@@ -12,7 +13,8 @@ compare::Vec3 scaled_back(const Vec3f& from, const Vec3f& to, float length) {
   const long double dx = static_cast<long double>(to.x) - from.x, dy = static_cast<long double>(to.y) - from.y,
                     dz = static_cast<long double>(to.z) - from.z;
   const long double scale = length / std::sqrt(dx * dx + dy * dy + dz * dz);
-  return {static_cast<double>(from.x + scale * dx), static_cast<double>(from.y + scale * dy), static_cast<double>(from.z + scale * dz)};
+  return {static_cast<double>(from.x + scale * dx), static_cast<double>(from.y + scale * dy),
+          static_cast<double>(from.z + scale * dz)};
 }
 
 }  // namespace
@@ -34,7 +36,8 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
 
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound) {
   compare::Vec3f x{static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)};
-  while (sign(gap_points(previous, x, bound)) > 0) x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
+  while (sign(gap_points(previous, x, bound)) > 0)
+    x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
   return x;
 }
 

@@ -23,7 +23,8 @@ compare::Topology surface_topology(const TetVolume& body, Index vertex_count) {
   return compare::build_topology(vertex_count, triangles);
 }
 
-std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const ClosedSurface& surface, const Vec3f& x, float radius, Index own) {
+std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const ClosedSurface& surface, const Vec3f& x,
+                                                   float radius, Index own) {
   std::vector<VolumetricContact> contacts = contacts_inside(body, x, radius, own);
   if (!contacts.empty()) return contacts;
   const Complex& mesh = surface.mesh();
@@ -31,7 +32,9 @@ std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const 
     for (std::size_t i = 0; i < count; ++i) {
       const Face face{kind, static_cast<Index>(i)};
       const auto vertices = mesh.vertices(face);
-      if (std::ranges::find(vertices.span(), own) != vertices.span().end() || !surface.in_outward_block(face, x, radius)) continue;
+      if (std::ranges::find(vertices.span(), own) != vertices.span().end() ||
+          !surface.in_outward_block(face, x, radius))
+        continue;
       const Margin gap = face_gap(mesh, face, x, radius);
       if (sign(gap) < 0) contacts.push_back({false, face, -signed_length(gap)});
     }

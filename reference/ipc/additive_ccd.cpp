@@ -9,8 +9,8 @@ namespace {
 
 using Corners = std::array<Triple<double>, 4>;
 
-/// Each safe step takes at least a ninetieth part of what ℓ allows for a tenth of the gap, so this ends only motions that would take longer than is worth it;
-/// the time reached by then is a safe answer.
+/// Each safe step takes at least a ninetieth part of what ℓ allows for a tenth of the gap, so this ends only motions
+/// that would take longer than is worth it; the time reached by then is a safe answer.
 constexpr int most_steps = 10000;
 
 double length(const Triple<double>& a) { return std::sqrt(dot(a, a)); }
@@ -24,10 +24,12 @@ double largest_coordinate(const Corners& x) {
 
 class Motion {
  public:
-  /// Relative to the first vertex and to the mean displacement, which changes no distance. With S the largest relative coordinate plus displacement, a
-  /// coordinate at a time t ≤ 1 carries a difference, a product, a rounded time and a sum: 4 · 2⁻⁵³ S; its projection on a unit vector, known to 4 · 2⁻⁵³, some
-  /// thirty of them in all, and a slab's width two projections: 2⁻⁴⁶ S is more than both, and a rate times a time no longer than 1 adds as much again.
-  Motion(compare::ContactSides sides, const Corners& x, const Corners& delta) : sides_(sides), split_(sides == compare::ContactSides::edge_edge ? 2 : 1) {
+  /// Relative to the first vertex and to the mean displacement, which changes no distance. With S the largest relative
+  /// coordinate plus displacement, a coordinate at a time t ≤ 1 carries a difference, a product, a rounded time and a
+  /// sum: 4 · 2⁻⁵³ S; its projection on a unit vector, known to 4 · 2⁻⁵³, some thirty of them in all, and a slab's
+  /// width two projections: 2⁻⁴⁶ S is more than both, and a rate times a time no longer than 1 adds as much again.
+  Motion(compare::ContactSides sides, const Corners& x, const Corners& delta)
+      : sides_(sides), split_(sides == compare::ContactSides::edge_edge ? 2 : 1) {
     const Triple<double> mean = 0.25 * (delta[0] + delta[1] + delta[2] + delta[3]);
     for (std::size_t k = 0; k < 4; ++k) {
       start_[k] = x[k] - x[0];
@@ -46,23 +48,26 @@ class Motion {
 
   /// Widest known empty slab at t.
   struct Slab {
-    double width = 0;          ///< at most the distance; negative where none is known [m]
+    double width = 0;  ///< at most the distance; negative where none is known [m]
     Triple<double> normal{};
     Corners x{};
   };
   Slab slab(double t) const {
     Slab slab;
     for (std::size_t k = 0; k < 4; ++k) slab.x[k] = start_[k] + t * delta_[k];
-    const ClosestForm form = sides_ == compare::ContactSides::edge_edge ? closest_edges(slab.x) : closest_form(sides_, slab.x);
+    const ClosestForm form = sides_ == compare::ContactSides::edge_edge ? closest_edges(slab.x)
+                                                                        : closest_form(sides_, slab.x);
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // Across a gap the direction of the connection is known to 2⁻⁵³ S over it, which tilts the slab; normals of lines and planes do not lose that.
+    // Across a gap the direction of the connection is known to 2⁻⁵³ S over it, which tilts the slab; normals of lines
+    // and planes do not lose that.
     if (slab.width < 0.9 * length(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
 
-  /// How long the slab stays wider than `thickness`. One that is not wider proves nothing, even if everything moves out of it.
+  /// How long the slab stays wider than `thickness`. One that is not wider proves nothing, even if everything moves out
+  /// of it.
   double empty_for(const Slab& slab, double thickness) const {
     if (!(slab.width > thickness)) return 0;
     double time = std::numeric_limits<double>::infinity();
@@ -96,7 +101,8 @@ class Motion {
       const Triple<double> edge = at(2) - at(1);
       return apart - (dot(apart, edge) / dot(edge, edge)) * edge;
     }
-    const Triple<double> normal = form.kind == FormKind::point_plane ? cross(at(2) - at(1), at(3) - at(1)) : cross(at(1) - at(0), at(3) - at(2));
+    const Triple<double> normal = form.kind == FormKind::point_plane ? cross(at(2) - at(1), at(3) - at(1))
+                                                                     : cross(at(1) - at(0), at(3) - at(2));
     return dot(normal, apart) < 0 ? -1.0 * normal : normal;
   }
 
@@ -108,7 +114,8 @@ class Motion {
 
 }  // namespace
 
-double additive_ccd(compare::ContactSides sides, const Corners& x, const Corners& delta, double thickness, double until) {
+double additive_ccd(compare::ContactSides sides, const Corners& x, const Corners& delta, double thickness,
+                    double until) {
   const Motion motion(sides, x, delta);
   Motion::Slab slab = motion.slab(0);
   const double first_gap = slab.width - thickness;

@@ -1,6 +1,7 @@
-// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), once, over any number type. It is a function of the squared
-// distance D: polynomial in the vertices' coordinates, or a quotient of two such, where the distance itself has a root. With a thickness ξ the gap D − ξ² takes
-// the place of D, and 2 ξ d̂ + d̂² that of d̂²: the barrier then acts for ξ < d < ξ + d̂.
+// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), once, over any number
+// type. It is a function of the squared distance D: polynomial in the vertices' coordinates, or a quotient of two such,
+// where the distance itself has a root. With a thickness ξ the gap D − ξ² takes the place of D, and 2 ξ d̂ + d̂² that
+// of d̂²: the barrier then acts for ξ < d < ξ + d̂.
 #pragma once
 
 #include <cmath>
@@ -15,8 +16,9 @@ namespace ogc::reference {
 /// d̂ and ξ [m].
 struct BarrierShape {
   double distance = 0, thickness = 0;
-  double reach() const { return thickness + distance; }                              ///< from here on there is no energy [m]
-  double support() const { return distance * (distance + 2 * thickness); }           ///< H [m²]
+  /// from here on there is no energy [m]
+  double reach() const { return thickness + distance; }
+  double support() const { return distance * (distance + 2 * thickness); }                        ///< H [m²]
   double gap(double squared_distance) const { return squared_distance - thickness * thickness; }  ///< of D − ξ² [m²]
 };
 
@@ -62,7 +64,7 @@ struct BarrierTermOf {
   std::uint8_t count = 0;                                ///< of vertices
   ClosestForm form;                                      ///< the closest points, weights by vertex
   Number weight = 1.0;                                   ///< how many pairs of primitives have this very distance
-  Number rest_squared = 0.0;                             ///< ‖ē‖²‖ē'‖² of two edges that are mollified [m⁴]; 0: e_k = 1
+  Number rest_squared = 0.0;  ///< ‖ē‖²‖ē'‖² of two edges that are mollified [m⁴]; 0: e_k = 1
 
   /// [m⁴]
   template <class T, std::size_t N>

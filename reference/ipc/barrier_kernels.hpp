@@ -1,4 +1,5 @@
-// Derivatives of barriers, several of one form side by side, as energies/stencil_kernels.hpp has them of other stencils.
+// Derivatives of barriers, several of one form side by side, as energies/stencil_kernels.hpp has them of other
+// stencils.
 #pragma once
 
 #include "reference/energies/stencil_kernels.hpp"

@@ -28,17 +28,20 @@ Box swept_box(const Vertices& vertices, const State& from, const State& to, doub
 template <class Primitives>
 std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, const State& to, double margin) {
   std::vector<Box> boxes(primitives.size());
-  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) { boxes[i] = swept_box(primitives[i], from, to, margin); });
+  tbb::parallel_for(std::size_t{0}, boxes.size(),
+                    [&](std::size_t i) { boxes[i] = swept_box(primitives[i], from, to, margin); });
   return boxes;
 }
 
 /// Whether two primitives are a pair at all: no shared vertex, not inside one rigid group.
 template <class First, class Second>
 bool is_pair(const compare::ExclusionView& exclusions, const First& first, const Second& second) {
-  return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() && !is_excluded(exclusions, first, second);
+  return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() &&
+         !is_excluded(exclusions, first, second);
 }
 
-/// What `count` queries find, ascending if each `query(i, found)` appends items that begin with i. Threads change nothing.
+/// What `count` queries find, ascending if each `query(i, found)` appends items that begin with i. Threads change
+/// nothing.
 template <class Item, class Query>
 std::vector<Item> found_by(std::size_t count, Query query) {
   constexpr std::size_t grain = 256;

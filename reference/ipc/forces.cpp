@@ -36,12 +36,14 @@ const BarrierKernels& barrier_kernels() {
 /// By form; of mollified ones, whose form is of some of their four vertices, also by which those are.
 std::uint8_t group_of(const BarrierTerm& term) {
   const int form = static_cast<int>(term.form.kind);
-  return static_cast<std::uint8_t>(term.rest_squared > 0 ? 16 * (1 + form) + 4 * term.form.at[0] + term.form.at[1] : form);
+  return static_cast<std::uint8_t>(term.rest_squared > 0 ? 16 * (1 + form) + 4 * term.form.at[0] + term.form.at[1]
+                                                         : form);
 }
 
 template <std::size_t Count>
-void differentiate(const Bundle& bundle, const std::vector<ShapedBarrier>& terms, StencilKernels::Function<ShapedBarrier, Count> kernel, const State& x,
-                   HessianProjection projection, StencilDerivatives* to) {
+void differentiate(const Bundle& bundle, const std::vector<ShapedBarrier>& terms,
+                   StencilKernels::Function<ShapedBarrier, Count> kernel, const State& x, HessianProjection projection,
+                   StencilDerivatives* to) {
   Batch<ShapedBarrier, Count> batch;
   for (std::size_t k = 0; k < bundle.size; ++k) {
     const ShapedBarrier& term = terms[bundle.member[k]];
@@ -51,7 +53,8 @@ void differentiate(const Bundle& bundle, const std::vector<ShapedBarrier>& terms
 }
 
 /// Of all barriers, multiplied by κ, into the places behind `to`.
-void differentiate(const BarrierSet& set, const BarrierShape& shape, double stiffness, const State& x, HessianProjection projection, StencilDerivatives* to) {
+void differentiate(const BarrierSet& set, const BarrierShape& shape, double stiffness, const State& x,
+                   HessianProjection projection, StencilDerivatives* to) {
   std::vector<ShapedBarrier> terms;
   std::vector<std::uint8_t> group;
   for (const BarrierTerm& term : set.terms) {
@@ -70,7 +73,8 @@ void differentiate(const BarrierSet& set, const BarrierShape& shape, double stif
   });
 }
 
-constexpr std::array<ContactSides, 5> sides_of_count{ContactSides::point_point, ContactSides::point_point, ContactSides::point_point, ContactSides::point_edge,
+constexpr std::array<ContactSides, 5> sides_of_count{ContactSides::point_point, ContactSides::point_point,
+                                                     ContactSides::point_point, ContactSides::point_edge,
                                                      ContactSides::point_triangle};
 
 std::size_t count_of(const FrictionTerm& term) { return static_cast<std::size_t>(vertex_count(term.sides)); }
@@ -95,7 +99,11 @@ double value_noise(const IpcEnergy& energy) {
 }
 
 IpcForces::IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape)
-    : scene_(scene), shape_(shape), potential_(scene, topology), elastic_vertices_(potential_.vertices()), body_(body_of_vertex(scene)) {}
+    : scene_(scene),
+      shape_(shape),
+      potential_(scene, topology),
+      elastic_vertices_(potential_.vertices()),
+      body_(body_of_vertex(scene)) {}
 
 void IpcForces::begin_step(const State& start, const State& target) {
   potential_.begin_step(start, target);
@@ -107,7 +115,8 @@ void IpcForces::begin_step(const State& start, const State& target) {
 
 double IpcForces::friction_coefficient(const BarrierTerm& term) const {
   std::size_t first = 0, second = 0;
-  for (std::size_t k = 0; k < term.count; ++k) (term.form.weight[k] > 0 ? first : second) = at(body_[at(term.vertex[k])]);
+  for (std::size_t k = 0; k < term.count; ++k)
+    (term.form.weight[k] > 0 ? first : second) = at(body_[at(term.vertex[k])]);
   return double{potential_.rest().meetings[first * scene_.bodies.size() + second].friction};
 }
 
@@ -117,13 +126,17 @@ void IpcForces::lag_friction(const BarrierSet& set, const State& x, double stiff
     const double friction = friction_coefficient(term);
     if (friction == 0) continue;
     std::array<Triple<double>, 4> corners{}, before{};
-    for (std::size_t k = 0; k < term.count; ++k) corners[k] = x[at(term.vertex[k])], before[k] = start_[at(term.vertex[k])];
+    for (std::size_t k = 0; k < term.count; ++k)
+      corners[k] = x[at(term.vertex[k])], before[k] = start_[at(term.vertex[k])];
     const Triple<double> apart = separation(term.form.weight, corners);
     const double squared = dot(apart, apart), distance = std::sqrt(squared);
-    double force = -stiffness * term.weight * barrier_slopes(shape_.gap(squared), shape_.support()).slope[0] * 2 * distance;
-    if (term.rest_squared > 0) force *= Mollifier<double>(corners[1] - corners[0], corners[3] - corners[2], term.rest_squared, 1).value();
-    frictions_.push_back({sides_of_count[term.count], term.vertex, term.form.weight, (1 / distance) * apart, separation(term.form.weight, before),
-                          friction * force, scene_.settings.friction_velocity * scene_.settings.time_step});
+    double force = -stiffness * term.weight * barrier_slopes(shape_.gap(squared), shape_.support()).slope[0] * 2 *
+                   distance;
+    if (term.rest_squared > 0)
+      force *= Mollifier<double>(corners[1] - corners[0], corners[3] - corners[2], term.rest_squared, 1).value();
+    frictions_.push_back({sides_of_count[term.count], term.vertex, term.form.weight, (1 / distance) * apart,
+                          separation(term.form.weight, before), friction * force,
+                          scene_.settings.friction_velocity * scene_.settings.time_step});
   }
 }
 
@@ -131,11 +144,13 @@ IpcEnergy IpcForces::energy(const State& x, const BarrierSet& set, double stiffn
   IpcEnergy result{potential_.terms(x), std::vector<double>(set.terms.size()), std::vector<double>(frictions_.size())};
   tbb::parallel_for(std::size_t{0}, set.terms.size(), [&](std::size_t i) {
     const BarrierTerm& term = set.terms[i];
-    result.barriers[i] = with_corners(term.count, term.vertex, x, [&](const auto& corners) { return term.energy(shape_, corners); });
+    result.barriers[i] = with_corners(term.count, term.vertex, x,
+                                      [&](const auto& corners) { return term.energy(shape_, corners); });
   });
   tbb::parallel_for(std::size_t{0}, frictions_.size(), [&](std::size_t i) {
     const FrictionTerm& term = frictions_[i];
-    result.friction[i] = with_corners(count_of(term), term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
+    result.friction[i] = with_corners(count_of(term), term.vertex, x,
+                                      [&](const auto& corners) { return term.energy(corners); });
   });
   result.barrier = stiffness * sum(result.barriers);
   result.rest = sum(result.friction);
@@ -148,7 +163,8 @@ IpcEnergy IpcForces::energy(const State& x, const BarrierSet& set, double stiffn
   return result;
 }
 
-IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection, IpcDerivatives room) const {
+IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, double stiffness,
+                                      HessianProjection projection, IpcDerivatives room) const {
   PotentialDerivatives earlier;
   earlier.stencil = std::move(room.stencil);
   PotentialDerivatives elastic = potential_.derivatives(x, projection, std::move(earlier));
@@ -176,7 +192,8 @@ void IpcForces::add_gradient(IpcDerivatives& result, const State& x) const {
     } else if (potential_.mobility()[v] == Mobility::free) {
       result.gradient[v] = result.gradient[v] + potential_.inertia(v) * (x[v] - target_[v]);
     } else {
-      result.gradient[v] = result.gradient[v] + pull_->stiffness * potential_.inertia(v) * (x[v] - target_[v]) - pull_->force[v];
+      result.gradient[v] = result.gradient[v] + pull_->stiffness * potential_.inertia(v) * (x[v] - target_[v]) -
+                           pull_->force[v];
     }
   }
 }

@@ -1,6 +1,6 @@
-// The incremental potential of an IPC step: inertia, elasticity and damping as Newton-OGC has them, barriers in place of OGC's contacts, lagged friction,
-// and, where prescribed vertices could not go all the way, what pulls them to their targets. Its unknowns are the free vertices, with such a pull the
-// prescribed ones too.
+// The incremental potential of an IPC step: inertia, elasticity and damping as Newton-OGC has them, barriers in place
+// of OGC's contacts, lagged friction, and, where prescribed vertices could not go all the way, what pulls them to their
+// targets. Its unknowns are the free vertices, with such a pull the prescribed ones too.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,9 @@ struct Pull {
 
 /// Energies at one state.
 struct IpcEnergy {
-  PotentialTerms elastic;  ///< and inertia
+  PotentialTerms elastic;                  ///< and inertia
   std::vector<double> barriers, friction;  ///< by term; b without κ [m⁴]; [J]
-  double barrier = 0, rest = 0;  ///< κ Σ b; friction and pull [J]
+  double barrier = 0, rest = 0;            ///< κ Σ b; friction and pull [J]
 };
 /// E(to) − E(from) [J]; the barriers may be others.
 double change(const IpcEnergy& from, const IpcEnergy& to);
@@ -45,8 +45,10 @@ class IpcForces {
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
-  /// `room`: an earlier result whose memory is used again: a fresh one is tens of megabytes that the kernel would have to clear.
-  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, compare::HessianProjection projection, IpcDerivatives room = {}) const;
+  /// `room`: an earlier result whose memory is used again: a fresh one is tens of megabytes that the kernel would have
+  /// to clear.
+  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness,
+                             compare::HessianProjection projection, IpcDerivatives room = {}) const;
   /// ∇ Σ b of the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 
@@ -55,7 +57,8 @@ class IpcForces {
   const std::optional<Pull>& pull() const { return pull_; }
   /// Of every vertex at present.
   bool unknown(std::size_t vertex) const {
-    return potential_.mobility()[vertex] == Mobility::free || (pull_ && potential_.mobility()[vertex] == Mobility::prescribed);
+    return potential_.mobility()[vertex] == Mobility::free ||
+           (pull_ && potential_.mobility()[vertex] == Mobility::prescribed);
   }
   /// m/h², and of pulled vertices ρ times that, by vertex [N/m].
   std::vector<double> diagonal() const;

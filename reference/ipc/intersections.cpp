@@ -52,7 +52,8 @@ std::vector<EdgeThroughTriangle> intersections(const PairMesh& mesh, const State
     const compare::Edge& e = topology.edges[static_cast<std::size_t>(edge)];
     triangles.query(swept_box(e, x, x, 0), [&](Index triangle) {
       const compare::Triangle& t = topology.triangles[static_cast<std::size_t>(triangle)];
-      if (is_pair(mesh.exclusions, e, t) && meet({at(e[0]), at(e[1])}, {at(t[0]), at(t[1]), at(t[2])})) found.push_back({edge, triangle});
+      if (is_pair(mesh.exclusions, e, t) && meet({at(e[0]), at(e[1])}, {at(t[0]), at(t[1]), at(t[2])}))
+        found.push_back({edge, triangle});
     });
   });
 }

@@ -1,5 +1,5 @@
-// The guard behind the continuous detection: does any edge meet a triangle at this very state? Predicates are exact (filtered), the doubles are taken as they
-// are.
+// The guard behind the continuous detection: does any edge meet a triangle at this very state? Predicates are exact
+// (filtered), the doubles are taken as they are.
 #pragma once
 
 #include "reference/ipc/pairs.hpp"

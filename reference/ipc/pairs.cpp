@@ -17,7 +17,8 @@ using compare::Topology;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The places of a form as a term of its own: its vertices in an order that depends on them alone, so that equal terms compare equal.
+/// The places of a form as a term of its own: its vertices in an order that depends on them alone, so that equal terms
+/// compare equal.
 BarrierTerm lone_term(const ClosestForm& form, const std::array<Index, 4>& vertex) {
   BarrierTerm term;
   term.count = form.kind == FormKind::points ? 2 : form.kind == FormKind::point_line ? 3 : 4;
@@ -52,7 +53,8 @@ Measured measured(const Topology& topology, const PrimitivePair& pair, const Sta
 
 BarrierTerm term_of(const PairMesh& mesh, const PrimitivePair& pair, const Measured& m) {
   if (pair.sides == ContactSides::edge_edge) {
-    const double rest = double{mesh.edge_length_squared[at(pair.first)]} * double{mesh.edge_length_squared[at(pair.second)]};
+    const double rest = double{mesh.edge_length_squared[at(pair.first)]} *
+                        double{mesh.edge_length_squared[at(pair.second)]};
     if (Mollifier<double>(m.corners[1] - m.corners[0], m.corners[3] - m.corners[2], rest, 1).acts()) {
       BarrierTerm term{m.vertex, 4, m.form, 1, rest};
       return term;
@@ -63,10 +65,13 @@ BarrierTerm term_of(const PairMesh& mesh, const PrimitivePair& pair, const Measu
 
 auto order_of(const BarrierTerm& term) { return std::tie(term.count, term.vertex); }
 
-/// Points and points with edges of several pairs become one term. Sums of the same number of ones: order does not matter.
+/// Points and points with edges of several pairs become one term. Sums of the same number of ones: order does not
+/// matter.
 void merge(std::vector<BarrierTerm>& terms) {
-  const auto mergeable = std::stable_partition(terms.begin(), terms.end(), [](const BarrierTerm& term) { return term.count == 4; });
-  std::sort(mergeable, terms.end(), [](const BarrierTerm& a, const BarrierTerm& b) { return order_of(a) < order_of(b); });
+  const auto mergeable = std::stable_partition(terms.begin(), terms.end(),
+                                               [](const BarrierTerm& term) { return term.count == 4; });
+  std::sort(mergeable, terms.end(),
+            [](const BarrierTerm& a, const BarrierTerm& b) { return order_of(a) < order_of(b); });
   auto kept = mergeable;
   for (auto next = mergeable; next != terms.end(); ++next) {
     if (kept != next && order_of(*kept) == order_of(*next)) {
@@ -137,25 +142,30 @@ std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, c
   const auto facets = found_by<PrimitivePair>(from.size(), [&](Index v, std::vector<PrimitivePair>& found) {
     const std::array<Index, 1> vertex{v};
     triangles.query(swept_box(vertex, from, to, distance / 2), [&](Index t) {
-      if (is_pair(mesh.exclusions, vertex, topology.triangles[at(t)])) found.push_back({ContactSides::point_triangle, v, t});
+      if (is_pair(mesh.exclusions, vertex, topology.triangles[at(t)]))
+        found.push_back({ContactSides::point_triangle, v, t});
     });
   });
   const std::vector<Box> edge_boxes = boxes_of(topology.edges);
   const BoxTree edges(edge_boxes);
-  std::vector<PrimitivePair> pairs = found_by<PrimitivePair>(edge_boxes.size(), [&](Index e, std::vector<PrimitivePair>& found) {
-    edges.query(edge_boxes[at(e)], [&](Index f) {
-      if (e < f && is_pair(mesh.exclusions, topology.edges[at(e)], topology.edges[at(f)])) found.push_back({ContactSides::edge_edge, e, f});
-    });
-  });
+  std::vector<PrimitivePair> pairs = found_by<PrimitivePair>(
+      edge_boxes.size(), [&](Index e, std::vector<PrimitivePair>& found) {
+        edges.query(edge_boxes[at(e)], [&](Index f) {
+          if (e < f && is_pair(mesh.exclusions, topology.edges[at(e)], topology.edges[at(f)]))
+            found.push_back({ContactSides::edge_edge, e, f});
+        });
+      });
   pairs.insert(pairs.end(), facets.begin(), facets.end());
   return pairs;
 }
 
-BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs, const State& x) {
+BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs,
+                       const State& x) {
   constexpr std::size_t grain = 512;
   std::vector<BarrierPart> parts((pairs.size() + grain - 1) / grain);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-    for (std::size_t i = p * grain; i < std::min(pairs.size(), (p + 1) * grain); ++i) parts[p].add(mesh, shape, pairs[i], x);
+    for (std::size_t i = p * grain; i < std::min(pairs.size(), (p + 1) * grain); ++i)
+      parts[p].add(mesh, shape, pairs[i], x);
   });
   BarrierPart all;
   for (const BarrierPart& part : parts) all.append(part);

@@ -1,5 +1,6 @@
-// Which pairs of primitives can meet, and which of them a barrier acts on. One broad phase serves everything that is asked about one motion: its boxes hold the
-// whole way of each primitive, widened by d̂, so that the pairs found are those of a continuous detection and, filtered, those of every state on the way.
+// Which pairs of primitives can meet, and which of them a barrier acts on. One broad phase serves everything that is
+// asked about one motion: its boxes hold the whole way of each primitive, widened by d̂, so that the pairs found are
+// those of a continuous detection and, filtered, those of every state on the way.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ struct PrimitivePair {
 /// What the pairs are made of: everything that does not move. All of it must outlive the user.
 struct PairMesh {
   const compare::Topology& topology;
-  const compare::Exclusions& exclusions;  ///< pairs that are none (compare::exclusions)
+  const compare::Exclusions& exclusions;          ///< pairs that are none (compare::exclusions)
   const std::vector<float>& edge_length_squared;  ///< ‖ē‖² [m²]
 };
 
@@ -33,13 +34,15 @@ std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& ve
 std::string describe(const compare::Topology& topology, const PrimitivePair& pair,
                      const compare::ElementNames& names = {});
 
-/// All pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of each other on the straight ways from `from` to
-/// `to`: each box holds its primitive's whole way. Ascending; threads change nothing.
+/// All pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of each
+/// other on the straight ways from `from` to `to`: each box holds its primitive's whole way. Ascending; threads change
+/// nothing.
 std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, const State& to, double distance);
 
 /// Barriers at one state.
 struct BarrierSet {
-  std::vector<BarrierTerm> terms;       ///< pairs with the same closest vertices and edges merged into one, their number its weight
+  /// pairs with the same closest vertices and edges merged into one, their number its weight
+  std::vector<BarrierTerm> terms;
   std::vector<PrimitivePair> active;    ///< the pairs with 0 < gap < H, before merging
   std::vector<double> squared;          ///< their squared distances [m²]
   double smallest = 0;                  ///< smallest distance among them, or ξ + d̂ where there is none [m]
@@ -48,6 +51,7 @@ struct BarrierSet {
 };
 
 /// Among `pairs` at x.
-BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs, const State& x);
+BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs,
+                       const State& x);
 
 }  // namespace ogc::reference

@@ -32,7 +32,10 @@ State as_state(const std::vector<compare::Vec3>& vectors) {
 class IpcSimulation : public compare::Simulation {
  public:
   IpcSimulation(const compare::Scene& scene, const compare::SimulationOptions& options)
-      : scene_(rounded_scene(scene)), topology_(compare::build_topology(scene_)), profile_(options.profile), solver_(scene_, topology_, options) {
+      : scene_(rounded_scene(scene)),
+        topology_(compare::build_topology(scene_)),
+        profile_(options.profile),
+        solver_(scene_, topology_, options) {
     set_state(0, widened(compare::to_single(scene_.mesh.positions)), widened(compare::to_single(scene_.velocities)));
   }
 
@@ -53,16 +56,27 @@ class IpcSimulation : public compare::Simulation {
   /// Without bounds: IPC has none, so that its certificate says nothing.
   compare::Snapshot snapshot() override {
     const std::vector<compare::Vec3f> position = rounded(position_);
-    return {number_, position, rounded(velocity_), position, std::vector<float>(position.size(), 0), 0, {}, as_vectors(position_), as_vectors(velocity_)};
+    return {number_,
+            position,
+            rounded(velocity_),
+            position,
+            std::vector<float>(position.size(), 0),
+            0,
+            {},
+            as_vectors(position_),
+            as_vectors(velocity_)};
   }
 
   /// To the last bit where the snapshot is one of ours; a frame holds what was rounded.
   void restore(const compare::Snapshot& snapshot) override {
-    if (snapshot.exact_positions.empty()) return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities));
+    if (snapshot.exact_positions.empty())
+      return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities));
     set_state(snapshot.step, as_state(snapshot.exact_positions), as_state(snapshot.exact_velocities));
   }
 
-  std::vector<std::string> stage_names() const override { return profile_ ? ipc_stage_names() : std::vector<std::string>{}; }
+  std::vector<std::string> stage_names() const override {
+    return profile_ ? ipc_stage_names() : std::vector<std::string>{};
+  }
   std::string device() const override { return std::to_string(tbb::this_task_arena::max_concurrency()) + " threads"; }
 
  private:

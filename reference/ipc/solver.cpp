@@ -11,13 +11,16 @@
 namespace ogc::reference {
 namespace {
 
-constexpr double smallest_share = 1e-10;      ///< of p; below it a step has come to nothing
-constexpr std::size_t window = 3;             ///< iterations over which `velocity` looks back
+constexpr double smallest_share = 1e-10;             ///< of p; below it a step has come to nothing
+constexpr std::size_t window = 3;                    ///< iterations over which `velocity` looks back
 constexpr double first_pull = 1e3, most_pull = 1e8;  ///< ρ (Li et al. 2020, supplement)
-constexpr double pulled_enough = 0.999;       ///< share of their way after which prescribed vertices are held where they are
-constexpr std::size_t most_named = 20;        ///< pairs in a message
+/// share of their way after which prescribed vertices are held where they are
+constexpr double pulled_enough = 0.999;
+constexpr std::size_t most_named = 20;  ///< pairs in a message
 
-double now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 State moved(const State& x, double share, const State& p) {
   State to = x;
@@ -35,7 +38,8 @@ double largest_component(const State& p) {
 
 double rest_diagonal(const compare::Scene& scene) {
   Box box;
-  for (const compare::Vec3& p : scene.rest_positions) include(box, compare::Vec3f{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  for (const compare::Vec3& p : scene.rest_positions)
+    include(box, compare::Vec3f{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
@@ -70,7 +74,8 @@ std::vector<std::string> ipc_stage_names() {
   return {"broad_phase", "barriers", "derivatives", "assembly", "factorization", "ccd", "line_search", "guard"};
 }
 
-IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options)
+IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topology,
+                     const compare::SimulationOptions& options)
     : scene_(scene),
       topology_(topology),
       settings_(scene.settings),
@@ -164,7 +169,9 @@ void IpcSolver::start_stiffness() {
     stiffness_ = bounds_.lower;
     return;
   }
-  timed(IpcStage::derivatives, [&] { derivatives_ = forces_.derivatives(x_, {}, 0, compare::HessianProjection::none, std::move(derivatives_)); });
+  timed(IpcStage::derivatives, [&] {
+    derivatives_ = forces_.derivatives(x_, {}, 0, compare::HessianProjection::none, std::move(derivatives_));
+  });
   stiffness_ = initial_stiffness(derivatives_.gradient, forces_.barrier_gradient(x_, set_), bounds_);
 }
 
@@ -195,7 +202,8 @@ IpcSolver::Outcome IpcSolver::solve() {
   for (std::int64_t solve = 1;; ++solve) {
     const Outcome outcome = solve_once();
     // A solve that had nothing to do: friction has settled.
-    if (outcome != Outcome::converged || solve >= settings_.friction_solves || (solve > 1 && iterations_ <= 1)) return outcome;
+    if (outcome != Outcome::converged || solve >= settings_.friction_solves || (solve > 1 && iterations_ <= 1))
+      return outcome;
     forces_.lag_friction(set_, x_, stiffness_);
   }
 }
@@ -215,7 +223,9 @@ IpcSolver::System& IpcSolver::system() {
 
 std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (options_.iterations) add_row();
-  timed(IpcStage::derivatives, [&] { derivatives_ = forces_.derivatives(x_, set_, stiffness_, settings_.projection, std::move(derivatives_)); });
+  timed(IpcStage::derivatives, [&] {
+    derivatives_ = forces_.derivatives(x_, set_, stiffness_, settings_.projection, std::move(derivatives_));
+  });
   const std::optional<State> p = direction();
   if (!p) return Outcome::indefinite;
   ++metrics_.iterations;
@@ -267,19 +277,22 @@ std::optional<State> IpcSolver::direction() {
     if (is_new) now.factor.analyze(now.matrix);
     if (!now.factor.factorize(now.matrix)) return {};
     const std::vector<double> solution = now.factor.solve(right);
-    for (std::size_t i = 0; i < unknowns.size(); ++i) p[unknowns[i]] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      p[unknowns[i]] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
     return p;
   });
 }
 
-/// Both published rules want a step to be taken at least once. Where p is lost in the last bit of the positions no rule can ask for more.
+/// Both published rules want a step to be taken at least once. Where p is lost in the last bit of the positions no rule
+/// can ask for more.
 bool IpcSolver::converged(const State& p) {
   if (iterations_ > 1 && largest_component(p) <= 0x1p-52 * largest_component(x_)) return true;
   if (settings_.ipc_stopping == compare::IpcStopping::displacement)
     return iterations_ > 1 && largest_component(p) < settings_.ipc_tolerance * scale_.diagonal * settings_.time_step;
   double sum = 0;
   for (const Triple<double>& a : p) sum += dot(a, a);
-  const double h = settings_.time_step, unknowns = static_cast<double>(std::max<std::size_t>(1, system().matrix.free_vertices().size()));
+  const double h = settings_.time_step,
+               unknowns = static_cast<double>(std::max<std::size_t>(1, system().matrix.free_vertices().size()));
   speeds_.push_back(sum / (unknowns * h * h));
   if (speeds_.size() > window) speeds_.pop_front();
   double mean = 0;
@@ -287,7 +300,8 @@ bool IpcSolver::converged(const State& p) {
   return iterations_ > 1 && std::sqrt(mean) < settings_.ipc_velocity_tolerance;
 }
 
-/// With a pull, a converged state is one of its own Lagrangian only: ρ doubles until the targets are near, then λ takes over.
+/// With a pull, a converged state is one of its own Lagrangian only: ρ doubles until the targets are near, then λ takes
+/// over.
 bool IpcSolver::pulled_home() {
   if (!forces_.pull()) return true;
   Pull pull = *forces_.pull();
@@ -315,14 +329,16 @@ void IpcSolver::release_pull() {
 
 IpcSolver::Bounded IpcSolver::bounded(const State& p) {
   ++metrics_.continuous_detections;
-  const StepBound active = timed(IpcStage::ccd, [&] { return step_bound(mesh_, set_.active, x_, p, shape_.thickness); });
+  const StepBound active = timed(IpcStage::ccd,
+                                 [&] { return step_bound(mesh_, set_.active, x_, p, shape_.thickness); });
   const double fastest = largest_motion(p), free_share = fastest > 0 ? 0.5 * shape_.distance / fastest : 1;
   Bounded bound{std::min(active.share, free_share), active.pair, {}};
   const bool full = settings_.ipc_ccd == compare::IpcCcd::full || free_share < 0.5 * active.share;
   bound.pairs = near(x_, moved(x_, full ? active.share : bound.share, p));
   if (!full) return bound;
   ++metrics_.continuous_detections;
-  const StepBound all = timed(IpcStage::ccd, [&] { return step_bound(mesh_, bound.pairs, x_, p, shape_.thickness, active.share); });
+  const StepBound all = timed(IpcStage::ccd,
+                              [&] { return step_bound(mesh_, bound.pairs, x_, p, shape_.thickness, active.share); });
   bound.share = all.share;
   if (all.pair) bound.pair = all.pair;
   return bound;
@@ -333,7 +349,8 @@ bool IpcSolver::intersects(const State& x) {
   return timed(IpcStage::guard, [&] { return !intersections(mesh_, x).empty(); });
 }
 
-/// The share of p that was taken. A full step may also change the energy by less than its rounding: near the minimum no decrease can be seen any more.
+/// The share of p that was taken. A full step may also change the energy by less than its rounding: near the minimum no
+/// decrease can be seen any more.
 double IpcSolver::searched(const State& p, const Bounded& bound) {
   const IpcEnergy before = timed(IpcStage::line_search, [&] { return forces_.energy(x_, set_, stiffness_); });
   const double noise = derivatives_.energy_noise + value_noise(before);
@@ -343,7 +360,8 @@ double IpcSolver::searched(const State& p, const Bounded& bound) {
     ++metrics_.discrete_detections;
     BarrierSet set = timed(IpcStage::barriers, [&] { return barriers_at(mesh_, shape_, bound.pairs, trial); });
     if (!set.touching.empty()) continue;
-    const double difference = change(before, timed(IpcStage::line_search, [&] { return forces_.energy(trial, set, stiffness_); }));
+    const double difference = change(
+        before, timed(IpcStage::line_search, [&] { return forces_.energy(trial, set, stiffness_); }));
     if (!(difference < 0 || (share == bound.share && difference <= noise)) || intersects(trial)) continue;
     if (on_accepted) on_accepted(difference, noise);
     x_ = std::move(trial);

@@ -1,18 +1,20 @@
 // IPC (Li et al. 2020, Algorithm 1; choices of the official code), a step of implicit Euler:
 //
 //   barriers at xᵗ ── κ ── friction lagged ── prescribed vertices to their targets as far as CCD allows ──┐
-//                        ┌─────────────────────────────────────────────────────────────────────────────┘
-//                        ▼
-//     derivatives ── solve for p ── p small? ── bound by CCD ── halve until the energy falls and nothing intersects ── adapt κ, or the pull
-//                        ▲                                                                                                   │
-//                        └───────────────────────────────────────────────────────────────────────────────────────────────────┘
+//        ┌────────────────────────────────────────────────────────────────────────────────────────────────┘
+//        ▼
+//     derivatives ── solve for p ── p small? ── bound by CCD ──┐
+//        ▲                                                     ▼
+//        └── adapt κ, or the pull ── halve until the energy falls and nothing intersects
 //
-// The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like rule); where that rule would take more
-// than half of the step away, CCD of all pairs. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further, so that the pairs
-// for the continuous detection and for the barriers of every trial state are among those that it finds.
+// The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like
+// rule); where that rule would take more than half of the step away, CCD of all pairs. One broad phase serves an
+// iteration: its boxes hold the whole motion and reach d̂ further, so that the pairs for the continuous detection and
+// for the barriers of every trial state are among those that it finds.
 //
-// Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal; where that comes to nothing, too, the step
-// ends as not converged. Each such event goes into the notes of the step, with the pair that caused it.
+// Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal;
+// where that comes to nothing, too, the step ends as not converged. Each such event goes into the notes of the step,
+// with the pair that caused it.
 //
 // Positions stay doubles from step to step: rounding them could take a gap away. What is stored of them is rounded.
 #pragma once
@@ -32,7 +34,16 @@
 namespace ogc::reference {
 
 /// Where the time of a step goes.
-enum class IpcStage : std::uint8_t { broad_phase, barriers, derivatives, assembly, factorization, ccd, line_search, guard };
+enum class IpcStage : std::uint8_t {
+  broad_phase,
+  barriers,
+  derivatives,
+  assembly,
+  factorization,
+  ccd,
+  line_search,
+  guard
+};
 inline constexpr std::size_t ipc_stage_count = 8;
 std::vector<std::string> ipc_stage_names();
 
@@ -55,7 +66,8 @@ class IpcSolver {
   const BarrierShape& shape() const { return shape_; }
   const StiffnessBounds& stiffness_bounds() const { return bounds_; }
   double stiffness() const { return stiffness_; }  ///< κ at present [J/m⁴]
-  /// Called with each accepted step of the line search: the energy's change with κ as it was, and what rounding does to it [J].
+  /// Called with each accepted step of the line search: the energy's change with κ as it was, and what rounding does to
+  /// it [J].
   std::function<void(double change, double noise)> on_accepted;
 
  private:
@@ -114,13 +126,13 @@ class IpcSolver {
   std::unique_ptr<System> pulled_;  ///< made when it is first needed
 
   State start_, target_, x_;
-  BarrierSet set_;                  ///< at x
-  IpcDerivatives derivatives_;      ///< of the last iteration
+  BarrierSet set_;              ///< at x
+  IpcDerivatives derivatives_;  ///< of the last iteration
   double stiffness_ = 0;
-  double prescribed_way_ = 0;       ///< Σ ‖t − xᵗ‖² of prescribed vertices [m²]
-  std::int64_t iterations_ = 0;     ///< of this solve
-  bool descend_ = false;            ///< the next direction is the negative gradient
-  std::deque<double> speeds_;       ///< mean squared ‖p_v‖/h of the last iterations [m²/s²]
+  double prescribed_way_ = 0;    ///< Σ ‖t − xᵗ‖² of prescribed vertices [m²]
+  std::int64_t iterations_ = 0;  ///< of this solve
+  bool descend_ = false;         ///< the next direction is the negative gradient
+  std::deque<double> speeds_;    ///< mean squared ‖p_v‖/h of the last iterations [m²/s²]
   double started_ms_ = 0;
   compare::StepMetrics metrics_;
   std::vector<compare::IterationMetrics> rows_;

@@ -10,7 +10,8 @@ namespace ogc::reference {
 /// Each text once a step.
 void IpcSolver::note(const std::string& what) {
   const std::string text = "step " + std::to_string(metrics_.step) + ": " + what;
-  if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end()) metrics_.notes.push_back(text);
+  if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end())
+    metrics_.notes.push_back(text);
 }
 
 /// Counts are sums so far; `count_by_iteration` turns them into those of the iteration.
@@ -49,7 +50,8 @@ IpcStep IpcSolver::finish(Outcome outcome) {
   for (std::size_t v = 0; v < x_.size(); ++v) step.velocity[v] = (1 / settings_.time_step) * (x_[v] - start_[v]);
   const bool by_displacement = settings_.ipc_stopping == compare::IpcStopping::displacement;
   if (outcome == Outcome::limit && (by_displacement ? settings_.ipc_tolerance : settings_.ipc_velocity_tolerance) > 0)
-    note("ended at the limit of " + std::to_string(settings_.ipc_iterations) + " iterations, above its tolerance; the run goes on, as the published codes do");
+    note("ended at the limit of " + std::to_string(settings_.ipc_iterations) +
+         " iterations, above its tolerance; the run goes on, as the published codes do");
   metrics_.status = outcome == Outcome::not_finite   ? compare::step_not_finite
                     : outcome == Outcome::indefinite ? compare::step_indefinite
                     : outcome == Outcome::stuck      ? compare::step_not_converged

@@ -16,19 +16,23 @@ struct First {
   std::size_t pair;
 };
 
-First earlier(const First& a, const First& b) { return b.share < a.share || (b.share == a.share && b.pair < a.pair) ? b : a; }
+First earlier(const First& a, const First& b) {
+  return b.share < a.share || (b.share == a.share && b.pair < a.pair) ? b : a;
+}
 
 }  // namespace
 
 /// Ranges are split the same way for any number of threads, so that ties always go to the lowest pair.
-StepBound step_bound(const PairMesh& mesh, const std::vector<PrimitivePair>& pairs, const State& x, const State& direction, double thickness, double until) {
+StepBound step_bound(const PairMesh& mesh, const std::vector<PrimitivePair>& pairs, const State& x,
+                     const State& direction, double thickness, double until) {
   const First none{until, pairs.size()};
   const First first = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, pairs.size(), 128), none,
       [&](const tbb::blocked_range<std::size_t>& range, First best) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const auto vertex = vertices_of(mesh.topology, pairs[i]);
-          const double share = additive_ccd(pairs[i].sides, corners_of(vertex, x), corners_of(vertex, direction), thickness, best.share);
+          const double share = additive_ccd(pairs[i].sides, corners_of(vertex, x), corners_of(vertex, direction),
+                                            thickness, best.share);
           if (share < best.share) best = {share, i};
         }
         return best;

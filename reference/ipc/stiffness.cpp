@@ -5,16 +5,17 @@
 namespace ogc::reference {
 namespace {
 
-constexpr double least_curvature = 1e11;   ///< in mean inertias, at …
+constexpr double least_curvature = 1e11;     ///< in mean inertias, at …
 constexpr double curvature_distance = 1e-8;  ///< … diagonals
-constexpr double close_distance = 1e-9;    ///< diagonals
+constexpr double close_distance = 1e-9;      ///< diagonals
 constexpr double upper_over_lower = 100;
 
 double squared(double x) { return x * x; }
 
 }  // namespace
 
-StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, compare::IpcAdaptation adaptation) {
+StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale,
+                                 compare::IpcAdaptation adaptation) {
   const double distance = curvature_distance * scale.diagonal;
   const double offset = adaptation == compare::IpcAdaptation::gap ? shape.thickness : 0;
   double gap = distance * (distance + 2 * offset);
@@ -33,8 +34,10 @@ double initial_stiffness(const State& energy_gradient, const State& barrier_grad
   return size > 0 ? std::clamp(-along / size, bounds.lower, bounds.upper) : bounds.lower;
 }
 
-StiffnessGuard::StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, compare::IpcAdaptation adaptation)
-    : near_squared_(squared(close_distance * scale.diagonal + (adaptation == compare::IpcAdaptation::gap ? shape.thickness : 0))) {}
+StiffnessGuard::StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape,
+                               compare::IpcAdaptation adaptation)
+    : near_squared_(squared(close_distance * scale.diagonal +
+                            (adaptation == compare::IpcAdaptation::gap ? shape.thickness : 0))) {}
 
 std::optional<PrimitivePair> StiffnessGuard::came_closer(const BarrierSet& set) {
   std::vector<Close> now;

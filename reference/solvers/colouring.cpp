@@ -31,7 +31,8 @@ std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   return parent;
 }
 
-/// (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a colour (method.md §7.3).
+/// (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a colour (method.md
+/// §7.3).
 void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   const Index count = 1 + *std::ranges::max_element(colour);
   std::map<Index, Index> number;
@@ -44,7 +45,8 @@ void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
 
 }  // namespace
 
-std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest, const std::vector<Index>& groups) {
+std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
+                              const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> near(groups.size());
   const auto is_free = [&](Index v) { return groups[static_cast<std::size_t>(v)] == -1; };
   const auto meet = [&](const auto& vertices) {
@@ -61,7 +63,10 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
   std::vector<Index> colour(groups.size(), -1);
   for (std::size_t v = 0; v < groups.size(); ++v) {
     if (groups[v] != -1) continue;
-    const auto taken = [&](Index c) { return std::any_of(near[v].begin(), near[v].end(), [&](Index w) { return colour[static_cast<std::size_t>(w)] == c; }); };
+    const auto taken = [&](Index c) {
+      return std::any_of(near[v].begin(), near[v].end(),
+                         [&](Index w) { return colour[static_cast<std::size_t>(w)] == c; });
+    };
     for (colour[v] = 0; taken(colour[v]);) ++colour[v];
   }
   if (!colour.empty()) rotate(components(near), colour);

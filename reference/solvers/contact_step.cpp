@@ -18,11 +18,14 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 }  // namespace
 
-double ContactStep::now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double ContactStep::now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 double ContactStep::elapsed_ms() const { return now_ms() - started_ms_; }
 
-ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::size_t stages)
+ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& topology,
+                         const compare::SimulationOptions& options, std::size_t stages)
     : scene_(scene),
       topology_(topology),
       settings_(scene.settings),
@@ -43,7 +46,8 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
   reference_force_ = -1;
   cut_ = 0;
   x_ = start_ = widened(start);
-  target_ = inertial_targets(scene_, start, velocity, potential_.mobility(), static_cast<double>(number) * settings_.time_step);
+  target_ = inertial_targets(scene_, start, velocity, potential_.mobility(),
+                             static_cast<double>(number) * settings_.time_step);
   double largest = 0;
   for (const std::size_t v : movable_) largest = std::max(largest, length(target_[v] - start_[v]));
   const double r = settings_.contact_radius;
@@ -54,7 +58,8 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
 void ContactStep::detect_here() {
   detected_ = timed(detection_stage, [&] {
     std::vector<Vec3f> here = rounded(x_);
-    const float radius = sufficient_query_radius(topology_, exclusions_, movable_, here, static_cast<float>(settings_.contact_radius), query_radius_);
+    const float radius = sufficient_query_radius(topology_, exclusions_, movable_, here,
+                                                 static_cast<float>(settings_.contact_radius), query_radius_);
     return detect(scene_, topology_, exclusions_, std::move(here), radius);
   });
   balls_ = Balls(detected_);
@@ -75,13 +80,16 @@ bool ContactStep::detection_due(std::size_t cut) const {
   return many(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
 }
 
-bool ContactStep::in_contact() const { return !detected_.sets.vertex_facet.empty() || !detected_.sets.edge_edge.empty(); }
+bool ContactStep::in_contact() const {
+  return !detected_.sets.vertex_facet.empty() || !detected_.sets.edge_edge.empty();
+}
 
 void ContactStep::guess(GuessEnd end) {
   detect_here();
   potential_.lag_friction(x_);
   for (std::int64_t round = 1; end == GuessEnd::rounds || !in_contact(); ++round) {
-    const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.sets, topology_) : std::vector<bool>(x_.size(), false);
+    const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.sets, topology_)
+                                                : std::vector<bool>(x_.size(), false);
     std::size_t cut = 0;
     for (const std::size_t v : movable_) {
       if (touched[v]) continue;
@@ -155,7 +163,8 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential_);
   metrics_.largest_lag = largest_lag(x_, target_, potential_.mobility());
   measure_energies(metrics_, {x_, start_, target_}, potential_, scene_, options_.energies);
-  if (metrics_.status == compare::step_clean && !keeps_bounds(result.position, detected_)) metrics_.status = compare::step_bound_violated;
+  if (metrics_.status == compare::step_clean && !keeps_bounds(result.position, detected_))
+    metrics_.status = compare::step_bound_violated;
   metrics_.iteration_rows = std::move(rows_);
   result.metrics = std::move(metrics_);
   result.detected = detected_;

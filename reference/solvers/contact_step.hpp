@@ -1,7 +1,10 @@
-// What the reference's solvers share of a step (Algorithm 3, method.md §5.2): targets, detections with their balls, the guess loop, prescribed vertices, the row
-// at the end. How a solver moves the free vertices between two detections is its own.
+// What the reference's solvers share of a step (Algorithm 3, method.md §5.2): targets, detections with their balls, the
+// guess loop, prescribed vertices, the row at the end. How a solver moves the free vertices between two detections is
+// its own.
 //
-//   begin ── guess: detect, x ← y inside the balls, again while many are cut ── the solver's iterations, with detect_here where detect_next_ says so ── finish
+//   begin ── guess: detect, x ← y inside the balls, again while many are cut ──┐
+//     ┌────────────────────────────────────────────────────────────────────────┘
+//     the solver's iterations, with detect_here where detect_next_ says so ── finish
 #pragma once
 
 #include "compare/problem/contestant.hpp"
@@ -13,15 +16,16 @@ namespace ogc::reference {
 struct StepResult {
   std::vector<compare::Vec3f> position, velocity;  ///< [m], [m/s]
   compare::StepMetrics metrics;
-  Detected detected;                               ///< the last detection
-  float query_radius = 0;                          ///< [m]
+  Detected detected;       ///< the last detection
+  float query_radius = 0;  ///< [m]
 };
 
 class StepSolver {
  public:
   virtual ~StepSolver() = default;
   /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
-  virtual StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) = 0;
+  virtual StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+                          std::int64_t number) = 0;
   /// Of StepMetrics::stage_ms.
   virtual std::vector<std::string> stage_names() const = 0;
 };
@@ -29,7 +33,8 @@ class StepSolver {
 /// What ends the guess loop, besides few cut vertices and `guess_rounds`.
 enum class GuessEnd {
   rounds,  ///< nothing else: vertices in contact stay where they are, the others go on (method.md §5.2)
-  contact  ///< the first contact, if it is at xᵗ before the first round: none is passed by in part, so that nothing is distorted
+  /// the first contact, if it is at xᵗ before the first round: none is passed by in part, so that nothing is distorted
+  contact
 };
 
 class ContactStep {
@@ -42,10 +47,12 @@ class ContactStep {
   static constexpr std::size_t detection_stage = 0;
 
   /// Scene: rounded and valid. Both must outlive it.
-  ContactStep(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::size_t stages);
+  ContactStep(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
+              std::size_t stages);
   ~ContactStep() = default;
 
-  void begin(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
+  void begin(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+             std::int64_t number);
   void detect_here();
   /// Friction is lagged to xᵗ in it, where contact forces are those of a converged step.
   void guess(GuessEnd end);
@@ -76,7 +83,7 @@ class ContactStep {
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   Potential potential_;
-  std::vector<std::size_t> movable_;          ///< free and prescribed vertices: K of them
+  std::vector<std::size_t> movable_;  ///< free and prescribed vertices: K of them
 
   State start_, target_, x_;
   Detected detected_;

@@ -8,8 +8,8 @@ namespace {
 
 using compare::Index;
 
-compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::vector<Index>& body, const ContactStencil& stencil, std::size_t own,
-                                       const SweepPositions& x) {
+compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::vector<Index>& body,
+                                       const ContactStencil& stencil, std::size_t own, const SweepPositions& x) {
   compare::FrictionForceCase question;
   compare::ContactForceCase& contact = question.contact;
   contact.sides = stencil.sides;
@@ -35,14 +35,17 @@ compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::ve
 
 void add_terms(const compare::FrictionForceCase& question, VertexTerms& sum) {
   constexpr double inputs = compare::sweep_input_tolerance;
-  sum.terms.push_back(term_of(contact_force(question.contact), compare::contact_force_tolerance, compare::contact_block_tolerance));
+  sum.terms.push_back(
+      term_of(contact_force(question.contact), compare::contact_force_tolerance, compare::contact_block_tolerance));
   if (question.friction > 0)
-    sum.terms.push_back(term_of(friction_force(question), compare::friction_force_tolerance + inputs, compare::friction_block_tolerance + inputs));
+    sum.terms.push_back(term_of(friction_force(question), compare::friction_force_tolerance + inputs,
+                                compare::friction_block_tolerance + inputs));
 }
 
 }  // namespace
 
-void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions, Index vertex, VertexTerms& sum) {
+void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
+                       Index vertex, VertexTerms& sum) {
   const auto v = static_cast<std::size_t>(vertex);
   for (const auto& [contact, own] : stencils.vertex_facet[v])
     add_terms(question_of(in, stencils.body, stencil_of(*in.topology, in.vertex_facet[contact]), own, positions), sum);

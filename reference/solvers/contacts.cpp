@@ -21,11 +21,13 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 /// first < second as faces, so an edge is never followed by a vertex.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact) {
   const auto p = vertices_of(topology, contact.first), q = vertices_of(topology, contact.second);
-  if (p[1] >= 0) return {ContactSides::edge_edge, {p[0], p[1], q[0], q[1]}, {contact.first.index, contact.second.index}};
+  if (p[1] >= 0)
+    return {ContactSides::edge_edge, {p[0], p[1], q[0], q[1]}, {contact.first.index, contact.second.index}};
   return {q[1] >= 0 ? ContactSides::point_edge : ContactSides::point_point, {p[0], q[0], q[1], -1}, {-1, -1}};
 }
 
-std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest, const ContactStencil& stencil) {
+std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
+                                            const ContactStencil& stencil) {
   if (stencil.edge[0] < 0) return {};
   const auto squared = [&](Index e) {
     const auto i = static_cast<std::size_t>(e);
@@ -34,9 +36,11 @@ std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, c
   return {squared(stencil.edge[0]), squared(stencil.edge[1])};
 }
 
-const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count, std::span<const Index> body,
-                                            const ContactStencil& stencil) {
-  const auto body_at = [&](std::size_t place) { return static_cast<std::size_t>(body[static_cast<std::size_t>(stencil.vertex[place])]); };
+const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count,
+                                            std::span<const Index> body, const ContactStencil& stencil) {
+  const auto body_at = [&](std::size_t place) {
+    return static_cast<std::size_t>(body[static_cast<std::size_t>(stencil.vertex[place])]);
+  };
   return rest.meetings[body_at(0) * body_count + body_at(stencil.sides == ContactSides::edge_edge ? 2 : 1)];
 }
 

@@ -1,4 +1,5 @@
-// What solvers ask about contacts as they were detected: their vertices, in the order of the stages contact_force and friction_force, and their materials.
+// What solvers ask about contacts as they were detected: their vertices, in the order of the stages contact_force and
+// friction_force, and their materials.
 #pragma once
 
 #include <array>
@@ -30,11 +31,12 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
 /// Squared rest lengths of two edges that meet [m²]; 0 of one without triangles. Zeros for contacts with a vertex.
-std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest, const ContactStencil& stencil);
+std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
+                                            const ContactStencil& stencil);
 
 /// Of the two bodies that meet. `body`: by vertex.
-const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count, std::span<const compare::Index> body,
-                                            const ContactStencil& stencil);
+const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count,
+                                            std::span<const compare::Index> body, const ContactStencil& stencil);
 
 /// By vertex: whether it is part of a contact.
 std::vector<bool> touched_vertices(const ContactSets& sets, const compare::Topology& topology);

@@ -24,7 +24,8 @@ compare::InitialGuessTruth initial_guess(const compare::InitialGuessIn& in) {
     const Coordinate x = coordinate(c.start.x, c.velocity.x, c.acceleration.x, c.time_step);
     const Coordinate y = coordinate(c.start.y, c.velocity.y, c.acceleration.y, c.time_step);
     const Coordinate z = coordinate(c.start.z, c.velocity.z, c.acceleration.z, c.time_step);
-    truth.target.push_back({static_cast<double>(x.target), static_cast<double>(y.target), static_cast<double>(z.target)});
+    truth.target.push_back(
+        {static_cast<double>(x.target), static_cast<double>(y.target), static_cast<double>(z.target)});
     truth.target_scale.push_back(static_cast<double>(std::max({x.scale, y.scale, z.scale})));
   }
   return truth;

@@ -11,13 +11,16 @@ using compare::HessianProjection;
 
 template <std::size_t Count, class Term>
 std::array<Triple<double>, Count> corners_of(const Term& term, const State& x) {
-  if constexpr (std::is_same_v<Term, SpringTerm>) return spring_corners(term, x);
-  else return gathered<Count>(term.vertex, x);
+  if constexpr (std::is_same_v<Term, SpringTerm>)
+    return spring_corners(term, x);
+  else
+    return gathered<Count>(term.vertex, x);
 }
 
 /// Terms in their order: those of one body are alike.
 template <std::size_t Count, class Term, class Kernel>
-void in_order(std::span<const Term> terms, const State& x, HessianProjection projection, Kernel kernel, StencilDerivatives* to, const Finished& finished) {
+void in_order(std::span<const Term> terms, const State& x, HessianProjection projection, Kernel kernel,
+              StencilDerivatives* to, const Finished& finished) {
   tbb::parallel_for(std::size_t{0}, (terms.size() + batch_width - 1) / batch_width, [&](std::size_t number) {
     const std::size_t begin = number * batch_width, end = std::min(terms.size(), begin + batch_width);
     Batch<Term, Count> batch;
@@ -32,7 +35,7 @@ std::size_t vertex_count(FormKind form) { return form == FormKind::points ? 2 : 
 /// A contact before its kernel.
 struct Prepared {
   PlacedContact term;
-  std::array<Triple<double>, 4> corner;   ///< of the form's places
+  std::array<Triple<double>, 4> corner;           ///< of the form's places
   std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< of those among the contact's vertices
 };
 
@@ -49,8 +52,9 @@ std::uint8_t prepare(const ContactTerm& term, const State& x, Prepared& to) {
 }
 
 template <std::size_t Count>
-void differentiate(const Bundle& bundle, const std::vector<Prepared>& contacts, StencilKernels::Function<PlacedContact, Count> kernel,
-                   HessianProjection projection, StencilDerivatives* to) {
+void differentiate(const Bundle& bundle, const std::vector<Prepared>& contacts,
+                   StencilKernels::Function<PlacedContact, Count> kernel, HessianProjection projection,
+                   StencilDerivatives* to) {
   Batch<PlacedContact, Count> batch;
   for (std::size_t k = 0; k < bundle.size; ++k) {
     const Prepared& contact = contacts[bundle.member[k]];
@@ -62,7 +66,8 @@ void differentiate(const Bundle& bundle, const std::vector<Prepared>& contacts, 
   kernel(batch, projection);
 }
 
-void differentiate(const Bundle& bundle, const std::vector<Prepared>& contacts, HessianProjection projection, StencilDerivatives* to) {
+void differentiate(const Bundle& bundle, const std::vector<Prepared>& contacts, HessianProjection projection,
+                   StencilDerivatives* to) {
   const StencilKernels& kernels = stencil_kernels();
   switch (static_cast<FormKind>(bundle.group / 2)) {
     case FormKind::points: return differentiate<2>(bundle, contacts, kernels.contacts_of_2, projection, to);
@@ -85,23 +90,28 @@ std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group) {
     full.push_back(bundle);
     bundle = {};
   }
-  std::copy_if(open.begin(), open.end(), std::back_inserter(full), [](const Bundle& bundle) { return bundle.size > 0; });
+  std::copy_if(open.begin(), open.end(), std::back_inserter(full),
+               [](const Bundle& bundle) { return bundle.size > 0; });
   return full;
 }
 
-void differentiate(std::span<const MembraneTerm> terms, const State& x, HessianProjection projection, StencilDerivatives* to, const Finished& finished) {
+void differentiate(std::span<const MembraneTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
   in_order<3>(terms, x, projection, stencil_kernels().membranes, to, finished);
 }
 
-void differentiate(std::span<const HingeTerm> terms, const State& x, HessianProjection projection, StencilDerivatives* to, const Finished& finished) {
+void differentiate(std::span<const HingeTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
   in_order<4>(terms, x, projection, stencil_kernels().hinges, to, finished);
 }
 
-void differentiate(std::span<const SpringTerm> terms, const State& x, HessianProjection projection, StencilDerivatives* to, const Finished& finished) {
+void differentiate(std::span<const SpringTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
   in_order<4>(terms, x, projection, stencil_kernels().springs, to, finished);
 }
 
-void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection, StencilDerivatives* to, const Finished& finished) {
+void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
   std::vector<Prepared> contacts(terms.size());
   std::vector<std::uint8_t> group(terms.size());
   tbb::parallel_for(std::size_t{0}, terms.size(), [&](std::size_t i) {
@@ -117,7 +127,8 @@ void differentiate(std::span<const ContactTerm> terms, const State& x, HessianPr
   });
 }
 
-void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection, StencilDerivatives* to, const Finished& finished) {
+void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
   std::vector<std::uint8_t> group(terms.size());
   tbb::parallel_for(std::size_t{0}, terms.size(), [&](std::size_t i) {
     const Triple<double> slip = terms[i].slip(contact_corners(terms[i].sides, terms[i].vertex, x));

@@ -1,5 +1,5 @@
-// The stencils of a mesh in batches of one kind (energies/stencil_kernels.hpp), in parallel over the batches: each stencil has its place, so neither threads
-// nor what shares its batch changes a bit.
+// The stencils of a mesh in batches of one kind (energies/stencil_kernels.hpp), in parallel over the batches: each
+// stencil has its place, so neither threads nor what shares its batch changes a bit.
 #pragma once
 
 #include <functional>
@@ -25,11 +25,16 @@ std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 using Finished = std::function<void(std::size_t stencil)>;
 
 /// Derivatives of all terms at x, into the places behind `to`.
-void differentiate(std::span<const MembraneTerm> terms, const State& x, compare::HessianProjection projection, StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const HingeTerm> terms, const State& x, compare::HessianProjection projection, StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const SpringTerm> terms, const State& x, compare::HessianProjection projection, StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const ContactTerm> terms, const State& x, compare::HessianProjection projection, StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const FrictionTerm> terms, const State& x, compare::HessianProjection projection, StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const MembraneTerm> terms, const State& x, compare::HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const HingeTerm> terms, const State& x, compare::HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const SpringTerm> terms, const State& x, compare::HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const ContactTerm> terms, const State& x, compare::HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const FrictionTerm> terms, const State& x, compare::HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
 
 template <std::size_t Count, class Vertices>
 std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& x) {
@@ -39,9 +44,11 @@ std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& 
 }
 
 /// All four places; those that the contact lacks are at the origin.
-inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides, const std::array<compare::Index, 4>& vertex, const State& x) {
+inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides,
+                                                     const std::array<compare::Index, 4>& vertex, const State& x) {
   std::array<Triple<double>, 4> corners{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(sides)); ++k) corners[k] = x[static_cast<std::size_t>(vertex[k])];
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(sides)); ++k)
+    corners[k] = x[static_cast<std::size_t>(vertex[k])];
   return corners;
 }
 

@@ -10,10 +10,12 @@ namespace ogc::reference {
 namespace {
 
 constexpr int most_iterations = 500;
-/// ‖A z − θ z‖ ≤ tolerance θ puts an eigenvalue within the same of the Ritz value θ. It is small so that the largest has time to appear beside its neighbours.
+/// ‖A z − θ z‖ ≤ tolerance θ puts an eigenvalue within the same of the Ritz value θ. It is small so that the largest
+/// has time to appear beside its neighbours.
 constexpr double tolerance = 0x1p-20;
 
-/// Numbers in [−1, 1) without a pattern, the same in every run: a start that is orthogonal to the largest eigenvector would never find it.
+/// Numbers in [−1, 1) without a pattern, the same in every run: a start that is orthogonal to the largest eigenvector
+/// would never find it.
 Eigen::VectorXd start(Eigen::Index size) {
   std::mt19937 engine;
   Eigen::VectorXd x(size);
@@ -34,9 +36,11 @@ double largest_eigenvalue(Eigen::Index size, Apply apply) {
     const double length = next.norm();
     const auto count = static_cast<Eigen::Index>(diagonal.size());
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    ritz.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), count), Eigen::Map<const Eigen::VectorXd>(beside.data(), count - 1));
+    ritz.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), count),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), count - 1));
     const double largest = ritz.eigenvalues()[count - 1];
-    if (length * std::abs(ritz.eigenvectors()(count - 1, count - 1)) <= tolerance * largest || count == size) return largest;
+    if (length * std::abs(ritz.eigenvectors()(count - 1, count - 1)) <= tolerance * largest || count == size)
+      return largest;
     beside.push_back(length);
     basis.push_back(next / length);
   }

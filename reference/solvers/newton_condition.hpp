@@ -5,11 +5,12 @@
 
 namespace ogc::reference {
 
-/// λ_min [N/m], an eigenvalue within 2⁻²⁰ of itself; not-a-number where 500 iterations are not enough. The matrix must be positive
-/// definite and factorised.
+/// λ_min [N/m], an eigenvalue within 2⁻²⁰ of itself; not-a-number where 500 iterations are not enough. The matrix must
+/// be positive definite and factorised.
 double smallest_eigenvalue(const BlockMatrix& matrix, Factor& factor);
 
-/// λ_max/λ_min, each an eigenvalue within 2⁻²⁰ of itself; not-a-number where 500 iterations are not enough. The matrix must be positive definite and factorised.
+/// λ_max/λ_min, each an eigenvalue within 2⁻²⁰ of itself; not-a-number where 500 iterations are not enough. The matrix
+/// must be positive definite and factorised.
 double condition_number(const BlockMatrix& matrix, Factor& factor);
 
 /// Of the matrix of a potential's first `stencils` stencils and its inertia, from derivatives of all of them. Stencils

@@ -1,6 +1,7 @@
-// CHOLMOD copies the entries of each small supernode with four OpenMP threads whatever the machine, and BLAS may add as many threads as there are cores. Both
-// spin while they wait: on two busy cores the factorisation of 14,700 rows took 2.4 times as long as with one
-// thread. So OpenMP is kept to one here; BLAS has one unless OPENBLAS_NUM_THREADS asks for more.
+// CHOLMOD copies the entries of each small supernode with four OpenMP threads whatever the machine, and BLAS may add as
+// many threads as there are cores. Both spin while they wait: on two busy cores the factorisation of 14,700 rows took
+// 2.4 times as long as with one thread. So OpenMP is kept to one here; BLAS has one unless OPENBLAS_NUM_THREADS asks
+// for more.
 #include "reference/solvers/newton_factor.hpp"
 
 #include <cstdlib>
@@ -22,7 +23,8 @@ struct Factor::Memory {
   cholmod_factor* factor = nullptr;
   Memory() {
     cholmod_start(&common);
-    if (openblas_set_num_threads != nullptr && std::getenv("OPENBLAS_NUM_THREADS") == nullptr) openblas_set_num_threads(1);
+    if (openblas_set_num_threads != nullptr && std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
+      openblas_set_num_threads(1);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
   }
@@ -35,7 +37,8 @@ struct Factor::Memory {
 
   void check() const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
-      throw compare::ResourceError("the factorisation of Newton's matrix needs more memory than there is; take a smaller scale or --solver vbd");
+      throw compare::ResourceError(
+          "the factorisation of Newton's matrix needs more memory than there is; take a smaller scale or --solver vbd");
   }
 };
 

@@ -1,4 +1,5 @@
-// A supernodal Cholesky factorisation whose symbolic part is kept while the pattern holds. CHOLMOD appears behind this header only.
+// A supernodal Cholesky factorisation whose symbolic part is kept while the pattern holds. CHOLMOD appears behind this
+// header only.
 #pragma once
 
 #include <memory>

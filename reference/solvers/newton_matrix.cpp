@@ -13,7 +13,8 @@ std::uint64_t key(std::uint64_t column, std::uint64_t row) { return column << 32
 std::size_t column_of(std::uint64_t block) { return block >> 32; }
 std::size_t row_of(std::uint64_t block) { return block & 0xffffffff; }
 
-/// A pattern may hold this many times the blocks that are needed before a smaller one is worth a new symbolic factorisation.
+/// A pattern may hold this many times the blocks that are needed before a smaller one is worth a new symbolic
+/// factorisation.
 constexpr double most_spare = 1.25;
 
 }  // namespace
@@ -30,15 +31,18 @@ bool BlockMatrix::earlier(const Share& a, const Share& b) {
   return a.block != b.block ? a.block < b.block : a.stencil != b.stencil ? a.stencil < b.stencil : a.row < b.row;
 }
 
-std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVertices> stencils, std::size_t first) const {
+std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVertices> stencils,
+                                                       std::size_t first) const {
   std::vector<Share> shares;
   for (std::size_t i = first; i < stencils.size(); ++i) {
     const StencilVertices& vertex = stencils[i];
     for (std::uint8_t k = 0; k < 4 && vertex[k] >= 0; ++k)
       for (std::uint8_t l = 0; l < 4 && vertex[l] >= 0; ++l) {
-        const std::int32_t row = number_[static_cast<std::size_t>(vertex[k])], column = number_[static_cast<std::size_t>(vertex[l])];
+        const std::int32_t row = number_[static_cast<std::size_t>(vertex[k])],
+                           column = number_[static_cast<std::size_t>(vertex[l])];
         if (column >= 0 && row >= column)
-          shares.push_back({key(static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)), static_cast<std::uint32_t>(i), k, l});
+          shares.push_back({key(static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)),
+                            static_cast<std::uint32_t>(i), k, l});
       }
   }
   tbb::parallel_sort(shares.begin(), shares.end(), earlier);
@@ -62,7 +66,8 @@ bool BlockMatrix::set_stencils(std::span<const StencilVertices> stencils, std::s
   }
   const std::vector<Share> others = shares_of(stencils, steady);
   shares_.clear();
-  std::merge(steady_shares_.begin(), steady_shares_.end(), others.begin(), others.end(), std::back_inserter(shares_), earlier);
+  std::merge(steady_shares_.begin(), steady_shares_.end(), others.begin(), others.end(), std::back_inserter(shares_),
+             earlier);
   std::vector<std::uint64_t> needed = needed_blocks();
   const bool holds = std::includes(blocks_.begin(), blocks_.end(), needed.begin(), needed.end()) &&
                      static_cast<double>(blocks_.size()) <= most_spare * static_cast<double>(needed.size());
@@ -84,17 +89,20 @@ void BlockMatrix::set_pattern(std::vector<std::uint64_t> blocks) {
   for (std::size_t column = 0; column < free_.size(); ++column)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t b = block_begin_[column]; b < block_begin_[column + 1]; ++b)
-        for (std::size_t r = b == block_begin_[column] ? axis : 0; r < 3; ++r) row_index_.push_back(static_cast<std::int32_t>(3 * row_of(blocks_[b]) + r));
+        for (std::size_t r = b == block_begin_[column] ? axis : 0; r < 3; ++r)
+          row_index_.push_back(static_cast<std::int32_t>(3 * row_of(blocks_[b]) + r));
       column_begin_.push_back(static_cast<std::int32_t>(row_index_.size()));
     }
   values_.assign(row_index_.size(), 0);
 }
 
 void BlockMatrix::assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils) {
-  tbb::parallel_for(std::size_t{0}, free_.size(), [&](std::size_t column) { assemble_column(column, diagonal, stencils); });
+  tbb::parallel_for(std::size_t{0}, free_.size(),
+                    [&](std::size_t column) { assemble_column(column, diagonal, stencils); });
 }
 
-void BlockMatrix::assemble_column(std::size_t column, std::span<const double> diagonal, std::span<const StencilDerivatives> stencils) {
+void BlockMatrix::assemble_column(std::size_t column, std::span<const double> diagonal,
+                                  std::span<const StencilDerivatives> stencils) {
   for (std::size_t b = block_begin_[column]; b < block_begin_[column + 1]; ++b) {
     const bool on_diagonal = b == block_begin_[column];
     std::array<std::array<double, 3>, 3> sum{};
@@ -121,7 +129,8 @@ void BlockMatrix::add_to_diagonal(std::size_t row, double value) {
 std::vector<double> BlockMatrix::times(const std::vector<double>& x) const {
   std::vector<double> y(x.size(), 0);
   for (std::size_t column = 0; column < x.size(); ++column)
-    for (auto k = static_cast<std::size_t>(column_begin_[column]); k < static_cast<std::size_t>(column_begin_[column + 1]); ++k) {
+    for (auto k = static_cast<std::size_t>(column_begin_[column]);
+         k < static_cast<std::size_t>(column_begin_[column + 1]); ++k) {
       const auto row = static_cast<std::size_t>(row_index_[k]);
       y[row] += values_[k] * x[column];
       if (row != column) y[column] += values_[k] * x[row];

@@ -1,6 +1,7 @@
-// The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, one row of blocks for each free vertex, in compressed
-// columns as CHOLMOD reads it. Its pattern is kept as long as it holds all blocks that the stencils need; each value is summed by one thread, in the order
-// of the stencils, so that threads change no bit.
+// The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, one row of
+// blocks for each free vertex, in compressed columns as CHOLMOD reads it. Its pattern is kept as long as it holds all
+// blocks that the stencils need; each value is summed by one thread, in the order of the stencils, so that threads
+// change no bit.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +20,18 @@ class BlockMatrix {
   /// A row of blocks for each vertex that is free.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of these stencils, of which the first `steady` are the same in every call that gives this number. Returns whether the pattern changed.
+  /// Finds the blocks of these stencils, of which the first `steady` are the same in every call that gives this number.
+  /// Returns whether the pattern changed.
   bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
-  /// The next stencils get a pattern of their own. A kept one may hold more blocks than they need, and decides the order of elimination: with it a step's
-  /// last bits would depend on the steps before, and a run that goes on from a state could not have those of one that was never cut off.
+  /// The next stencils get a pattern of their own. A kept one may hold more blocks than they need, and decides the
+  /// order of elimination: with it a step's last bits would depend on the steps before, and a run that goes on from a
+  /// state could not have those of one that was never cut off.
   void forget_pattern() { blocks_.clear(); }
   /// Sums the stencils' Hessians and, by vertex, what stands on the diagonal (m/h²) [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
-  /// Adds `value` ≥ 0 to the diagonal of row `row` of blocks, until the next assemble: a positive definite matrix stays so.
+  /// Adds `value` ≥ 0 to the diagonal of row `row` of blocks, until the next assemble: a positive definite matrix stays
+  /// so.
   void add_to_diagonal(std::size_t row, double value);
 
   std::size_t rows() const { return 3 * free_.size(); }
@@ -52,14 +56,15 @@ class BlockMatrix {
   std::vector<Share> shares_of(std::span<const StencilVertices> stencils, std::size_t first) const;
   std::vector<std::uint64_t> needed_blocks() const;
   void set_pattern(std::vector<std::uint64_t> blocks);
-  void assemble_column(std::size_t column, std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
+  void assemble_column(std::size_t column, std::span<const double> diagonal,
+                       std::span<const StencilDerivatives> stencils);
 
   std::vector<std::size_t> free_;
   std::vector<std::int32_t> number_;                    ///< of each vertex among the free ones, or −1
   std::vector<std::uint64_t> blocks_;                   ///< ascending
   std::vector<std::size_t> block_begin_, share_begin_;  ///< by column; by block
   std::vector<Share> shares_, steady_shares_;
-  std::size_t steady_ = 0;                              ///< stencils that steady_shares_ belong to
+  std::size_t steady_ = 0;  ///< stencils that steady_shares_ belong to
   std::vector<std::int32_t> column_begin_, row_index_;
   std::vector<double> values_;
 };

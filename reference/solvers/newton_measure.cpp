@@ -15,8 +15,8 @@ Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
 
 }  // namespace
 
-State inertial_targets(const compare::Scene& scene, const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, const std::vector<Mobility>& mobility,
-                       double time) {
+State inertial_targets(const compare::Scene& scene, const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
+                       const std::vector<Mobility>& mobility, double time) {
   const double h = scene.settings.time_step;
   const Triple<double> acceleration{scene.gravity.x, scene.gravity.y, scene.gravity.z};
   State target = widened(start);
@@ -24,7 +24,8 @@ State inertial_targets(const compare::Scene& scene, const std::vector<Vec3f>& st
     if (mobility[v] == Mobility::free) target[v] = target[v] + h * wide(velocity[v]) + h * h * acceleration;
   for (const compare::PrescribedMotion& motion : scene.motions) {
     const std::vector<Vec3f> positions = prescribed_targets(scene, motion, time);
-    for (std::size_t k = 0; k < positions.size(); ++k) target[static_cast<std::size_t>(motion.vertices[k])] = wide(positions[k]);
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      target[static_cast<std::size_t>(motion.vertices[k])] = wide(positions[k]);
   }
   return target;
 }
@@ -56,9 +57,11 @@ double largest_lag(const State& x, const State& target, const std::vector<Mobili
   return largest;
 }
 
-void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential, const compare::Scene& scene, bool wanted) {
+void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
+                      const compare::Scene& scene, bool wanted) {
   if (!wanted) {
-    metrics.kinetic_energy = metrics.elastic_energy = metrics.contact_energy = metrics.gravity_energy = std::numeric_limits<double>::quiet_NaN();
+    metrics.kinetic_energy = metrics.elastic_energy = metrics.contact_energy = metrics.gravity_energy =
+        std::numeric_limits<double>::quiet_NaN();
     return;
   }
   const Triple<double> acceleration{scene.gravity.x, scene.gravity.y, scene.gravity.z};

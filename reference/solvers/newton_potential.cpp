@@ -66,7 +66,8 @@ MembraneTerm membrane_term(const compare::Scene& scene, const compare::RestTrian
 
 HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest) {
   const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
-  HingeTerm term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle}, material.bending_damping / scene.settings.time_step};
+  HingeTerm term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle},
+                 material.bending_damping / scene.settings.time_step};
   term.isometric = material.bending == compare::BendingModel::isometric_quadratic;
   for (std::size_t k = 0; k < 3; ++k) {
     term.weight[k + 1] = double{rest.weight[k]};
@@ -77,7 +78,11 @@ HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest
 
 SpringTerm spring_term(const compare::Scene& scene, const compare::Spring& spring) {
   const double s = spring.ratio;
-  return {{spring.first, spring.second, spring.third, -1}, {1, s - 1, -s, 0}, spring.stiffness, spring.rest_length, spring.damping / scene.settings.time_step};
+  return {{spring.first, spring.second, spring.third, -1},
+          {1, s - 1, -s, 0},
+          spring.stiffness,
+          spring.rest_length,
+          spring.damping / scene.settings.time_step};
 }
 
 double angle_at(const Hinge<double>& x) {
@@ -104,7 +109,8 @@ State widened(const std::vector<compare::Vec3f>& positions) {
 
 std::vector<Mobility> mobility_of(const compare::Scene& scene) {
   std::vector<Mobility> mobility;
-  for (const Index group : rigid_groups(scene)) mobility.push_back(group < 0 ? Mobility::free : group == 0 ? Mobility::fixed : Mobility::prescribed);
+  for (const Index group : rigid_groups(scene))
+    mobility.push_back(group < 0 ? Mobility::free : group == 0 ? Mobility::fixed : Mobility::prescribed);
   return mobility;
 }
 
@@ -117,7 +123,9 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
       mass_(rest_.mass.begin(), rest_.mass.end()),
       step_(scene.settings.time_step) {
   if (scene.settings.damping == compare::DampingForm::per_vertex)
-    throw compare::InputError("damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or damping=strain");
+    throw compare::InputError(
+        "damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or "
+        "damping=strain");
   free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
   for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
   for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
@@ -129,7 +137,8 @@ void Potential::begin_step(const State& start, const State& target) {
   target_ = target;
   contacts_.clear();
   frictions_.clear();
-  for (MembraneTerm& term : membranes_) term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
+  for (MembraneTerm& term : membranes_)
+    term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
   for (HingeTerm& term : hinges_) term.start = angle_at(gathered<4>(term.vertex, start));
   for (SpringTerm& term : springs_) {
     term.start = norm(separation(term.weight, spring_corners(term, start)));
@@ -138,7 +147,8 @@ void Potential::begin_step(const State& start, const State& target) {
 
 void Potential::set_contacts(const ContactSets& sets, const State& detected) {
   contacts_.clear();
-  for (const compare::VertexFacetContact& contact : sets.vertex_facet) add_contact(stencil_of(topology_, contact), detected);
+  for (const compare::VertexFacetContact& contact : sets.vertex_facet)
+    add_contact(stencil_of(topology_, contact), detected);
   for (const compare::EdgeEdgeContact& contact : sets.edge_edge) add_contact(stencil_of(topology_, contact), detected);
 }
 
@@ -147,14 +157,15 @@ void Potential::add_contact(const ContactStencil& stencil, const State& detected
   if (std::none_of(stencil.vertex.begin(), stencil.vertex.end(), is_free)) return;
   const compare::MeetingMaterial& material = material_of(rest_, scene_.bodies.size(), body_, stencil);
   if (material.stiffness == 0) return;
-  contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1, double{material.friction},
-                       scene_.settings.activation});
+  contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1,
+                       double{material.friction}, scene_.settings.activation});
   if (stencil.sides != ContactSides::edge_edge) return;
   const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
   contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, detected));
 }
 
-std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const {
+std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term,
+                                                   const std::array<Triple<double>, 4>& corners) const {
   if (term.friction == 0) return {};
   const ClosestForm form = closest_form(term.sides, corners);
   const Triple<double> apart = separation(form.weight, corners);
@@ -162,18 +173,25 @@ std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term, cons
   if (distance == 0 || distance >= term.radius) return {};
   using Slope = Derivative<double, 1>;
   const double slope = contact_activation(term.activation, Slope(distance, 0), term.radius, term.stiffness).slope[0];
-  return FrictionTerm{term.sides, term.vertex, form.weight, (1 / distance) * apart, separation(form.weight, contact_corners(term.sides, term.vertex, start_)),
-                      -term.friction * term.mollifier * slope, scene_.settings.friction_velocity * step_};
+  return FrictionTerm{term.sides,
+                      term.vertex,
+                      form.weight,
+                      (1 / distance) * apart,
+                      separation(form.weight, contact_corners(term.sides, term.vertex, start_)),
+                      -term.friction * term.mollifier * slope,
+                      scene_.settings.friction_velocity * step_};
 }
 
 void Potential::lag_friction(const State& x) {
   frictions_.clear();
   for (const ContactTerm& term : contacts_)
-    if (const auto friction = friction_at(term, contact_corners(term.sides, term.vertex, x))) frictions_.push_back(*friction);
+    if (const auto friction = friction_at(term, contact_corners(term.sides, term.vertex, x)))
+      frictions_.push_back(*friction);
 }
 
 std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
-  if (stencil < membranes_.size()) return {membranes_[stencil].vertex[0], membranes_[stencil].vertex[1], membranes_[stencil].vertex[2], -1};
+  if (stencil < membranes_.size())
+    return {membranes_[stencil].vertex[0], membranes_[stencil].vertex[1], membranes_[stencil].vertex[2], -1};
   stencil -= membranes_.size();
   if (stencil < hinges_.size()) return hinges_[stencil].vertex;
   stencil -= hinges_.size();
@@ -211,7 +229,8 @@ PotentialTerms Potential::terms(const State& x) const {
   PotentialTerms result;
   result.stencil.resize(stencil_count());
   result.inertia.resize(x.size());
-  tbb::parallel_for(std::size_t{0}, result.stencil.size(), [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
+  tbb::parallel_for(std::size_t{0}, result.stencil.size(),
+                    [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (mobility_[v] != Mobility::free) continue;
     const Triple<double> away = x[v] - target_[v];
@@ -234,13 +253,15 @@ double Potential::total(const PotentialTerms& terms) {
   return sum;
 }
 
-PotentialDerivatives Potential::derivatives(const State& x, HessianProjection projection, PotentialDerivatives room) const {
+PotentialDerivatives Potential::derivatives(const State& x, HessianProjection projection,
+                                            PotentialDerivatives room) const {
   PotentialDerivatives result = std::move(room);
   for (std::vector<double>* sums : {&result.slopes, &result.curvatures}) sums->resize(stencil_count());
   result.stencil.resize(stencil_count());
   std::size_t first = 0;
   const auto add = [&](const auto& terms) {
-    differentiate(std::span(terms), x, projection, result.stencil.data() + first, [&, first](std::size_t i) { measure(first + i, result); });
+    differentiate(std::span(terms), x, projection, result.stencil.data() + first,
+                  [&, first](std::size_t i) { measure(first + i, result); });
     first += terms.size();
   };
   add(membranes_);
@@ -262,7 +283,8 @@ void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const
     if (mobility_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
     for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
       slopes += std::abs(derivatives.gradient[row]);
-      for (std::size_t column = 0; column < 12; ++column) columns[column] += std::abs(derivatives.hessian[12 * row + column]);
+      for (std::size_t column = 0; column < 12; ++column)
+        columns[column] += std::abs(derivatives.hessian[12 * row + column]);
     }
   }
   for (const double column : columns) curvatures += column;

@@ -1,5 +1,5 @@
-// The incremental potential of a step (backward Euler): inertia, elasticity, damping, contact of the last detection, lagged friction. Its gradient is minus the
-// total force of Eq. 29.
+// The incremental potential of a step (backward Euler): inertia, elasticity, damping, contact of the last detection,
+// lagged friction. Its gradient is minus the total force of Eq. 29.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,8 @@ enum class Mobility : std::uint8_t { fixed, prescribed, free };
 /// By vertex.
 std::vector<Mobility> mobility_of(const compare::Scene& scene);
 
-/// Energies at one state, by term, so that two states are compared term by term: their difference is small beside their sum.
+/// Energies at one state, by term, so that two states are compared term by term: their difference is small beside their
+/// sum.
 struct PotentialTerms {
   std::vector<double> stencil;  ///< [J]
   std::vector<double> inertia;  ///< by vertex; 0 where not free [J]
@@ -31,8 +32,9 @@ struct PotentialTerms {
 struct PotentialDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
-  State gradient;  ///< by vertex; 0 where not free [N]
-  /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums of |∂²E| and of |∂E|.
+  State gradient;                          ///< by vertex; 0 where not free [N]
+  /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums
+  /// of |∂²E| and of |∂E|.
   double force_noise = 0, energy_noise = 0;  ///< [N], [J]
 };
 
@@ -53,10 +55,12 @@ class Potential {
   static double change(const PotentialTerms& from, const PotentialTerms& to);
   static double total(const PotentialTerms& terms);
   /// `room`: an earlier result whose memory is used again.
-  PotentialDerivatives derivatives(const State& x, compare::HessianProjection projection, PotentialDerivatives room = {}) const;
+  PotentialDerivatives derivatives(const State& x, compare::HessianProjection projection,
+                                   PotentialDerivatives room = {}) const;
 
   std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
-  std::size_t elastic_count() const { return membranes_.size() + hinges_.size() + springs_.size(); }  ///< the first stencils: those that never change
+  /// the first stencils: those that never change
+  std::size_t elastic_count() const { return membranes_.size() + hinges_.size() + springs_.size(); }
   /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
@@ -71,11 +75,12 @@ class Potential {
   const std::vector<HingeTerm>& hinges() const { return hinges_; }
   const std::vector<SpringTerm>& springs() const { return springs_; }
   const std::vector<ContactTerm>& contacts() const { return contacts_; }
-  /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none); empty where there is none.
+  /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none);
+  /// empty where there is none.
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
-  const State& target() const { return target_; }  ///< y of the step [m]
+  const State& target() const { return target_; }                                       ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
-  std::vector<double> inertias() const;  ///< by vertex
+  std::vector<double> inertias() const;                                                 ///< by vertex
   std::size_t free_count() const { return free_count_; }
 
  private:

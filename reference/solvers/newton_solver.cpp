@@ -15,7 +15,8 @@ using compare::Vec3f;
 
 /// So many times as much a scaled step must lower the energy to be preferred: see the head of newton_solver.hpp.
 constexpr double far_more = 2;
-/// So often a solve that has converged goes on although the contacts found at its result are no better than those before: see the head of newton_solver.hpp.
+/// So often a solve that has converged goes on although the contacts found at its result are no better than those
+/// before: see the head of newton_solver.hpp.
 constexpr int most_judgements = 4;
 /// ‖δ_v‖/‖δ'_v‖ at most: a vertex whose ball leaves it nothing stands as good as still.
 constexpr double most_pinned = 1e6;
@@ -28,12 +29,16 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 }  // namespace
 
-std::vector<std::string> NewtonSolver::stage_names() const { return {"detection", "derivatives", "assembly", "factorization", "line_search"}; }
+std::vector<std::string> NewtonSolver::stage_names() const {
+  return {"detection", "derivatives", "assembly", "factorization", "line_search"};
+}
 
-NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options)
+NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
+                           const compare::SimulationOptions& options)
     : ContactStep(scene, topology, options, stage_count), matrix_(potential_.mobility()) {}
 
-StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
+StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
+                              std::int64_t number) {
   begin(start, velocity, number);
   judgements_ = 0;
   least_judged_ = std::numeric_limits<double>::infinity();
@@ -57,15 +62,16 @@ NewtonSolver::Outcome NewtonSolver::solve() {
     const std::int64_t before = metrics_.iterations;
     const Outcome outcome = solve_once();
     const bool settled = solve > 0 && metrics_.iterations == before;
-    if (outcome != Outcome::converged || settled || solve + 1 >= settings_.friction_solves || metrics_.iterations >= settings_.newton_iterations)
+    if (outcome != Outcome::converged || settled || solve + 1 >= settings_.friction_solves ||
+        metrics_.iterations >= settings_.newton_iterations)
       return outcome;
     potential_.lag_friction(x_);
     pattern_stale_ = true;
   }
 }
 
-/// Each round does an iteration or detects because the residual is small enough; two of the latter never follow one another, but for prescribed vertices
-/// that creep towards their targets. The limit ends both.
+/// Each round does an iteration or detects because the residual is small enough; two of the latter never follow one
+/// another, but for prescribed vertices that creep towards their targets. The limit ends both.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
   for (std::int64_t round = 0; round <= 2 * settings_.newton_iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
@@ -89,11 +95,13 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   const double force = mean_force();
   if (!std::isfinite(force)) return Outcome::not_finite;
   set_residual(force);
-  const bool small = settings_.newton_tolerance > 0 && force <= std::max(settings_.newton_tolerance * reference_force_, derivatives_.force_noise);
+  const bool small = settings_.newton_tolerance > 0 &&
+                     force <= std::max(settings_.newton_tolerance * reference_force_, derivatives_.force_noise);
   if (options_.iterations) rows_.push_back(new_row(detects));
   if (small && (fresh_ || nothing_near())) return Outcome::converged;
   if (judging_ && judged_in_vain(force)) return Outcome::converged;
-  if (metrics_.iterations >= settings_.newton_iterations) return small || settings_.newton_tolerance == 0 ? Outcome::converged : Outcome::iteration_limit;
+  if (metrics_.iterations >= settings_.newton_iterations)
+    return small || settings_.newton_tolerance == 0 ? Outcome::converged : Outcome::iteration_limit;
   if (small) {
     detect_next_ = judge_next_ = true;
     return {};
@@ -101,7 +109,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   return advance(prescribed_cut);
 }
 
-/// Whether solves have found for the last time that their result is none with the contacts there. Rounds whose force halves lead somewhere and don't count.
+/// Whether solves have found for the last time that their result is none with the contacts there. Rounds whose force
+/// halves lead somewhere and don't count.
 bool NewtonSolver::judged_in_vain(double force) {
   if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
   least_judged_ = std::min(least_judged_, force);
@@ -124,9 +133,11 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
     rows_.back().vertices_at_bound = static_cast<std::int64_t>(cut_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
-  detect_next_ = share == 0 || (share < least_share && cut_ > 0) || detection_due(cut_) || (settings_.newton_tolerance > 0 && cut_ > 0);
+  detect_next_ = share == 0 || (share < least_share && cut_ > 0) || detection_due(cut_) ||
+                 (settings_.newton_tolerance > 0 && cut_ > 0);
   fresh_ = false;
-  if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step) return Outcome::converged;
+  if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step)
+    return Outcome::converged;
   return {};
 }
 
@@ -152,7 +163,8 @@ bool NewtonSolver::factorized_definite() {
 
 bool NewtonSolver::factorized() {
   timed(assembly, [&] {
-    if (pattern_stale_ && matrix_.set_stencils(potential_.vertices(), potential_.elastic_count())) timed(factorization, [&] { factor_.analyze(matrix_); });
+    if (pattern_stale_ && matrix_.set_stencils(potential_.vertices(), potential_.elastic_count()))
+      timed(factorization, [&] { factor_.analyze(matrix_); });
     pattern_stale_ = false;
     matrix_.assemble(potential_.inertias(), derivatives_.stencil);
   });
@@ -178,8 +190,8 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   return direction;
 }
 
-/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that nothing but inertia
-/// holds then goes as far as its ball allows; sheets that travel together do, too.
+/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that nothing but
+/// inertia holds then goes as far as its ball allows; sheets that travel together do, too.
 bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
   const std::vector<double> inertias = potential_.inertias();
@@ -195,15 +207,16 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-/// Along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers the energy
-/// more.
+/// Along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers the
+/// energy more.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
   std::vector<double> pins(x_.size(), 0);
   for (int round = 0; round < most_pin_rounds && direction.cut > 0; ++round) {
     if (!pin(direction, pins)) break;
     direction = direction_of();
-    Accepted found = timed(line_search, [&] { return backtracked(potential_, x_, direction.truncated, 1, before, noise); });
+    Accepted found = timed(line_search,
+                           [&] { return backtracked(potential_, x_, direction.truncated, 1, before, noise); });
     if (found.share == 0 || (best.share > 0 && found.change >= best.change)) break;
     best = std::move(found);
   }
@@ -229,7 +242,8 @@ Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms
   Accepted best = backtracked(potential_, x_, direction.truncated, 1, before, noise);
   if (direction.cut > 0) {
     double room = 1;
-    for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
+    for (const std::size_t v : matrix_.free_vertices())
+      room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
     Accepted scaled = backtracked(potential_, x_, direction.delta, room, before, noise);
     if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
   }

@@ -27,20 +27,28 @@ Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float
 class ReferenceStep {
  public:
   explicit ReferenceStep(const compare::StepIn& in)
-      : in_(in), settings_(in.scene->settings), exclusions_(compare::exclusions(*in.scene)), start_(compare::to_single(in.scene->mesh.positions)), x_(start_) {}
+      : in_(in),
+        settings_(in.scene->settings),
+        exclusions_(compare::exclusions(*in.scene)),
+        start_(compare::to_single(in.scene->mesh.positions)),
+        x_(start_) {}
 
   compare::StepOut run() {
     out_.rest = rest_state({in_.scene, in_.topology}).exact;
     out_.colour = colours_of(*in_.scene, out_.rest, exclusions_.groups);
     set_targets();
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
-    StepOrder order(settings_, static_cast<Index>(std::count_if(exclusions_.groups.begin(), exclusions_.groups.end(), [](Index group) { return group != 0; })));
+    StepOrder order(settings_, static_cast<Index>(std::count_if(exclusions_.groups.begin(), exclusions_.groups.end(),
+                                                                [](Index group) { return group != 0; })));
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;
-      if (*kind == StepEventKind::detection) detect(event);
-      else if (*kind == StepEventKind::guess) guess(event, order.holds_contacts());
-      else sweep(event);
+      if (*kind == StepEventKind::detection)
+        detect(event);
+      else if (*kind == StepEventKind::guess)
+        guess(event, order.holds_contacts());
+      else
+        sweep(event);
       order.took_place(event.cut);
       event.position = x_;
       out_.events.push_back(std::move(event));
@@ -64,7 +72,8 @@ class ReferenceStep {
     const std::vector<Vec3f> velocity = compare::to_single(in_.scene->velocities);
     const Vec3f acceleration = compare::to_single({in_.scene->gravity})[0];
     for (std::size_t v = 0; v < start_.size(); ++v)
-      question.cases.push_back({start_[v], velocity[v], acceleration, static_cast<float>(settings_.time_step), start_[v], 0, 0});
+      question.cases.push_back(
+          {start_[v], velocity[v], acceleration, static_cast<float>(settings_.time_step), start_[v], 0, 0});
     const compare::InitialGuessTruth guess = initial_guess(question);
     const std::vector<Vec3f> prescribed = step(in_, with_start()).prescribed_target;
     for (std::size_t v = 0; v < start_.size(); ++v) {
@@ -75,11 +84,12 @@ class ReferenceStep {
 
   void detect(StepEvent& event) {
     previous_ = x_;
-    const compare::DetectIn question{in_.topology, exclusions_, x_, static_cast<float>(settings_.contact_radius), out_.query_radius};
+    const compare::DetectIn question{in_.topology, exclusions_, x_, static_cast<float>(settings_.contact_radius),
+                                     out_.query_radius};
     event.vertex_facet = detect_vertex_facet(question).exact;
     event.edge_edge = detect_edge_edge(question).exact;
-    event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge, event.vertex_facet.d_min_triangle,
-                         static_cast<float>(settings_.bound_relaxation)})
+    event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
+                         event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
     bound_ = event.bound;
     contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
@@ -94,15 +104,17 @@ class ReferenceStep {
   }
 
   void guess(StepEvent& event, bool hold_contacts) {
-    const std::vector<bool> held = hold_contacts ? touched_vertices(contacts_, *in_.topology) : std::vector<bool>(x_.size(), false);
+    const std::vector<bool> held = hold_contacts ? touched_vertices(contacts_, *in_.topology)
+                                                 : std::vector<bool>(x_.size(), false);
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (!held[v]) x_[v] = truncated(v, event.cut);
   }
 
   void sweep(StepEvent& event) {
     const std::vector<Vec3f> old = x_;
-    const compare::SweepIn question{in_.scene,   in_.topology, &out_.rest, out_.colour,            old,                start_,
-                                    out_.target, previous_,    bound_,     contacts_.vertex_facet, contacts_.edge_edge};
+    const compare::SweepIn question{
+        in_.scene, in_.topology,           &out_.rest,         out_.colour, old, start_, out_.target, previous_,
+        bound_,    contacts_.vertex_facet, contacts_.edge_edge};
     compare::SweepOut answer = reference_sweep(question, SweepStencils(question));
     x_ = std::move(answer.position);
     event.cut = answer.cut;

@@ -20,9 +20,11 @@ struct Problem {
 
 class ResidualMeter::Meter : private Problem, private ContactStep {
  public:
-  explicit Meter(const compare::Scene& from) : Problem(from), ContactStep(scene, topology, {}, 1), systems_(potential_) {}
+  explicit Meter(const compare::Scene& from)
+      : Problem(from), ContactStep(scene, topology, {}, 1), systems_(potential_) {}
 
-  void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) {
+  void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+                  std::int64_t number) {
     begin(start, velocity, number);
     guess(GuessEnd::rounds);
     at(x_);
@@ -47,7 +49,8 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
     systems_.read_contacts();
     const double force = systems_.mean_force(x_);
     set_residual(force);
-    return {residual_, force, Potential::total(potential_.terms(x_)), static_cast<std::int64_t>(contacts.vertex_facet.size() + contacts.edge_edge.size())};
+    return {residual_, force, Potential::total(potential_.terms(x_)),
+            static_cast<std::int64_t>(contacts.vertex_facet.size() + contacts.edge_edge.size())};
   }
 
   VertexSystems systems_;
@@ -56,7 +59,8 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
 ResidualMeter::ResidualMeter(const compare::Scene& scene) : meter_(std::make_unique<Meter>(scene)) {}
 ResidualMeter::~ResidualMeter() = default;
 
-void ResidualMeter::begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) {
+void ResidualMeter::begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+                               std::int64_t number) {
   meter_->begin_step(start, velocity, number);
 }
 
@@ -65,7 +69,8 @@ double ResidualMeter::reference_force() const { return meter_->reference_force()
 Residual ResidualMeter::at(const std::vector<compare::Vec3f>& position) { return meter_->at(widened(position)); }
 Residual ResidualMeter::at(const std::vector<std::array<double, 3>>& position) { return meter_->at(position); }
 
-Residual ResidualMeter::with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected, const std::vector<compare::Vec3f>& position) {
+Residual ResidualMeter::with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected,
+                             const std::vector<compare::Vec3f>& position) {
   return meter_->with(contacts, widened(detected), widened(position));
 }
 

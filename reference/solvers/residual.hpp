@@ -1,4 +1,5 @@
-// The residual of Eq. 29 at states that any solver came to (method.md §6), and its f*: a measure, with detections of its own, so that no solver is disturbed.
+// The residual of Eq. 29 at states that any solver came to (method.md §6), and its f*: a measure, with detections of
+// its own, so that no solver is disturbed.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@
 namespace ogc::reference {
 
 struct Residual {
-  double share = 0;       ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
-  double force = 0;       ///< mean ‖f_v‖ [N]
-  double energy = 0;      ///< incremental potential without friction [J]
+  double share = 0;   ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
+  double force = 0;   ///< mean ‖f_v‖ [N]
+  double energy = 0;  ///< incremental potential without friction [J]
   std::int64_t contacts = 0;
 };
 
@@ -24,13 +25,15 @@ class ResidualMeter {
   explicit ResidualMeter(const compare::Scene& scene);
   ~ResidualMeter();
   /// Xᵗ, Vᵗ and the number of the step that ends at the states to be asked about. The guess loop is done here.
-  void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number);
+  void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+                  std::int64_t number);
   double reference_force() const;  ///< mean ‖f*‖ of the step [N]
   /// With contacts detected at the state itself.
   Residual at(const std::vector<compare::Vec3f>& position);
   Residual at(const std::vector<std::array<double, 3>>& position);
   /// With contacts that were detected at X_prev = `detected`: what a solver sees between two detections.
-  Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected, const std::vector<compare::Vec3f>& position);
+  Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected,
+                const std::vector<compare::Vec3f>& position);
 
  private:
   class Meter;

@@ -32,7 +32,11 @@ class ReferenceSimulation : public compare::Simulation {
       const bool good = step.metrics.status == compare::step_clean;
       rows.push_back(std::move(step.metrics));
       if (!good) break;
-      state_ = {state_.step + 1, std::move(step.position), std::move(step.velocity), std::move(step.detected.previous), std::move(step.detected.bound),
+      state_ = {state_.step + 1,
+                std::move(step.position),
+                std::move(step.velocity),
+                std::move(step.detected.previous),
+                std::move(step.detected.bound),
                 step.query_radius};
     }
     return rows;
@@ -46,7 +50,9 @@ class ReferenceSimulation : public compare::Simulation {
     state_.bounds.assign(state_.positions.size(), 0);
   }
 
-  std::vector<std::string> stage_names() const override { return profile_ ? solver_.stage_names() : std::vector<std::string>{}; }
+  std::vector<std::string> stage_names() const override {
+    return profile_ ? solver_.stage_names() : std::vector<std::string>{};
+  }
   std::string device() const override { return std::to_string(tbb::this_task_arena::max_concurrency()) + " threads"; }
 
  private:
@@ -64,11 +70,13 @@ class ReferenceSimulation : public compare::Simulation {
 
 }  // namespace
 
-std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene, const compare::SimulationOptions& options) {
+std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
+                                                  const compare::SimulationOptions& options) {
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
 
-std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options, std::vector<compare::Index> colour) {
+std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
+                                               std::vector<compare::Index> colour) {
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

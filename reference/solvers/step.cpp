@@ -26,17 +26,21 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   truth.prescribed_target.resize(start.size());
   for (const compare::PrescribedMotion& motion : scene.motions) {
     const std::vector<Vec3f> targets = compare::prescribed_targets(scene, motion, settings.time_step);
-    for (std::size_t k = 0; k < targets.size(); ++k) truth.prescribed_target[static_cast<std::size_t>(motion.vertices[k])] = targets[k];
+    for (std::size_t k = 0; k < targets.size(); ++k)
+      truth.prescribed_target[static_cast<std::size_t>(motion.vertices[k])] = targets[k];
   }
   double largest = 0;
   for (std::size_t v = 0; v < start.size(); ++v) {
     if (groups[v] != 0) largest = std::max(largest, norm(difference(answer.target[v], start[v])));
     const Vec3 moved = difference(answer.position[v], start[v]);
-    truth.velocity.push_back({moved.x / settings.time_step, moved.y / settings.time_step, moved.z / settings.time_step});
+    truth.velocity.push_back(
+        {moved.x / settings.time_step, moved.y / settings.time_step, moved.z / settings.time_step});
     truth.velocity_scale.push_back(norm(moved) / settings.time_step);
   }
-  truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest, settings.query_radius_cap * settings.contact_radius);
-  StepOrder order(settings, static_cast<Index>(std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; })));
+  truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
+                                                           settings.query_radius_cap * settings.contact_radius);
+  StepOrder order(settings, static_cast<Index>(
+                                std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; })));
   for (auto kind = order.next(); kind; kind = order.next()) {
     const std::size_t i = truth.events.size();
     truth.events.push_back(*kind);

@@ -1,15 +1,18 @@
-// Stage step: Algorithm 3 (method.md §5.2): what follows from an answer's own positions and counts, and a step of the reference's own.
+// Stage step: Algorithm 3 (method.md §5.2): what follows from an answer's own positions and counts, and a step of the
+// reference's own.
 #pragma once
 
 #include "compare/stages/step.hpp"
 
 namespace ogc::reference {
 
-/// r_q, prescribed targets, the order of events, velocities. The answer's target, position and velocity must have one entry a vertex, its events may be any.
+/// r_q, prescribed targets, the order of events, velocities. The answer's target, position and velocity must have one
+/// entry a vertex, its events may be any.
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer);
 
-/// The step made of the reference's own stages: exact sets, bounds and targets, updates in double; positions stored in single precision where the contract
-/// stores them, within their bounds. Vertices are coloured in the order of their numbers.
+/// The step made of the reference's own stages: exact sets, bounds and targets, updates in double; positions stored in
+/// single precision where the contract stores them, within their bounds. Vertices are coloured in the order of their
+/// numbers.
 compare::StepOut reference_step(const compare::StepIn& in);
 
 }  // namespace ogc::reference

@@ -14,7 +14,8 @@ namespace {
 
 using compare::Index;
 
-VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& answer, const SweepStencils& stencils, Index v) {
+VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& answer, const SweepStencils& stencils,
+                         Index v) {
   const auto i = static_cast<std::size_t>(v);
   const double step = in.scene->settings.time_step;
   const VertexPlace place{in.old[i], in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step)};
@@ -39,9 +40,12 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
   const std::vector<Index> groups = rigid_groups(*in.scene);
   std::vector<VertexUpdate> updates(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    if (in.colour[i] >= 0) updates[i] = free_vertex(in, answer, stencils, static_cast<Index>(i));
-    else if (groups[i] > 0) updates[i] = prescribed_vertex(in, i);
-    else updates[i].position = {in.old[i].x, in.old[i].y, in.old[i].z};
+    if (in.colour[i] >= 0)
+      updates[i] = free_vertex(in, answer, stencils, static_cast<Index>(i));
+    else if (groups[i] > 0)
+      updates[i] = prescribed_vertex(in, i);
+    else
+      updates[i].position = {in.old[i].x, in.old[i].y, in.old[i].z};
   });
   compare::SweepTruth truth;
   for (const VertexUpdate& update : updates) {
@@ -71,7 +75,8 @@ compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencil
   }
   for (const std::vector<Index>& members : classes) {
     std::vector<VertexUpdate> updates(members.size());
-    tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) { updates[k] = free_vertex(in, out, stencils, members[k]); });
+    tbb::parallel_for(std::size_t{0}, members.size(),
+                      [&](std::size_t k) { updates[k] = free_vertex(in, out, stencils, members[k]); });
     for (std::size_t k = 0; k < members.size(); ++k) store(static_cast<std::size_t>(members[k]), updates[k]);
   }
   return out;

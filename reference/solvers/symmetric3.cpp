@@ -12,7 +12,8 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 void annihilate(Matrix& a, Matrix& axes, std::size_t p, std::size_t q) {
   if (a[p][q] == 0) return;
   const double ratio = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  const double tangent = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::hypot(1.0, ratio)), cosine = 1 / std::hypot(1.0, tangent), sine = tangent * cosine;
+  const double tangent = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::hypot(1.0, ratio)),
+               cosine = 1 / std::hypot(1.0, tangent), sine = tangent * cosine;
   for (std::size_t k = 0; k < 3; ++k) {
     const double first = a[k][p], second = a[k][q];
     a[k][p] = cosine * first - sine * second;

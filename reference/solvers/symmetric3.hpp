@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of a symmetric 3×3 matrix: how far an error of the force moves a vertex differs from direction to direction by the ratio
-// of the eigenvalues, which contacts make large.
+// Eigenvalues and eigenvectors of a symmetric 3×3 matrix: how far an error of the force moves a vertex differs from
+// direction to direction by the ratio of the eigenvalues, which contacts make large.
 #pragma once
 
 #include <array>

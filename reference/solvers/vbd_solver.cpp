@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include <Eigen/Dense>
 #include <tbb/parallel_for.h>
+#include <Eigen/Dense>
 
 #include "reference/solvers/colouring.hpp"
 
@@ -26,11 +26,13 @@ Triple<double> solved(const VertexSystem& system) {
 
 }  // namespace
 
-VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<Index> colour)
+VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topology,
+                     const compare::SimulationOptions& options, std::vector<Index> colour)
     : ContactStep(scene, topology, options, stage_count), systems_(potential_), colour_(std::move(colour)) {
   if (colour_.empty()) colour_ = colours_of(scene, potential_.rest(), exclusions_.groups);
   for (std::size_t v = 0; v < exclusions_.groups.size(); ++v) {
-    if ((exclusions_.groups[v] == -1) != (colour_.at(v) >= 0)) throw std::invalid_argument("reference VBD: a colour for each free vertex, and for no other");
+    if ((exclusions_.groups[v] == -1) != (colour_.at(v) >= 0))
+      throw std::invalid_argument("reference VBD: a colour for each free vertex, and for no other");
     if (colour_[v] < 0) continue;
     const auto c = static_cast<std::size_t>(colour_[v]);
     classes_.resize(std::max(classes_.size(), c + 1));
@@ -112,7 +114,9 @@ void VbdSolver::add_row(bool detects) {
 }
 
 bool VbdSolver::finite() const {
-  return std::all_of(x_.begin(), x_.end(), [](const Triple<double>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
+  return std::all_of(x_.begin(), x_.end(), [](const Triple<double>& p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+  });
 }
 
 }  // namespace ogc::reference

@@ -1,8 +1,9 @@
-// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other, vertices of a colour in parallel, read
-// as method.md §7.2 says; each new position is cut to its ball before it is written. Positions are doubles within a step and rounded at its end, as Newton's.
+// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other,
+// vertices of a colour in parallel, read as method.md §7.2 says; each new position is cut to its ball before it is
+// written. Positions are doubles within a step and rounded at its end, as Newton's.
 //
-// Residuals are measurements beside the run, and their time no part of the step's: those of the rows with the contacts of the last detection, that of the step
-// with contacts detected at its end.
+// Residuals are measurements beside the run, and their time no part of the step's: those of the rows with the contacts
+// of the last detection, that of the step with contacts detected at its end.
 #pragma once
 
 #include "reference/solvers/contact_step.hpp"
@@ -13,11 +14,14 @@ namespace ogc::reference {
 
 class VbdSolver : public StepSolver, private ContactStep {
  public:
-  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two vertices of a membrane, hinge or spring may share
-  /// one. Empty: colours of its own (colouring.hpp). Throws std::invalid_argument where they do not fit the scene.
-  VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options, std::vector<compare::Index> colour = {});
+  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two
+  /// vertices of a membrane, hinge or spring may share one. Empty: colours of its own (colouring.hpp). Throws
+  /// std::invalid_argument where they do not fit the scene.
+  VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
+            std::vector<compare::Index> colour = {});
 
-  StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity, std::int64_t number) override;
+  StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+                  std::int64_t number) override;
   std::vector<std::string> stage_names() const override;
 
  private:

@@ -21,8 +21,10 @@ OwnTwice variable(double value, std::size_t direction) {
 
 template <class T>
 Triple<T> own(const Triple<double>& x) {
-  if constexpr (std::is_same_v<T, Own>) return {T(x[0], 0), T(x[1], 1), T(x[2], 2)};
-  else return {variable(x[0], 0), variable(x[1], 1), variable(x[2], 2)};
+  if constexpr (std::is_same_v<T, Own>)
+    return {T(x[0], 0), T(x[1], 1), T(x[2], 2)};
+  else
+    return {variable(x[0], 0), variable(x[1], 1), variable(x[2], 2)};
 }
 
 /// A function of one measure, as value, slope and curvature.
@@ -35,7 +37,8 @@ Second<1> along(double measure, Energy energy) {
 
 /// Plain positions of a stencil, then with the own vertex as variable.
 template <std::size_t Count>
-std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& vertex, Index self, const SweepView& x) {
+std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& vertex, Index self,
+                                                const SweepView& x) {
   std::array<Triple<double>, Count> corners{};
   for (std::size_t k = 0; k < Count; ++k)
     if (vertex[k] >= 0) corners[k] = x.at(self, vertex[k]);
@@ -71,7 +74,8 @@ void add_strain(const Strain<OwnTwice>& g, const OwnTwice& energy, VertexSystem&
   }
 }
 
-/// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the identity.
+/// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the
+/// identity.
 void add_geometric(const Strain<OwnTwice>& g, const OwnTwice& elastic, VertexSystem& sum) {
   double geometric = 0;
   for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend(0);
@@ -94,7 +98,8 @@ void add_neo_hookean(const OwnTwice& energy, const Triple<double>& normal, Verte
   if (squared > 0) add_outer(std::max(0.0, -dot(normal, along) / squared) / squared, normal, normal, sum);
 }
 
-void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners, VertexSystem& sum) {
+void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners,
+                  VertexSystem& sum) {
   const Deformation<OwnTwice> f = deformation<OwnTwice>(with_own<OwnTwice>(corners, place), term.gradient);
   const Strain<OwnTwice> g = strain(f);
   Strain<OwnTwice> by_strain;
@@ -111,10 +116,12 @@ void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<
 
 void add_isometric(const HingeTerm& term, const Hinge<Own>& x, VertexSystem& sum) {
   add_force(1, term.isometric_energy(x).slope, sum);
-  for (const Own& component : separation(term.weight, x)) add_outer(term.stiffness, component.slope, component.slope, sum);
+  for (const Own& component : separation(term.weight, x))
+    add_outer(term.stiffness, component.slope, component.slope, sum);
 }
 
-void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
+void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners,
+               VertexSystem& sum) {
   const Hinge<Own> x = with_own<Own>(corners, place);
   if (term.isometric) add_isometric(term, x, sum);
   if (term.isometric && term.damping == 0) return;
@@ -126,8 +133,10 @@ void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple
   add_outer(energy.bend(0), angle.slope, angle.slope, sum);
 }
 
-/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; w² k_s I where l = 0 (compare/stages/spring.hpp).
-void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 4>& ends, VertexSystem& sum) {
+/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; w² k_s I where l = 0
+/// (compare/stages/spring.hpp).
+void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 4>& ends,
+                VertexSystem& sum) {
   const std::array<Triple<Own>, 4> x = with_own<Own>(ends, place);
   const Triple<Own> apart = separation(term.weight, x);
   const Own length = sqrt(dot(apart, apart));
@@ -142,8 +151,8 @@ void add_spring(const SpringTerm& term, std::size_t place, const std::array<Trip
 /// Of a contact's vertices those that are updated at the same time, the own one among them.
 using Updated = std::array<bool, 4>;
 
-/// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so that they majorise what all of them do
-/// (method.md §7.4). Any number where the own one's weight is 0.
+/// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so
+/// that they majorise what all of them do (method.md §7.4). Any number where the own one's weight is 0.
 double majorant(const ClosestForm& form, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(form.weight[k]) : 0;
@@ -166,8 +175,9 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
   const Triple<Own> apart = separation(form.weight, x);
   const Own distance = sqrt(dot(apart, apart));
   if (distance.value == 0 || distance.value >= term.radius) return;
-  const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.radius),
-                                 [&](const Second<1>& d) { return contact_activation(term.activation, d, term.radius, term.mollifier * term.stiffness); });
+  const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.radius), [&](const Second<1>& d) {
+    return contact_activation(term.activation, d, term.radius, term.mollifier * term.stiffness);
+  });
   add_force(energy.slope[0], distance.slope, sum);
   const double factor = majorant(form, updated, place);
   add_outer(factor * energy.bend(0), distance.slope, distance.slope, sum);
@@ -182,7 +192,8 @@ void VertexSystems::list(const Terms& terms, Parts& parts) const {
   for (std::size_t i = 0; i < terms.size(); ++i)
     for (std::size_t k = 0; k < terms[i].vertex.size() && terms[i].vertex[k] >= 0; ++k) {
       const auto v = static_cast<std::size_t>(terms[i].vertex[k]);
-      if (potential_.mobility()[v] == Mobility::free) parts[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
+      if (potential_.mobility()[v] == Mobility::free)
+        parts[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
     }
 }
 
@@ -198,7 +209,8 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   const auto v = static_cast<std::size_t>(vertex);
   const double inertia = potential_.inertia(v);
   VertexSystem sum;
-  for (std::size_t axis = 0; axis < 3; ++axis) sum.force[axis] = inertia * (potential_.target()[v][axis] - x.old[v][axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sum.force[axis] = inertia * (potential_.target()[v][axis] - x.old[v][axis]);
   add_identity(inertia, sum);
   for (const Part& part : membranes_[v]) {
     const MembraneTerm& term = potential_.membranes()[part.stencil];

@@ -1,6 +1,7 @@
-// The 3×3 system of one vertex in double: the force of all energies and the sweep's approximation of their Hessian (method.md §4), by automatic
-// differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp) asks the stages, each with its errors, about single-precision
-// positions; this one is for whole runs, whose positions are doubles.
+// The 3×3 system of one vertex in double: the force of all energies and the sweep's approximation of their Hessian
+// (method.md §4), by automatic differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp)
+// asks the stages, each with its errors, about single-precision positions; this one is for whole runs, whose positions
+// are doubles.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ struct VertexSystem {
   std::array<double, 6> block{};  ///< [N/m]
 };
 
-/// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position, others at the old one. Colours are from 0 on;
-/// −1: prescribed and fixed vertices, which move first.
+/// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position,
+/// others at the old one. Colours are from 0 on; −1: prescribed and fixed vertices, which move first.
 struct SweepView {
   const State& old;
   const State& fresh;

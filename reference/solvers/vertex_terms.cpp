@@ -26,7 +26,8 @@ void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& ve
 float rounded(double x) { return static_cast<float>(x); }
 
 /// Seen from one corner; the other two follow in the order of the mesh. ∇N₀ is not stored and is rounded here.
-compare::MembraneCase membrane_question(const compare::SweepIn& in, const compare::RestTriangle& triangle, std::size_t corner, const SweepPositions& x) {
+compare::MembraneCase membrane_question(const compare::SweepIn& in, const compare::RestTriangle& triangle,
+                                        std::size_t corner, const SweepPositions& x) {
   const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(triangle.body)].material;
   const auto& g = triangle.gradient;
   const std::array<std::array<float, 2>, 3> gradient{
@@ -47,7 +48,8 @@ compare::MembraneCase membrane_question(const compare::SweepIn& in, const compar
   return question;
 }
 
-compare::BendingCase bending_question(const compare::SweepIn& in, const compare::RestHinge& hinge, std::size_t role, const SweepPositions& x) {
+compare::BendingCase bending_question(const compare::SweepIn& in, const compare::RestHinge& hinge, std::size_t role,
+                                      const SweepPositions& x) {
   compare::BendingCase question;
   for (std::size_t k = 0; k < 4; ++k) {
     question.vertex[k] = x[hinge.vertex[k]];
@@ -65,9 +67,12 @@ compare::BendingCase bending_question(const compare::SweepIn& in, const compare:
 }
 
 /// The second vertex for a third one that is not there.
-std::array<Index, 3> ends_of(const compare::Spring& spring) { return {spring.first, spring.second, spring.third < 0 ? spring.second : spring.third}; }
+std::array<Index, 3> ends_of(const compare::Spring& spring) {
+  return {spring.first, spring.second, spring.third < 0 ? spring.second : spring.third};
+}
 
-compare::SpringCase spring_question(const compare::SweepIn& in, const compare::Spring& spring, std::size_t place, const SweepPositions& x) {
+compare::SpringCase spring_question(const compare::SweepIn& in, const compare::Spring& spring, std::size_t place,
+                                    const SweepPositions& x) {
   const std::array<Index, 3> ends = ends_of(spring);
   compare::SpringCase question;
   question.own = static_cast<std::int32_t>(place);
@@ -92,11 +97,15 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
   for (std::size_t i = 0; i < in.scene->springs.size(); ++i) {
     const compare::Spring& spring = in.scene->springs[i];
-    if (spring.ratio > 0) add_element(springs, i, ends_of(spring));
-    else add_element(springs, i, std::array{spring.first, spring.second});
+    if (spring.ratio > 0)
+      add_element(springs, i, ends_of(spring));
+    else
+      add_element(springs, i, std::array{spring.first, spring.second});
   }
-  for (std::size_t i = 0; i < in.vertex_facet.size(); ++i) add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
-  for (std::size_t i = 0; i < in.edge_edge.size(); ++i) add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
+  for (std::size_t i = 0; i < in.vertex_facet.size(); ++i)
+    add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
+  for (std::size_t i = 0; i < in.edge_edge.size(); ++i)
+    add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
 }
 
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance) {
@@ -106,10 +115,13 @@ Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance,
     const compare::ForceAnswer& other = accepted[i];
     Symmetric3 difference;
     for (std::size_t k = 0; k < 6; ++k) difference[k] = other.block[k] - exact.block[k];
-    const double force = std::hypot(other.force.x - exact.force.x, other.force.y - exact.force.y, other.force.z - exact.force.z), block = norm(difference);
+    const double force = std::hypot(other.force.x - exact.force.x, other.force.y - exact.force.y,
+                                    other.force.z - exact.force.z),
+                 block = norm(difference);
     const double near_force = compare::unit_roundoff * force_tolerance * exact.force_scale;
     const double near_block = compare::unit_roundoff * block_tolerance * exact.block_scale;
-    if (force > near_force || block > near_block || other.force_scale > 2 * exact.force_scale || other.block_scale > 2 * exact.block_scale) {
+    if (force > near_force || block > near_block || other.force_scale > 2 * exact.force_scale ||
+        other.block_scale > 2 * exact.block_scale) {
       term.accepted.push_back(other);
       continue;
     }
@@ -119,21 +131,25 @@ Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance,
   return term;
 }
 
-VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions, Index vertex) {
+VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
+                            Index vertex) {
   const auto v = static_cast<std::size_t>(vertex);
   constexpr double inputs = compare::sweep_input_tolerance;
   VertexTerms sum;
   for (const auto& [triangle, corner] : stencils.triangles[v]) {
     const auto question = membrane_question(in, in.rest->triangles[triangle], corner, positions);
-    sum.terms.push_back(term_of(membrane(question), compare::membrane_force_tolerance + inputs, compare::membrane_block_tolerance + inputs));
+    sum.terms.push_back(term_of(membrane(question), compare::membrane_force_tolerance + inputs,
+                                compare::membrane_block_tolerance + inputs));
   }
   for (const auto& [hinge, role] : stencils.hinges[v]) {
     const auto question = bending_question(in, in.rest->hinges[hinge], role, positions);
-    sum.terms.push_back(term_of(bending(question), compare::bending_force_tolerance + inputs, compare::bending_block_tolerance + inputs));
+    sum.terms.push_back(term_of(bending(question), compare::bending_force_tolerance + inputs,
+                                compare::bending_block_tolerance + inputs));
   }
   for (const auto& [spring, place] : stencils.springs[v]) {
     const auto question = spring_question(in, in.scene->springs[spring], place, positions);
-    sum.terms.push_back(term_of({reference::spring(question)}, compare::spring_force_tolerance + inputs, compare::spring_block_tolerance + inputs));
+    sum.terms.push_back(term_of({reference::spring(question)}, compare::spring_force_tolerance + inputs,
+                                compare::spring_block_tolerance + inputs));
   }
   add_contact_terms(in, stencils, positions, vertex, sum);
   return sum;

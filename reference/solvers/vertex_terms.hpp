@@ -10,12 +10,13 @@
 
 namespace ogc::reference {
 
-/// One term of force and block, with the tolerances of its stage in units of u · scale. Answers that differ from the exact one by no more than these
-/// tolerances are not tried one by one: the largest such difference, and as much for the scale, which may be twice the exact one's, is a spread.
+/// One term of force and block, with the tolerances of its stage in units of u · scale. Answers that differ from the
+/// exact one by no more than these tolerances are not tried one by one: the largest such difference, and as much for
+/// the scale, which may be twice the exact one's, is a spread.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact one first
   double force_tolerance = 0, block_tolerance = 0;
-  double force_spread = 0, block_spread = 0;   ///< [N], [N/m]
+  double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
@@ -38,7 +39,8 @@ struct SweepStencils {
 /// Where each vertex is read while one of them is solved (method.md §7.2).
 class SweepPositions {
  public:
-  SweepPositions(const compare::SweepIn& in, const compare::SweepOut& answer, compare::Index own) : in_(in), answer_(answer), own_(own) {}
+  SweepPositions(const compare::SweepIn& in, const compare::SweepOut& answer, compare::Index own)
+      : in_(in), answer_(answer), own_(own) {}
   /// The new position of a vertex of lower colour, the old one of any other.
   const compare::Vec3f& operator[](compare::Index vertex) const {
     const auto i = static_cast<std::size_t>(vertex);
@@ -52,9 +54,11 @@ class SweepPositions {
 };
 
 /// Everything that acts on `vertex`, at the positions that its update reads.
-VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions, compare::Index vertex);
+VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
+                            compare::Index vertex);
 
 /// The part of it that contacts add: normal force, and friction where μ > 0.
-void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions, compare::Index vertex, VertexTerms& sum);
+void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
+                       compare::Index vertex, VertexTerms& sum);
 
 }  // namespace ogc::reference

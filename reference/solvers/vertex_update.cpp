@@ -1,9 +1,11 @@
 // Errors. A right answer solves (H + δH) dx = f + δf with ‖δf‖ ≤ φ, ‖δH‖ ≤ η, so with the exact dx* of H dx* = f
 //
-//   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ along each eigenvector of H,   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
+//   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ along each eigenvector of H,
+//   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
 //
-// Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no farther apart; what it does to single
-// directions depends on where they lie, so a vertex that may be cut is held to the largest of the three errors.
+// Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no
+// farther apart; what it does to single directions depends on where they lie, so a vertex that may be cut is held to
+// the largest of the three errors.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>
@@ -71,7 +73,8 @@ Vec3 projected(const Vec3& x, const VertexPlace& place) {
 
 double truncation_error(const VertexPlace& place) {
   const Vec3f& p = place.previous;
-  return compare::truncate_position_tolerance * u * (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + place.bound);
+  return compare::truncate_position_tolerance * u *
+         (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + place.bound);
 }
 
 /// What an ill-conditioned vertex is held to: dx·f ≥ −‖dx‖(φ + η‖dx‖) and what storing adds, where nothing was cut.
@@ -98,17 +101,21 @@ VertexUpdate update_with(const System& system, const VertexPlace& place, const V
   for (std::size_t i = 0; i < 3; ++i) stiffness[i] = std::max(eigen.value[i], place.inertia);
   const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
   Vec3 change;
-  for (std::size_t i = 0; i < 3; ++i) change = plus(change, times(inner(system.force, eigen.axis[i]) / stiffness[i], eigen.axis[i]));
-  const double block_error = system.block_error + u * compare::sweep_solve_tolerance * *most, relative = block_error / *least;
+  for (std::size_t i = 0; i < 3; ++i)
+    change = plus(change, times(inner(system.force, eigen.axis[i]) / stiffness[i], eigen.axis[i]));
+  const double block_error = system.block_error + u * compare::sweep_solve_tolerance * *most,
+               relative = block_error / *least;
   const Vec3 proposal = plus(wide(place.old), change);
   VertexUpdate update{projected(proposal, place)};
   if (relative >= 0.5) {
     update.cut = Cut::doubtful;
     update.grey = true;
-    update.accepted = accepted_without_position({system.force, system.block, system.force_error, block_error}, place, answer);
+    update.accepted = accepted_without_position({system.force, system.block, system.force_error, block_error}, place,
+                                                answer);
     return update;
   }
-  const double length = (norm(change) + system.force_error / *least) / (1 - relative), numerator = system.force_error + block_error * length;
+  const double length = (norm(change) + system.force_error / *least) / (1 - relative),
+               numerator = system.force_error + block_error * length;
   // The smallest positive number stands for what underflows.
   const double stored = u * (norm(proposal) + numerator / *least) + std::numeric_limits<float>::denorm_min();
   std::array<double, 3> along;
@@ -145,7 +152,8 @@ VertexUpdate update_of(const VertexTerms& terms, const VertexPlace& place, const
   std::vector<std::size_t> choice(terms.terms.size(), 0);
   VertexUpdate best = update_with(system_of(terms, place, choice), place, answer);
   std::size_t combinations = 1;
-  for (const Term& term : terms.terms) combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
+  for (const Term& term : terms.terms)
+    combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
   // Where the bound hides which of them an answer has chosen, the cut may be that of any.
   bool cuts_differ = false;

@@ -33,11 +33,13 @@ TEST_CASE("ogc audit of separate triangles exits 0", "[unit]") {
   CHECK(nlohmann::json::parse(result.out).at("clean") == true);
 }
 
-// Two equal right triangles, 1 mm apart: every vertex is 1 mm from the other triangle, every edge from its twin; the lowest numbers are named.
+// Two equal right triangles, 1 mm apart: every vertex is 1 mm from the other triangle, every edge from its twin; the
+// lowest numbers are named.
 TEST_CASE("ogc audit gives the smallest distances with their primitives, in words and as JSON", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("parallel.obj", parallel_triangles_obj).string();
-  const nlohmann::json distances = nlohmann::json::parse(run_ogc("audit --json " + mesh).out).at("states").at(0).at("smallest_distances");
+  const nlohmann::json distances =
+      nlohmann::json::parse(run_ogc("audit --json " + mesh).out).at("states").at(0).at("smallest_distances");
   CHECK(distances.at("vertex_triangle").at("distance").get<double>() == Approx(0.001));
   CHECK(distances.at("vertex_triangle").at("vertex") == 0);
   CHECK(distances.at("vertex_triangle").at("triangle") == 1);
@@ -55,13 +57,19 @@ TEST_CASE("ogc audit of a single triangle says that there is no pair", "[unit]")
   const TemporaryFolder folder;
   const std::string mesh = folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
   CHECK(contains(run_ogc("audit " + mesh).out, {"there is no such pair"}));
-  CHECK(nlohmann::json::parse(run_ogc("audit --json " + mesh).out).at("states").at(0).at("smallest_distances").at("edge_edge").is_null());
+  CHECK(nlohmann::json::parse(run_ogc("audit --json " + mesh).out)
+            .at("states")
+            .at(0)
+            .at("smallest_distances")
+            .at("edge_edge")
+            .is_null());
 }
 
 TEST_CASE("ogc audit refuses what is neither a mesh nor a run with exit status 2", "[unit]") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "empty");
-  for (const std::string& path : {(folder / "missing.ply").string(), (folder / "empty").string(), folder.write("notes.txt", "no mesh").string()}) {
+  for (const std::string& path : {(folder / "missing.ply").string(), (folder / "empty").string(),
+                                  folder.write("notes.txt", "no mesh").string()}) {
     const ProgramResult result = run_ogc("audit " + path);
     INFO(path << "\n" << result.err);
     CHECK(result.status == 2);
@@ -162,8 +170,8 @@ TEST_CASE("the option --show draws what intersects and writes it as a mesh that 
   const TemporaryFolder folder;
   write_frames(folder);
   const std::string show = (folder / "show").string();
-  const nlohmann::json verdict =
-      nlohmann::json::parse(run_ogc("audit --json '" + (folder / "*.obj").string() + "' --show " + show).out);
+  const nlohmann::json verdict = nlohmann::json::parse(
+      run_ogc("audit --json '" + (folder / "*.obj").string() + "' --show " + show).out);
   CHECK(verdict.at("shown").size() == 2);
   const compare::Mesh part = compare::read_mesh(folder / "show/frame_10.vtp");
   CHECK(part.positions.size() == 6);

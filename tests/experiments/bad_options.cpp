@@ -129,10 +129,10 @@ TEST_CASE("a setting that a scene can't have is refused by name with its range a
 
 TEST_CASE("JSON that nests a hundred thousand levels is refused wherever JSON is read", "[unit]") {
   const TemporaryFolder folder;
-  const std::string deep(100000, '['),
-      file =
-          folder.write("deep.json", "{\"format_version\": 1, \"bodies\": " + deep + std::string(deep.size(), ']') + "}")
-              .string();
+  const std::string deep(100000, '['), file = folder
+                                                  .write("deep.json", "{\"format_version\": 1, \"bodies\": " + deep +
+                                                                          std::string(deep.size(), ']') + "}")
+                                                  .string();
   fs::create_directories(folder / "run");
   fs::copy_file(file, folder / "run/run.json");
   for (const std::string& arguments :

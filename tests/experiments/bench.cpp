@@ -14,19 +14,23 @@ namespace {
 using Verdict = BenchChange::Verdict;
 
 /// A file of one benchmark; a time [ms] a process.
-std::filesystem::path results_file(const TemporaryFolder& folder, const std::string& name, const std::vector<double>& times, const std::string& device = "d") {
+std::filesystem::path results_file(const TemporaryFolder& folder, const std::string& name,
+                                   const std::vector<double>& times, const std::string& device = "d") {
   Json json{{"context", {{"device_cpu", device}, {"num_cpus", 2}}}, {"benchmarks", Json::array()}};
   int process = 0;
   for (const double time : times)
-    json["benchmarks"].push_back({{"run_name", "step/x/cpu/iterations:4/repeats:3/manual_time"}, {"run_type", "iteration"}, {"real_time", time},
-                                  {"time_unit", "ms"}, {"process", process++}});
+    json["benchmarks"].push_back({{"run_name", "step/x/cpu/iterations:4/repeats:3/manual_time"},
+                                  {"run_type", "iteration"},
+                                  {"real_time", time},
+                                  {"time_unit", "ms"},
+                                  {"process", process++}});
   return folder.write(name, json.dump());
 }
 
 BenchChange change_between(const std::vector<double>& before, const std::vector<double>& after) {
   const TemporaryFolder folder;
-  const BenchComparison comparison =
-      compare_results(read_results(results_file(folder, "before", before)), read_results(results_file(folder, "after", after)));
+  const BenchComparison comparison = compare_results(read_results(results_file(folder, "before", before)),
+                                                     read_results(results_file(folder, "after", after)));
   REQUIRE(comparison.changes.size() == 1);
   return comparison.changes[0];
 }
@@ -34,7 +38,8 @@ BenchChange change_between(const std::vector<double>& before, const std::vector<
 }  // namespace
 
 TEST_CASE("a verdict comes from ranks, not from percentages: 1 % that is certain, 30 % that is noise", "[unit]") {
-  const std::vector<double> steady{100, 100.1, 100.2, 100.3, 100.4, 100.5, 100.6, 100.7}, restless{70, 150, 90, 120, 80, 160, 75, 110};
+  const std::vector<double> steady{100, 100.1, 100.2, 100.3, 100.4, 100.5, 100.6, 100.7},
+      restless{70, 150, 90, 120, 80, 160, 75, 110};
   std::vector<double> one_percent, third;
   for (const double time : steady) one_percent.push_back(1.01 * time);
   for (const double time : restless) third.push_back(1.3 * time);
@@ -48,7 +53,8 @@ TEST_CASE("a verdict comes from ranks, not from percentages: 1 % that is certain
   CHECK(change_between({1, 2, 3}, {4, 5, 6}).verdict == Verdict::too_few);
 }
 
-TEST_CASE("repetitions of one process are not samples of what differs between starts, and the report says so", "[unit]") {
+TEST_CASE("repetitions of one process are not samples of what differs between starts, and the report says so",
+          "[unit]") {
   const TemporaryFolder folder;
   Json json = Json::parse(compare::read_bytes(results_file(folder, "many", {1, 2, 3, 4, 5, 6, 7, 8})));
   for (Json& run : json["benchmarks"]) run.erase("process");
@@ -58,14 +64,18 @@ TEST_CASE("repetitions of one process are not samples of what differs between st
   CHECK(describe(compare_results(single, single)).find("inside one process") != std::string::npos);
 }
 
-TEST_CASE("the program measures in processes, keeps every repetition, and compares two files with its exit status", "[unit]") {
+TEST_CASE("the program measures in processes, keeps every repetition, and compares two files with its exit status",
+          "[unit]") {
   const TemporaryFolder folder;
   const std::string file = (folder / "out.json").string();
-  const ProgramResult measured =
-      run_ogc("bench --scale smoke --backend cpu --filter '^(stage/truncate|step/twist|part/(sweep|detection)/twist)' --steps 2 --repetitions 2 --processes 2 --json " + file);
+  const ProgramResult measured = run_ogc(
+      "bench --scale smoke --backend cpu --filter '^(stage/truncate|step/twist|part/(sweep|detection)/twist)' --steps "
+      "2 --repetitions 2 --processes 2 --json " +
+      file);
   INFO(measured.err);
   REQUIRE(measured.status == 0);
-  CHECK(contains(measured.out, {"stage/truncate/cpu", "step/twist/smoke/cpu", "part/sweep/twist/smoke/cpu", "part/detection/twist/smoke/cpu"}));
+  CHECK(contains(measured.out, {"stage/truncate/cpu", "step/twist/smoke/cpu", "part/sweep/twist/smoke/cpu",
+                                "part/detection/twist/smoke/cpu"}));
   const Json json = parse_results(file);
   std::size_t runs = 0;
   for (const Json& run : json.at("benchmarks")) {
@@ -88,8 +98,11 @@ TEST_CASE("the program measures in processes, keeps every repetition, and compar
 
 TEST_CASE("a window can begin at a frame of a run", "[unit]") {
   const TemporaryFolder folder;
-  REQUIRE(run_ogc("run twist --scale smoke --steps 6 --set frame_steps=3 --audit off --out " + (folder / "run").string()).status == 0);
-  const ProgramResult result = run_ogc("bench --backend cpu --steps 2 --repetitions 1 --filter ^step --from-state " + (folder / "run/frames/frame_000003.h5").string());
+  REQUIRE(
+      run_ogc("run twist --scale smoke --steps 6 --set frame_steps=3 --audit off --out " + (folder / "run").string())
+          .status == 0);
+  const ProgramResult result = run_ogc("bench --backend cpu --steps 2 --repetitions 1 --filter ^step --from-state " +
+                                       (folder / "run/frames/frame_000003.h5").string());
   INFO(result.err);
   CHECK(result.status == 0);
   CHECK(contains(result.out, {"step/twist@3/cpu"}));
@@ -97,7 +110,8 @@ TEST_CASE("a window can begin at a frame of a run", "[unit]") {
 
 TEST_CASE("wrong files, filters and options of bench exit 2 and say what to do", "[unit]") {
   const TemporaryFolder folder;
-  const std::string text = folder.write("text", "no json").string(), empty = folder.write("empty", "{\"context\": {}, \"benchmarks\": []}").string();
+  const std::string text = folder.write("text", "no json").string(),
+                    empty = folder.write("empty", "{\"context\": {}, \"benchmarks\": []}").string();
   const auto refused = [](const std::string& arguments, std::initializer_list<std::string> words) {
     const ProgramResult result = run_ogc("bench " + arguments);
     INFO(arguments << "\n" << result.err);

@@ -1,4 +1,5 @@
-// The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare` says so.
+// The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare`
+// says so.
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -116,11 +117,14 @@ TEST_CASE("of a mesh stage no thread begins more than one batch that nobody want
   CHECK(asked <= report.tally.questions + meshes * options.threads);
 }
 
-TEST_CASE("the fast path on the CPU agrees with the reference in every stage, and no tolerance is loose without a reason", "[agreement]") {
+TEST_CASE(
+    "the fast path on the CPU agrees with the reference in every stage, and no tolerance is loose without a reason",
+    "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant fast = fast::contestant(fast::Backend::cpu);
   std::vector<TestCase> nearest;
-  for (const CaseName& name : load_batch(OGC_SOURCE_DIR "/tests/experiments/nearest.txt")) nearest.push_back(generate(name));
+  for (const CaseName& name : load_batch(OGC_SOURCE_DIR "/tests/experiments/nearest.txt"))
+    nearest.push_back(generate(name));
   std::vector<StageReport> reports = judge_cases(nearest, fast, authority);
   for (const Stage stage : all_stages) {
     JudgeOptions options = few_cases(stage);
@@ -130,14 +134,16 @@ TEST_CASE("the fast path on the CPU agrees with the reference in every stage, an
   for (const StageReport& report : reports) {
     INFO(first_mismatch(report));
     CHECK(report.tally.mismatched == 0);
-    CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));  // of few cases the grey share says nothing
+    // of few cases the grey share says nothing
+    CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));
   }
   CHECK(tests::loose_problems(reports) == std::vector<std::string>{});
 }
 
 TEST_CASE("cases that once told the two sides apart no longer do", "[agreement]") {
   std::vector<TestCase> cases;
-  for (const CaseName& name : load_batch(OGC_SOURCE_DIR "/tests/experiments/corpus.txt")) cases.push_back(generate(name));
+  for (const CaseName& name : load_batch(OGC_SOURCE_DIR "/tests/experiments/corpus.txt"))
+    cases.push_back(generate(name));
   REQUIRE(cases.size() > 10);
   for (const StageReport& report : judge_cases(cases, fast::contestant(fast::Backend::cpu), reference::authority())) {
     INFO(first_mismatch(report));
@@ -148,8 +154,11 @@ TEST_CASE("cases that once told the two sides apart no longer do", "[agreement]"
 TEST_CASE("coordinates of 10^-28 beside an axis decide which face is closest", "[agreement]") {
   const Vec3f a{0, 0, 0.25f}, b{1.1920929e-07f, 0, 0}, c{0, 4.03896783e-28f, 0};
   const CaseName name{Stage::closest_face, "dust", 1, 0, "", {}};
-  const std::vector<TestCase> cases{{name, ClosestFaceCase{{}, {a, b, c}}}, {name, ClosestFaceCase{{}, {b, c, a}}}, {name, ClosestFaceCase{{}, {b, a, c}}}};
-  const std::vector<StageReport> reports = judge_cases(cases, fast::contestant(fast::Backend::cpu), reference::authority());
+  const std::vector<TestCase> cases{{name, ClosestFaceCase{{}, {a, b, c}}},
+                                    {name, ClosestFaceCase{{}, {b, c, a}}},
+                                    {name, ClosestFaceCase{{}, {b, a, c}}}};
+  const std::vector<StageReport> reports = judge_cases(cases, fast::contestant(fast::Backend::cpu),
+                                                       reference::authority());
   INFO(first_mismatch(reports[0]));
   CHECK(reports[0].tally.mismatched == 0);
 }
@@ -166,7 +175,8 @@ TEST_CASE("what a contestant throws reaches the caller", "[agreement]") {
 TEST_CASE("ogc compare judges stages and writes a report", "[agreement]") {
   const tests::TemporaryFolder folder;
   const std::string report = (folder / "report").string();
-  const tests::ProgramResult result = tests::run_ogc("compare bound truncate --cases 1000 --seed 3 --json --report " + report);
+  const tests::ProgramResult result = tests::run_ogc("compare bound truncate --cases 1000 --seed 3 --json --report " +
+                                                     report);
   REQUIRE(result.status == 0);
   const auto json = nlohmann::json::parse(result.out);
   REQUIRE(json.at("stages").size() == 2);

@@ -9,7 +9,8 @@ namespace {
 
 nlohmann::json contacts(const TemporaryFolder& folder, const std::string& engine) {
   const std::string mesh = folder.write("parallel.obj", parallel_triangles_obj).string();
-  const ProgramResult result = run_ogc("contacts " + mesh + " --radius 0.01 --query-radius 0.02 --json --engine " + engine);
+  const ProgramResult result = run_ogc("contacts " + mesh + " --radius 0.01 --query-radius 0.02 --json --engine " +
+                                       engine);
   INFO(result.err);
   REQUIRE(result.status == 0);
   return nlohmann::json::parse(result.out);
@@ -17,7 +18,8 @@ nlohmann::json contacts(const TemporaryFolder& folder, const std::string& engine
 
 }  // namespace
 
-// Two equal right triangles, 1 mm apart: each corner is above the other triangle's corner (3 ordered pairs from either side), and near nothing else.
+// Two equal right triangles, 1 mm apart: each corner is above the other triangle's corner (3 ordered pairs from either
+// side), and near nothing else.
 TEST_CASE("ogc contacts finds the corners of parallel triangles, with distances and bounds", "[unit]") {
   const TemporaryFolder folder;
   const nlohmann::json json = contacts(folder, "exact");
@@ -47,7 +49,8 @@ TEST_CASE("ogc contacts lists its sets by primitive, with margins, layers and ki
   CHECK(sets.at("vertices_near_facet") == nlohmann::json{{3, 4, 5}, {0, 1, 2}});
   for (const auto& contact : json.at("vertex_facet")) {
     CHECK(contact.at("penetration").get<double>() == Approx(0.009));
-    CHECK(contact.at("margins").size() == 3);  // the sphere and the planes across the corner's two edges, on which the vertex lies
+    // the sphere and the planes across the corner's two edges, on which the vertex lies
+    CHECK(contact.at("margins").size() == 3);
     CHECK(contact.at("margins").at(1).at("sign") == 0);
     CHECK(contact.at("margins").at(1).at("closed") == true);
   }
@@ -58,17 +61,24 @@ TEST_CASE("ogc contacts gives the same sets by the exact and the fast engine, an
   const nlohmann::json exact = contacts(folder, "exact"), fast = contacts(folder, "cpu");
   const auto names = [](const nlohmann::json& json) {
     std::vector<std::string> all;
-    for (const auto& contact : json.at("vertex_facet")) all.push_back(contact.at("vertex").dump() + contact.at("face").dump());
-    for (const auto& contact : json.at("edge_edge")) all.push_back(contact.at("first").dump() + contact.at("second").dump());
+    for (const auto& contact : json.at("vertex_facet"))
+      all.push_back(contact.at("vertex").dump() + contact.at("face").dump());
+    for (const auto& contact : json.at("edge_edge"))
+      all.push_back(contact.at("first").dump() + contact.at("second").dump());
     return all;
   };
   CHECK(names(fast) == names(exact));
-  for (std::size_t v = 0; v < 6; ++v) CHECK(fast.at("bound").at(v).get<double>() <= exact.at("bound").at(v).get<double>());
+  for (std::size_t v = 0; v < 6; ++v)
+    CHECK(fast.at("bound").at(v).get<double>() <= exact.at("bound").at(v).get<double>());
 }
 
-TEST_CASE("ogc contacts --squares prints smallest distances and bounds as exact fractions, and refuses where there are none", "[unit]") {
+TEST_CASE(
+    "ogc contacts --squares prints smallest distances and bounds as exact fractions, and refuses where there are none",
+    "[unit]") {
   const TemporaryFolder folder;
-  const std::string mesh = folder.write("steps.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.75\nv 1 0 0.75\nv 0 1 0.75\nf 1 2 3\nf 4 5 6\n").string();
+  const std::string mesh =
+      folder.write("steps.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.75\nv 1 0 0.75\nv 0 1 0.75\nf 1 2 3\nf 4 5 6\n")
+          .string();
   const ProgramResult result = run_ogc("contacts " + mesh + " --radius 1 --json --squares");
   REQUIRE(result.status == 0);
   const nlohmann::json json = nlohmann::json::parse(result.out);
@@ -87,21 +97,25 @@ TEST_CASE("ogc contacts says how many predicates intervals decided", "[unit]") {
   const auto& filters = json.at("filters");
   // Each corner asks about the other triangle, each edge about three others.
   CHECK(filters.at("distance_below").at("calls") >= 6);
-  for (const auto& [predicate, count] : filters.items()) CHECK(count.at("undecided").get<int>() <= count.at("calls").get<int>());
+  for (const auto& [predicate, count] : filters.items())
+    CHECK(count.at("undecided").get<int>() <= count.at("calls").get<int>());
   CHECK_FALSE(contacts(folder, "cpu").contains("filters"));
-  CHECK(contains(run_ogc("contacts " + folder.write("parallel.obj", parallel_triangles_obj).string()).out, {"undecided", "distance_below", "share"}));
+  CHECK(contains(run_ogc("contacts " + folder.write("parallel.obj", parallel_triangles_obj).string()).out,
+                 {"undecided", "distance_below", "share"}));
 }
 
 TEST_CASE("ogc contacts says in words what is close", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc("contacts " + folder.write("parallel.obj", parallel_triangles_obj).string());
   REQUIRE(result.status == 0);
-  CHECK(contains(result.out, {"6 vertices", "2 triangles", "6 vertex-facet contacts", "0.001 m", "nothing within r_q", "bounds from"}));
+  CHECK(contains(result.out, {"6 vertices", "2 triangles", "6 vertex-facet contacts", "0.001 m", "nothing within r_q",
+                              "bounds from"}));
 }
 
 TEST_CASE("ogc contacts warns where the mesh intersects itself", "[unit]") {
   const TemporaryFolder folder;
-  const ProgramResult result = run_ogc("contacts --json " + folder.write("crossing.obj", crossing_triangles_obj).string());
+  const ProgramResult result = run_ogc("contacts --json " +
+                                       folder.write("crossing.obj", crossing_triangles_obj).string());
   REQUIRE(result.status == 0);
   CHECK(contains(result.err, {"crossing.obj", "intersects itself", "2 pairs"}));
   CHECK(nlohmann::json::parse(result.out).at("intersections") == 2);

@@ -20,7 +20,8 @@ namespace {
 /// Frames by name, byte by byte.
 std::map<std::string, std::string> frames_of(const fs::path& run) {
   std::map<std::string, std::string> frames;
-  for (const auto& entry : fs::directory_iterator(run / "frames")) frames[entry.path().filename().string()] = compare::read_bytes(entry.path());
+  for (const auto& entry : fs::directory_iterator(run / "frames"))
+    frames[entry.path().filename().string()] = compare::read_bytes(entry.path());
   return frames;
 }
 
@@ -56,27 +57,36 @@ void check_left(const fs::path& run, const std::string& said) {
     CHECK(std::stoll(said.substr(at + words.size())) <= last);
 }
 
-bool is_finished(const fs::path& run) { return fs::exists(run / "run.json") && compare::RunReader(run).provenance().status == "finished"; }
+bool is_finished(const fs::path& run) {
+  return fs::exists(run / "run.json") && compare::RunReader(run).provenance().status == "finished";
+}
 
 }  // namespace
 
 void check_same_run(const fs::path& whole, const fs::path& resumed) {
-  CHECK(compare::RunReader(resumed).provenance().extra.at("final_hash") == compare::RunReader(whole).provenance().extra.at("final_hash"));
-  CHECK(compare::RunReader(resumed).provenance().extra.at("audited_states") == compare::RunReader(whole).provenance().extra.at("audited_states"));
+  CHECK(compare::RunReader(resumed).provenance().extra.at("final_hash") ==
+        compare::RunReader(whole).provenance().extra.at("final_hash"));
+  CHECK(compare::RunReader(resumed).provenance().extra.at("audited_states") ==
+        compare::RunReader(whole).provenance().extra.at("audited_states"));
   CHECK(rows_of(resumed) == rows_of(whole));
   CHECK(iterations_of(resumed) == iterations_of(whole));
   CHECK(frames_of(resumed) == frames_of(whole));
   CHECK(fs::exists(resumed / "trajectory.vtkhdf"));
 }
 
-Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::string& signal, double seconds, unsigned seed) {
+Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::string& signal, double seconds,
+                   unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> moment(0.1 * seconds, 0.6 * seconds);
   Cuts cuts;
   std::string arguments = command + " --out " + run.string();
   for (int attempt = 0; attempt < 40; ++attempt) {
-    // In the foreground it waits for what it kills: else it ends by its own SIGKILL, maybe before the run's lock is given back.
-    const std::string before = cuts.in_time < 3 && cuts.killed < 20 ? "timeout --foreground --preserve-status -s " + signal + " " + std::to_string(moment(random)) + " " : "";
+    // In the foreground it waits for what it kills: else it ends by its own SIGKILL, maybe before the run's lock is
+    // given back.
+    const std::string before = cuts.in_time < 3 && cuts.killed < 20
+                                   ? "timeout --foreground --preserve-status -s " + signal + " " +
+                                         std::to_string(moment(random)) + " "
+                                   : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
     // A signal may also meet a run whose last step is written, and leave the trajectory to `ogc export`.
     if (result.status == 0 || is_finished(run)) {

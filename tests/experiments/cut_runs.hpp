@@ -13,11 +13,13 @@ struct Cuts {
   int killed = 0, in_time = 0;  ///< of the cuts: those that met a run which had begun
 };
 
-/// `ogc run COMMAND` to its end in `run`, cut off by the signal (a name as kill takes it) after random fractions of `seconds`, which should be about what the whole
-/// run takes, and resumed each time.
-Cuts run_with_cuts(const std::string& command, const std::filesystem::path& run, const std::string& signal, double seconds, unsigned seed);
+/// `ogc run COMMAND` to its end in `run`, cut off by the signal (a name as kill takes it) after random fractions of
+/// `seconds`, which should be about what the whole run takes, and resumed each time.
+Cuts run_with_cuts(const std::string& command, const std::filesystem::path& run, const std::string& signal,
+                   double seconds, unsigned seed);
 
 /// Makes the whole run in `folder`, then one cut by each signal, and checks that each is the same.
-void check_cut_runs(const std::filesystem::path& folder, const std::string& command, std::initializer_list<std::string> signals);
+void check_cut_runs(const std::filesystem::path& folder, const std::string& command,
+                    std::initializer_list<std::string> signals);
 
 }  // namespace ogc::tests

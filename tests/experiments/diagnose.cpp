@@ -144,8 +144,10 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
     const Diagnosis diagnosis = diagnosis_of(fault.stage, wrong, authority);
     INFO(fault.name << ": " << diagnosis_text(diagnosis));
     CHECK(diagnosis.failing > 0);
-    if (wanted->second.empty()) CHECK(diagnosis.name.empty());
-    else CHECK(names(diagnosis, wanted->second));
+    if (wanted->second.empty())
+      CHECK(diagnosis.name.empty());
+    else
+      CHECK(names(diagnosis, wanted->second));
   }
   CHECK(asked == expected.size());
 }

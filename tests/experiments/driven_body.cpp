@@ -1,4 +1,5 @@
-// A body that follows keyframes is a surface like all others (compare/deviations.md, §5.1.3): it may be late, but it passes through nothing.
+// A body that follows keyframes is a surface like all others (compare/deviations.md, §5.1.3): it may be late, but it
+// passes through nothing.
 #include <nlohmann/json.hpp>
 
 #include "compare/files/scene_files.hpp"
@@ -11,7 +12,8 @@ using namespace ogc::tests;
 
 namespace {
 
-/// A plate rises by 0.5 m into a cloth that lies 5 cm above it, at 10 m/s: 0.1 m a step, where bounds allow 36 mm in one detection, and then less and less.
+/// A plate rises by 0.5 m into a cloth that lies 5 cm above it, at 10 m/s: 0.1 m a step, where bounds allow 36 mm in
+/// one detection, and then less and less.
 compare::Scene plate_into_cloth() {
   compare::Scene scene;
   scene.name = "plate";
@@ -27,7 +29,10 @@ compare::Scene plate_into_cloth() {
       motion.keyframes.positions.push_back({static_cast<float>(x.x), height, static_cast<float>(x.z)});
     }
   }
-  append_body(scene, {.name = "plate", .material = {.membrane = compare::MembraneModel::none, .bending = compare::BendingModel::none}}, plate);
+  append_body(
+      scene,
+      {.name = "plate", .material = {.membrane = compare::MembraneModel::none, .bending = compare::BendingModel::none}},
+      plate);
   scene.motions.push_back(motion);
   scene.gravity = {};
   scene.settings.time_step = 0.01;
@@ -40,11 +45,14 @@ compare::Scene plate_into_cloth() {
 
 }  // namespace
 
-TEST_CASE("a body on keyframes that is faster than bounds pushes a cloth, passes through nothing, lags behind and catches up", "[unit]") {
+TEST_CASE(
+    "a body on keyframes that is faster than bounds pushes a cloth, passes through nothing, lags behind and catches up",
+    "[unit]") {
   const TemporaryFolder folder;
   const std::string file = write_scene(folder / "scene", plate_into_cloth()).string();
   for (const std::string solver : {"vbd", "reference_vbd"}) {
-    const ProgramResult result = run_ogc("run " + file + " --solver " + solver + " --audit every --json --out " + (folder / solver).string());
+    const ProgramResult result = run_ogc("run " + file + " --solver " + solver + " --audit every --json --out " +
+                                         (folder / solver).string());
     INFO(result.err);
     REQUIRE(result.status == 0);
     const nlohmann::json summary = nlohmann::json::parse(result.out);

@@ -14,7 +14,8 @@ TEST_CASE("ogc export writes each frame as a mesh, and an index for ParaView", "
   REQUIRE(run_ogc("run cloth_on_sphere --scale smoke --steps 4 --audit off --out " + run).status == 0);
   const compare::RunReader reader(run);
   for (const std::string format : {"obj", "ply", "vtp"}) {
-    const ProgramResult result = run_ogc("export " + run + " --json --format " + format + " --out " + (folder / format).string());
+    const ProgramResult result = run_ogc("export " + run + " --json --format " + format + " --out " +
+                                         (folder / format).string());
     INFO(format << "\n" << result.err);
     REQUIRE(result.status == 0);
     const nlohmann::json files = nlohmann::json::parse(result.out).at("files");

@@ -27,7 +27,8 @@ bool obeys(const Vec3f& x, const Vec3f& p, float b) {
 /// The exact position rounded, then stepped towards the previous one until the bound holds.
 Vec3f stored(const Vec3& exact, const Vec3f& previous, float bound) {
   Vec3f x{static_cast<float>(exact.x), static_cast<float>(exact.y), static_cast<float>(exact.z)};
-  while (!obeys(x, previous, bound)) x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
+  while (!obeys(x, previous, bound))
+    x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
   return x;
 }
 
@@ -37,7 +38,8 @@ ForceOut rounded(const ForceTruth& truth) {
   ForceOut out;
   for (const auto& accepted : truth.accepted) {
     const ForceAnswer& exact = accepted[0];
-    out.force.push_back({static_cast<float>(exact.force.x), static_cast<float>(exact.force.y), static_cast<float>(exact.force.z)});
+    out.force.push_back(
+        {static_cast<float>(exact.force.x), static_cast<float>(exact.force.y), static_cast<float>(exact.force.z)});
     std::array<float, 6> block{};
     for (std::size_t k = 0; k < block.size(); ++k) block[k] = static_cast<float>(exact.block[k]);
     out.block.push_back(block);
@@ -46,9 +48,11 @@ ForceOut rounded(const ForceTruth& truth) {
 }
 
 /// The exact targets rounded; position and cut are those of the rounded ones.
-InitialGuessOut exact_guess(const InitialGuessIn& in, const InitialGuessTruth& truth, const std::function<TruncateOut(const TruncateIn&)>& truncate) {
+InitialGuessOut exact_guess(const InitialGuessIn& in, const InitialGuessTruth& truth,
+                            const std::function<TruncateOut(const TruncateIn&)>& truncate) {
   InitialGuessOut out;
-  for (const Vec3& y : truth.target) out.target.push_back({static_cast<float>(y.x), static_cast<float>(y.y), static_cast<float>(y.z)});
+  for (const Vec3& y : truth.target)
+    out.target.push_back({static_cast<float>(y.x), static_cast<float>(y.y), static_cast<float>(y.z)});
   TruncateOut cut = truncate(cut_question(in, out));
   for (std::size_t i = 0; i < in.cases.size(); ++i) {
     if (!in.cases[i].held) continue;
@@ -85,7 +89,9 @@ Contestant exact_contestant(const Authority& authority) {
   exact.friction_force = [authority](const FrictionForceIn& in) { return rounded(authority.friction_force(in)); };
   exact.rest_state = [authority](const RestStateIn& in) { return authority.rest_state(in).exact; };
   exact.block = [authority](const BlockIn& in) { return BlockOut{authority.block(in).inside}; };
-  exact.initial_guess = [authority, truncate = exact.truncate](const InitialGuessIn& in) { return exact_guess(in, authority.initial_guess(in), truncate); };
+  exact.initial_guess = [authority, truncate = exact.truncate](const InitialGuessIn& in) {
+    return exact_guess(in, authority.initial_guess(in), truncate);
+  };
   exact.membrane = [authority](const MembraneIn& in) { return rounded(authority.membrane(in)); };
   exact.bending = [authority](const BendingIn& in) { return rounded(authority.bending(in)); };
   exact.spring = [authority](const SpringIn& in) { return rounded(authority.spring(in)); };
@@ -96,7 +102,8 @@ Contestant exact_contestant(const Authority& authority) {
 
 std::vector<Fault> faults() {
   std::vector<Fault> all = pair_faults();
-  for (const auto& more : {set_faults(), scalar_faults(), contact_faults(), force_faults(), rest_faults(), step_faults(), sweep_faults()})
+  for (const auto& more :
+       {set_faults(), scalar_faults(), contact_faults(), force_faults(), rest_faults(), step_faults(), sweep_faults()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -80,8 +80,14 @@ std::vector<Fault> contact_force_faults() {
            return ForceOut{right(in).force, of_the_point(in, right).block};
          };
        }},
-      contact_asked("weights of the two ends of an edge exchanged", [](ContactForceCase& c) { if (c.sides == ContactSides::edge_edge) c.own ^= 1; }),
-      contact_asked("weights of the two sides exchanged", [](ContactForceCase& c) { if (c.sides == ContactSides::edge_edge) c.own ^= 2; }),
+      contact_asked("weights of the two ends of an edge exchanged",
+                    [](ContactForceCase& c) {
+                      if (c.sides == ContactSides::edge_edge) c.own ^= 1;
+                    }),
+      contact_asked("weights of the two sides exchanged",
+                    [](ContactForceCase& c) {
+                      if (c.sides == ContactSides::edge_edge) c.own ^= 2;
+                    }),
       contact_asked("mollifier forgotten", without_mollifier),
       contact_asked("share of the overlap forgotten",
                     [](ContactForceCase& c) {
@@ -95,7 +101,8 @@ std::vector<Fault> contact_force_faults() {
                       c.own ^= 2;
                       c.together = static_cast<std::uint8_t>((c.together & 3) << 2 | c.together >> 2);
                     }),
-      contact_asked("block that knows nothing of vertices that are updated together", [](ContactForceCase& c) { c.together = 0; }),
+      contact_asked("block that knows nothing of vertices that are updated together",
+                    [](ContactForceCase& c) { c.together = 0; }),
       contact_asked("radius 0.01 % too large", [](ContactForceCase& c) { c.contact_radius *= 1.0001f; }),
   };
 }
@@ -103,8 +110,10 @@ std::vector<Fault> contact_force_faults() {
 std::vector<Fault> friction_force_faults() {
   return {
       friction_asked("1/y below the limit too", [](FrictionForceCase& c) { c.slip_limit *= 1e-3f; }),
-      friction_asked("slip since now, not since the start of the step", [](FrictionForceCase& c) { c.start = c.contact.vertex; }),
-      friction_asked("block that knows nothing of vertices that are updated together", [](FrictionForceCase& c) { c.contact.together = 0; }),
+      friction_asked("slip since now, not since the start of the step",
+                     [](FrictionForceCase& c) { c.start = c.contact.vertex; }),
+      friction_asked("block that knows nothing of vertices that are updated together",
+                     [](FrictionForceCase& c) { c.contact.together = 0; }),
       friction_asked("normal force without the mollifier", [](FrictionForceCase& c) { without_mollifier(c.contact); }),
       friction_spoiled("I in place of T T^T",
                        [](const FrictionForceCase&, Vec3f&, std::array<float, 6>& block) {
@@ -114,13 +123,17 @@ std::vector<Fault> friction_force_faults() {
       friction_spoiled("motion along the normal not removed",
                        [](const FrictionForceCase& c, Vec3f& force, std::array<float, 6>& block) {
                          if (c.contact.sides != ContactSides::point_point) return;
-                         const float strength = (block[0] + block[3] + block[5]) / 2, sign = c.contact.own == 0 ? -strength : strength;
+                         const float strength = (block[0] + block[3] + block[5]) / 2,
+                                     sign = c.contact.own == 0 ? -strength : strength;
                          const auto &x = c.contact.vertex, &s = c.start;
-                         force = {sign * (x[0].x - s[0].x - x[1].x + s[1].x), sign * (x[0].y - s[0].y - x[1].y + s[1].y),
+                         force = {sign * (x[0].x - s[0].x - x[1].x + s[1].x),
+                                  sign * (x[0].y - s[0].y - x[1].y + s[1].y),
                                   sign * (x[0].z - s[0].z - x[1].z + s[1].z)};
                        }),
       friction_spoiled("force 0.1 % too small",
-                       [](const FrictionForceCase&, Vec3f& force, std::array<float, 6>&) { force = {0.999f * force.x, 0.999f * force.y, 0.999f * force.z}; }),
+                       [](const FrictionForceCase&, Vec3f& force, std::array<float, 6>&) {
+                         force = {0.999f * force.x, 0.999f * force.y, 0.999f * force.z};
+                       }),
   };
 }
 

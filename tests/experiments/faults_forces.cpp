@@ -9,7 +9,8 @@ namespace {
 
 /// The right answer to a question that is changed first.
 template <class In, class Change>
-Fault asked_wrongly(const std::string& name, Stage stage, std::function<ForceOut(const In&)> Contestant::*which, Change change) {
+Fault asked_wrongly(const std::string& name, Stage stage, std::function<ForceOut(const In&)> Contestant::*which,
+                    Change change) {
   return {name, stage, [which, change](Contestant& contestant, const Authority&) {
             contestant.*which = [right = contestant.*which, change](const In& in) {
               In other = in;
@@ -21,7 +22,8 @@ Fault asked_wrongly(const std::string& name, Stage stage, std::function<ForceOut
 
 /// The right answer, spoiled case by case.
 template <class In, class Spoil>
-Fault spoiled(const std::string& name, Stage stage, std::function<ForceOut(const In&)> Contestant::*which, Spoil spoil) {
+Fault spoiled(const std::string& name, Stage stage, std::function<ForceOut(const In&)> Contestant::*which,
+              Spoil spoil) {
   return {name, stage, [which, spoil](Contestant& contestant, const Authority&) {
             contestant.*which = [right = contestant.*which, spoil](const In& in) {
               ForceOut out = right(in);
@@ -44,14 +46,17 @@ bool is_closed_by_rounding(const SpringCase& c) {
 
 std::vector<Fault> force_faults() {
   return {
-      asked_wrongly<MembraneIn>("membrane: damping forgotten", Stage::membrane, &Contestant::membrane, [](MembraneCase& c) { c.damping = 0; }),
+      asked_wrongly<MembraneIn>("membrane: damping forgotten", Stage::membrane, &Contestant::membrane,
+                                [](MembraneCase& c) { c.damping = 0; }),
       asked_wrongly<MembraneIn>("membrane: gradients of two corners exchanged", Stage::membrane, &Contestant::membrane,
                                 [](MembraneCase& c) { std::swap(c.gradient[0], c.gradient[1]); }),
-      spoiled<MembraneIn>("membrane: block overwritten by its diagonal", Stage::membrane, &Contestant::membrane,
-                          [](const MembraneCase&, Vec3f&, std::array<float, 6>& block) { block[1] = block[2] = block[4] = 0; }),
+      spoiled<MembraneIn>(
+          "membrane: block overwritten by its diagonal", Stage::membrane, &Contestant::membrane,
+          [](const MembraneCase&, Vec3f&, std::array<float, 6>& block) { block[1] = block[2] = block[4] = 0; }),
       spoiled<MembraneIn>("membrane: force 0.1 % too small", Stage::membrane, &Contestant::membrane,
                           [](const MembraneCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
-      asked_wrongly<BendingIn>("bending: rest angle of the other sign", Stage::bending, &Contestant::bending, [](BendingCase& c) { c.rest_angle = -c.rest_angle; }),
+      asked_wrongly<BendingIn>("bending: rest angle of the other sign", Stage::bending, &Contestant::bending,
+                               [](BendingCase& c) { c.rest_angle = -c.rest_angle; }),
       asked_wrongly<BendingIn>("bending: opposite vertices exchanged", Stage::bending, &Contestant::bending,
                                [](BendingCase& c) { std::swap(c.vertex[2], c.vertex[3]); }),
       spoiled<BendingIn>("bending: half the stiffness in the block", Stage::bending, &Contestant::bending,
@@ -60,7 +65,8 @@ std::vector<Fault> force_faults() {
                          }),
       spoiled<BendingIn>("bending: force 0.1 % too small", Stage::bending, &Contestant::bending,
                          [](const BendingCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
-      asked_wrongly<MembraneIn>("membrane: St. Venant–Kirchhoff for every model", Stage::membrane, &Contestant::membrane,
+      asked_wrongly<MembraneIn>("membrane: St. Venant–Kirchhoff for every model", Stage::membrane,
+                                &Contestant::membrane,
                                 [](MembraneCase& c) { c.model = MembraneModel::st_venant_kirchhoff; }),
       spoiled<MembraneIn>("membrane: stable Neo-Hookean with λ for λ + μ", Stage::membrane, &Contestant::membrane,
                           [](const MembraneCase& c, Vec3f& force, std::array<float, 6>& block) {
@@ -69,14 +75,16 @@ std::vector<Fault> force_faults() {
                             force = {share * force.x, share * force.y, share * force.z};
                             for (float& b : block) b *= share;
                           }),
-      asked_wrongly<MembraneIn>("membrane: damping of strains for that by vertex", Stage::membrane, &Contestant::membrane,
-                                [](MembraneCase& c) { c.damping_form = DampingForm::strain; }),
+      asked_wrongly<MembraneIn>("membrane: damping of strains for that by vertex", Stage::membrane,
+                                &Contestant::membrane, [](MembraneCase& c) { c.damping_form = DampingForm::strain; }),
       asked_wrongly<BendingIn>("bending: isometric weights of the wrong sides", Stage::bending, &Contestant::bending,
                                [](BendingCase& c) { std::swap(c.weight[1], c.weight[2]); }),
       asked_wrongly<BendingIn>("bending: a hinge for the isometric model", Stage::bending, &Contestant::bending,
                                [](BendingCase& c) { c.model = BendingModel::discrete_hinge; }),
-      asked_wrongly<SpringIn>("spring: rest length forgotten", Stage::spring, &Contestant::spring, [](SpringCase& c) { c.rest_length = 0; }),
-      asked_wrongly<SpringIn>("spring: the nearer end of the edge for the point between", Stage::spring, &Contestant::spring,
+      asked_wrongly<SpringIn>("spring: rest length forgotten", Stage::spring, &Contestant::spring,
+                              [](SpringCase& c) { c.rest_length = 0; }),
+      asked_wrongly<SpringIn>("spring: the nearer end of the edge for the point between", Stage::spring,
+                              &Contestant::spring,
                               [](SpringCase& c) {
                                 if (c.own < 2) c.ratio = 0;
                               }),
@@ -84,14 +92,16 @@ std::vector<Fault> force_faults() {
                               [](SpringCase& c) {
                                 if (c.ratio > 0 && c.ratio < 1) c.ratio = 1 - c.ratio;
                               }),
-      asked_wrongly<SpringIn>("spring: damping forgotten", Stage::spring, &Contestant::spring, [](SpringCase& c) { c.damping = 0; }),
+      asked_wrongly<SpringIn>("spring: damping forgotten", Stage::spring, &Contestant::spring,
+                              [](SpringCase& c) { c.damping = 0; }),
       spoiled<SpringIn>("spring: no stiffness across a stretched spring", Stage::spring, &Contestant::spring,
                         [](const SpringCase& c, Vec3f&, std::array<float, 6>& block) {
                           if (c.vertex[0].y == c.vertex[1].y && c.vertex[0].z == c.vertex[1].z) block[3] = block[5] = 0;
                         }),
       spoiled<SpringIn>("spring: force 0.1 % too small", Stage::spring, &Contestant::spring,
                         [](const SpringCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
-      spoiled<SpringIn>("spring: no block where rounding closes a stitch with a rest length", Stage::spring, &Contestant::spring,
+      spoiled<SpringIn>("spring: no block where rounding closes a stitch with a rest length", Stage::spring,
+                        &Contestant::spring,
                         [](const SpringCase& c, Vec3f&, std::array<float, 6>& block) {
                           if (c.rest_length > 0 && is_closed_by_rounding(c)) block = {};
                         }),

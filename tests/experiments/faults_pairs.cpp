@@ -40,7 +40,9 @@ double length(const std::array<Vec3f, 2>& edge) {
 }
 
 EdgeFeature other_end(EdgeFeature feature) {
-  return feature == EdgeFeature::end_0 ? EdgeFeature::end_1 : feature == EdgeFeature::end_1 ? EdgeFeature::end_0 : feature;
+  return feature == EdgeFeature::end_0   ? EdgeFeature::end_1
+         : feature == EdgeFeature::end_1 ? EdgeFeature::end_0
+                                         : feature;
 }
 
 /// The edge of the triangle, or its first corner, whose weight an absolute tolerance took for zero.
@@ -55,16 +57,26 @@ TriangleFeature without_small_weights(const std::array<float, 3>& w, TriangleFea
 
 std::vector<Fault> pair_faults() {
   return {
-      face_fault("closest_face: two weights swapped", [](const auto&, std::size_t i, ClosestFaceOut& out) { std::swap(out.weights[i][0], out.weights[i][1]); }),
+      face_fault(
+          "closest_face: two weights swapped",
+          [](const auto&, std::size_t i, ClosestFaceOut& out) { std::swap(out.weights[i][0], out.weights[i][1]); }),
       face_fault("closest_face: absolute tolerance 1e-5 on the weights",
-                 [](const auto&, std::size_t i, ClosestFaceOut& out) { out.feature[i] = without_small_weights(out.weights[i], out.feature[i]); }),
-      face_fault("closest_face: distances never below 1e-5",
-                 [](const auto&, std::size_t i, ClosestFaceOut& out) { out.distance[i] = std::max(out.distance[i], 1e-5f); }),
+                 [](const auto&, std::size_t i, ClosestFaceOut& out) {
+                   out.feature[i] = without_small_weights(out.weights[i], out.feature[i]);
+                 }),
+      face_fault(
+          "closest_face: distances never below 1e-5",
+          [](const auto&, std::size_t i, ClosestFaceOut& out) { out.distance[i] = std::max(out.distance[i], 1e-5f); }),
       face_fault("closest_face: distance_below one ulp above the exact distance",
-                 [](const auto&, std::size_t i, ClosestFaceOut& out) { out.distance_below[i] = std::nextafter(out.distance_below[i], infinity); }),
-      face_fault("closest_face: distance_below always 0", [](const auto&, std::size_t i, ClosestFaceOut& out) { out.distance_below[i] = 0; }),
+                 [](const auto&, std::size_t i, ClosestFaceOut& out) {
+                   out.distance_below[i] = std::nextafter(out.distance_below[i], infinity);
+                 }),
+      face_fault("closest_face: distance_below always 0",
+                 [](const auto&, std::size_t i, ClosestFaceOut& out) { out.distance_below[i] = 0; }),
       face_fault("closest_face: no number where the distance is 0",
-                 [](const auto&, std::size_t i, ClosestFaceOut& out) { out.distance[i] *= out.distance[i] / out.distance[i]; }),
+                 [](const auto&, std::size_t i, ClosestFaceOut& out) {
+                   out.distance[i] *= out.distance[i] / out.distance[i];
+                 }),
       face_fault("closest_face: on a separating plane the interior wins",
                  [](const auto& in, std::size_t i, ClosestFaceOut& out) {
                    const auto& t = in.triangle[i];
@@ -73,10 +85,13 @@ std::vector<Fault> pair_faults() {
       points_fault("closest_points: rule for nearly parallel edges ignored",
                    [](const auto&, std::size_t i, ClosestPointsOut& out) { out.nearly_parallel[i] = 0; }),
       points_fault("closest_points: ends of the second edge swapped",
-                   [](const auto&, std::size_t i, ClosestPointsOut& out) { out.second_feature[i] = other_end(out.second_feature[i]); }),
+                   [](const auto&, std::size_t i, ClosestPointsOut& out) {
+                     out.second_feature[i] = other_end(out.second_feature[i]);
+                   }),
       points_fault("closest_points: edges shorter than 3.2 mm taken for points",
                    [](const auto& in, std::size_t i, ClosestPointsOut& out) {
-                     if (length(in.first[i]) < 3.2e-3 && out.first_feature[i] == EdgeFeature::interior) out.first_feature[i] = EdgeFeature::end_0;
+                     if (length(in.first[i]) < 3.2e-3 && out.first_feature[i] == EdgeFeature::interior)
+                       out.first_feature[i] = EdgeFeature::end_0;
                    }),
       points_fault("closest_points: distance_below taken between the contact points of nearly parallel edges",
                    [](const auto&, std::size_t i, ClosestPointsOut& out) {

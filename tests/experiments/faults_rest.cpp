@@ -23,7 +23,8 @@ Fault rest_fault(const std::string& name, const SpoilRest& spoil) {
 
 /// The right answer about the start instead of the rest shape.
 Fault start_taken_for_rest() {
-  return {"rest_state: rest shape taken from the start", Stage::rest_state, [](Contestant& contestant, const Authority&) {
+  return {"rest_state: rest shape taken from the start", Stage::rest_state,
+          [](Contestant& contestant, const Authority&) {
             contestant.rest_state = [right = contestant.rest_state](const RestStateIn& in) {
               Scene scene = *in.scene;
               scene.rest_positions = scene.mesh.positions;
@@ -34,13 +35,16 @@ Fault start_taken_for_rest() {
 
 void weightless_without_membrane(const Scene& scene, RestStateOut& out) {
   for (const Body& body : scene.bodies)
-    if (body.material.membrane == MembraneModel::none) std::fill_n(out.mass.begin() + body.first_vertex, body.vertex_count, 0.0f);
+    if (body.material.membrane == MembraneModel::none)
+      std::fill_n(out.mass.begin() + body.first_vertex, body.vertex_count, 0.0f);
 }
 
 void arithmetic_mean(const Scene& scene, RestStateOut& out) {
   std::size_t i = 0;
   for (const Body& a : scene.bodies)
-    for (const Body& b : scene.bodies) out.meetings[i++].stiffness = static_cast<float>((a.material.contact_stiffness + b.material.contact_stiffness) / 2);
+    for (const Body& b : scene.bodies)
+      out.meetings[i++].stiffness = static_cast<float>((a.material.contact_stiffness + b.material.contact_stiffness) /
+                                                       2);
 }
 
 std::vector<Fault> rest_state_faults() {
@@ -78,7 +82,8 @@ std::vector<Fault> rest_state_faults() {
 }
 
 double along(const Vec3f& x, const Vec3f& a, const Vec3f& b) {
-  return (double{x.x} - a.x) * (double{b.x} - a.x) + (double{x.y} - a.y) * (double{b.y} - a.y) + (double{x.z} - a.z) * (double{b.z} - a.z);
+  return (double{x.x} - a.x) * (double{b.x} - a.x) + (double{x.y} - a.y) * (double{b.y} - a.y) +
+         (double{x.z} - a.z) * (double{b.z} - a.z);
 }
 
 using SpoilBlock = std::function<void(const BlockIn&, const BlockQuestion&, std::uint8_t& inside)>;
@@ -97,7 +102,8 @@ CompressedRows without_last(const CompressedRows& rows) {
   CompressedRows shorter;
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     const auto row = rows[i];
-    shorter.items.insert(shorter.items.end(), row.begin(), row.begin() + std::max<std::ptrdiff_t>(0, std::ssize(row) - 1));
+    shorter.items.insert(shorter.items.end(), row.begin(),
+                         row.begin() + std::max<std::ptrdiff_t>(0, std::ssize(row) - 1));
     shorter.offsets.push_back(static_cast<Index>(shorter.items.size()));
   }
   return shorter;
@@ -130,7 +136,8 @@ void close_edge_ends(const BlockIn& in, const BlockQuestion& question, std::uint
 
 /// The first end of the edge stands for its closest point.
 Fault end_for_closest_point() {
-  return {"block: first end taken for an edge's closest point", Stage::block, [](Contestant& contestant, const Authority&) {
+  return {"block: first end taken for an edge's closest point", Stage::block,
+          [](Contestant& contestant, const Authority&) {
             contestant.block = [right = contestant.block](const BlockIn& in) {
               std::vector<BlockQuestion> questions(in.questions.begin(), in.questions.end());
               for (BlockQuestion& q : questions)
@@ -189,9 +196,11 @@ std::vector<Fault> initial_guess_faults() {
                         c.acceleration = {c.acceleration.x / h, c.acceleration.y / h, c.acceleration.z / h};
                       }),
       guessed_wrongly("initial_guess: a held vertex moves", [](InitialGuessCase& c) { c.held = 0; }),
-      guessed_wrongly("initial_guess: truncated about the start of the step", [](InitialGuessCase& c) { c.previous = c.start; }),
+      guessed_wrongly("initial_guess: truncated about the start of the step",
+                      [](InitialGuessCase& c) { c.previous = c.start; }),
       guess_fault("initial_guess: bound ignored by fast movers", ignore_bound_of_fast_movers),
-      guess_fault("initial_guess: held vertices counted as cut", [](const InitialGuessCase& c, std::size_t i, InitialGuessOut& out) { out.cut[i] |= c.held; }),
+      guess_fault("initial_guess: held vertices counted as cut",
+                  [](const InitialGuessCase& c, std::size_t i, InitialGuessOut& out) { out.cut[i] |= c.held; }),
   };
 }
 

@@ -42,7 +42,8 @@ Fault activation_fault(const std::string& name, const SpoilActivation& spoil) {
   return {name, Stage::activation, [spoil](Contestant& contestant, const Authority&) {
             contestant.activation = [right = contestant.activation, spoil](const ActivationIn& in) {
               ActivationOut out = right(in);
-              for (std::size_t i = 0; i < in.distance.size(); ++i) spoil(in.distance[i], in.contact_radius[i], in.stiffness[i], i, out);
+              for (std::size_t i = 0; i < in.distance.size(); ++i)
+                spoil(in.distance[i], in.contact_radius[i], in.stiffness[i], i, out);
               return out;
             };
           }};
@@ -93,14 +94,16 @@ std::vector<Fault> scalar_faults() {
                        [](float d, float r, float k, std::size_t i, ActivationOut& out) {
                          if (d < r / 2) out.energy[i] = -k * r * r / 4 * std::log(d);
                        }),
-      truncate_fault("truncate: flag inverted", [](const auto&, std::size_t i, TruncateOut& out) { out.exceeded[i] = !out.exceeded[i]; }),
+      truncate_fault("truncate: flag inverted",
+                     [](const auto&, std::size_t i, TruncateOut& out) { out.exceeded[i] = !out.exceeded[i]; }),
       truncate_fault("truncate: one ulp too far",
                      [](const auto& in, std::size_t i, TruncateOut& out) {
                        Vec3f& x = out.position[i];
                        const Vec3f& p = in.previous[i];
                        if (out.exceeded[i]) x = {outwards(x.x, p.x), outwards(x.y, p.y), outwards(x.z, p.z)};
                      }),
-      truncate_fault("truncate: not truncated", [](const auto& in, std::size_t i, TruncateOut& out) { out.position[i] = in.position[i]; }),
+      truncate_fault("truncate: not truncated",
+                     [](const auto& in, std::size_t i, TruncateOut& out) { out.position[i] = in.position[i]; }),
       truncate_fault("truncate: stale position copied",
                      [](const auto& in, std::size_t i, TruncateOut& out) {
                        if (out.exceeded[i]) out.position[i] = in.previous[i];

@@ -20,7 +20,8 @@ using SpoilEdges = std::function<void(const DetectIn&, const Authority&, DetectE
 
 Fault facet_fault(const std::string& name, const SpoilFacets& spoil) {
   return {name, Stage::detect_vertex_facet, [spoil](Contestant& contestant, const Authority& authority) {
-            contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, spoil, authority](const DetectIn& in) {
+            contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, spoil,
+                                              authority](const DetectIn& in) {
               DetectVertexFacetOut out = right(in);
               spoil(in, authority, out);
               return out;
@@ -42,7 +43,8 @@ bool has(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == 
 
 bool rigid(const DetectIn& in, std::initializer_list<Index> vertices) {
   const Index group = in.exclusions.groups[*vertices.begin()];
-  return group >= 0 && std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return in.exclusions.groups[v] == group; });
+  return group >= 0 &&
+         std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return in.exclusions.groups[v] == group; });
 }
 
 Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
@@ -52,7 +54,8 @@ Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
   return {FaceKind::triangle, t};
 }
 
-/// Every triangle's closest face within r, without the test of the feasible region: k triangles around an edge seen from within give k contacts.
+/// Every triangle's closest face within r, without the test of the feasible region: k triangles around an edge seen
+/// from within give k contacts.
 void without_feasible_region(const DetectIn& in, const Authority& authority, DetectVertexFacetOut& out) {
   const Topology& topology = *in.topology;
   for (Index v = 0; v < topology.vertex_count; ++v) {
@@ -69,7 +72,8 @@ void without_feasible_region(const DetectIn& in, const Authority& authority, Det
     for (std::size_t i = 0; i < asked.size(); ++i) {
       if (answer.distance[i] >= in.contact_radius) continue;
       const Face face = face_of(topology, asked[i], answer.feature[i]);
-      if (std::none_of(out.contacts.begin(), out.contacts.end(), [&](const auto& c) { return c.vertex == v && c.face == face; }))
+      if (std::none_of(out.contacts.begin(), out.contacts.end(),
+                       [&](const auto& c) { return c.vertex == v && c.face == face; }))
         out.contacts.push_back({v, face, asked[i]});
     }
   }
@@ -101,14 +105,17 @@ void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEd
   const auto [question, asked] = edge_pairs(in);
   const ClosestPointsOut answer = authority.closest_points(question).exact;
   const auto face = [&](Index e, EdgeFeature feature) {
-    return feature == EdgeFeature::interior ? Face{FaceKind::edge, e} : Face{FaceKind::vertex, edges[e][static_cast<std::size_t>(feature)]};
+    return feature == EdgeFeature::interior ? Face{FaceKind::edge, e}
+                                            : Face{FaceKind::vertex, edges[e][static_cast<std::size_t>(feature)]};
   };
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const bool both_ends = answer.first_feature[i] != EdgeFeature::interior && answer.second_feature[i] != EdgeFeature::interior;
+    const bool both_ends = answer.first_feature[i] != EdgeFeature::interior &&
+                           answer.second_feature[i] != EdgeFeature::interior;
     if (both_ends || answer.contact_distance[i] >= in.contact_radius) continue;
     const Face p = face(asked[i][0], answer.first_feature[i]), q = face(asked[i][1], answer.second_feature[i]);
     const EdgeEdgeContact contact{std::min(p, q), std::max(p, q), asked[i][0], asked[i][1]};
-    if (std::none_of(out.contacts.begin(), out.contacts.end(), [&](const auto& c) { return c.first == contact.first && c.second == contact.second; }))
+    if (std::none_of(out.contacts.begin(), out.contacts.end(),
+                     [&](const auto& c) { return c.first == contact.first && c.second == contact.second; }))
       out.contacts.push_back(contact);
   }
 }
@@ -217,19 +224,24 @@ void highest_owner(const DetectIn& in, const Authority&, DetectVertexFacetOut& o
   for (VertexFacetContact& c : out.contacts) {
     if (c.face.kind == FaceKind::triangle) continue;
     const auto index = static_cast<std::size_t>(c.face.index);
-    c.owner = (c.face.kind == FaceKind::edge ? in.topology->edge_triangles[index] : in.topology->vertex_triangles[index]).back();
+    c.owner = (c.face.kind == FaceKind::edge ? in.topology->edge_triangles[index]
+                                             : in.topology->vertex_triangles[index])
+                  .back();
   }
 }
 
 /// The set of the call before.
 template <class Out>
 auto stale() {
-  return [last = std::make_shared<Out>()](const DetectIn&, const Authority&, Out& out) { std::swap(last->contacts, out.contacts); };
+  return [last = std::make_shared<Out>()](const DetectIn&, const Authority&, Out& out) {
+    std::swap(last->contacts, out.contacts);
+  };
 }
 
 /// Pairs inside a rigid group kept.
 Fault groups_ignored() {
-  return {"detect_vertex_facet: rigid groups ignored", Stage::detect_vertex_facet, [](Contestant& contestant, const Authority&) {
+  return {"detect_vertex_facet: rigid groups ignored", Stage::detect_vertex_facet,
+          [](Contestant& contestant, const Authority&) {
             contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet](const DetectIn& in) {
               const std::vector<Index> free(in.positions.size(), -1);
               DetectIn other = in;
@@ -241,15 +253,20 @@ Fault groups_ignored() {
 
 /// Pairs beside a seam kept.
 Fault partners_ignored(Stage stage) {
-  return {std::string(stage_name(stage)) + ": excluded pairs ignored", stage, [stage](Contestant& contestant, const Authority&) {
+  return {std::string(stage_name(stage)) + ": excluded pairs ignored", stage,
+          [stage](Contestant& contestant, const Authority&) {
             const auto without = [](DetectIn in) {
               in.exclusions.partners = nullptr;
               return in;
             };
             if (stage == Stage::detect_vertex_facet)
-              contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, without](const DetectIn& in) { return right(without(in)); };
+              contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, without](const DetectIn& in) {
+                return right(without(in));
+              };
             else
-              contestant.detect_edge_edge = [right = contestant.detect_edge_edge, without](const DetectIn& in) { return right(without(in)); };
+              contestant.detect_edge_edge = [right = contestant.detect_edge_edge, without](const DetectIn& in) {
+                return right(without(in));
+              };
           }};
 }
 
@@ -275,7 +292,9 @@ std::vector<Fault> facet_faults() {
                     for (float& d : out.d_min_vertex) d = std::nextafter(d, infinity);
                   }),
       facet_fault("detect_vertex_facet: d_min of a vertex always 0",
-                  [](const auto&, const auto&, auto& out) { std::fill(out.d_min_vertex.begin(), out.d_min_vertex.end(), 0.0f); }),
+                  [](const auto&, const auto&, auto& out) {
+                    std::fill(out.d_min_vertex.begin(), out.d_min_vertex.end(), 0.0f);
+                  }),
       groups_ignored(),
       partners_ignored(Stage::detect_vertex_facet),
   };

@@ -35,7 +35,8 @@ Fault spoiled(const std::string& name, const std::function<void(const StepIn&, S
 /// max(1, ⌊γ_e K⌋) in place of ⌈γ_e K⌉: as γ_e a little above (⌊γ_e K⌋ − 1)/K.
 void round_threshold_down(Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
-  const auto moving = static_cast<double>(std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; }));
+  const auto moving = static_cast<double>(
+      std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; }));
   const double floor = std::floor(scene.settings.redetect_fraction * moving);
   if (floor >= 1) scene.settings.redetect_fraction = (floor - 0.5) / moving;
 }
@@ -44,7 +45,8 @@ bool is_detection(const StepEvent& event) { return event.kind == StepEventKind::
 
 /// Detections between iterations are left out, whatever was cut.
 void detect_before_iterations_only(const StepIn&, StepOut& out) {
-  const auto first_sweep = std::find_if(out.events.begin(), out.events.end(), [](const StepEvent& event) { return event.kind == StepEventKind::sweep; });
+  const auto first_sweep = std::find_if(out.events.begin(), out.events.end(),
+                                        [](const StepEvent& event) { return event.kind == StepEventKind::sweep; });
   out.events.erase(std::remove_if(first_sweep, out.events.end(), is_detection), out.events.end());
 }
 
@@ -69,7 +71,8 @@ void velocity_from_last_detection(const StepIn& in, StepOut& out) {
   const double h = in.scene->settings.time_step;
   for (std::size_t v = 0; v < out.position.size(); ++v) {
     const Vec3f &x = out.position[v], &p = last->position[v];
-    out.velocity[v] = {static_cast<float>((double{x.x} - p.x) / h), static_cast<float>((double{x.y} - p.y) / h), static_cast<float>((double{x.z} - p.z) / h)};
+    out.velocity[v] = {static_cast<float>((double{x.x} - p.x) / h), static_cast<float>((double{x.y} - p.y) / h),
+                       static_cast<float>((double{x.z} - p.z) / h)};
   }
 }
 
@@ -80,9 +83,11 @@ std::vector<Fault> step_faults() {
       asked_wrongly("threshold rounded down", round_threshold_down),
       asked_wrongly("r_q without its cap", [](Scene& scene) { scene.settings.query_radius_cap = 1000; }),
       asked_wrongly("one iteration too few", [](Scene& scene) { --scene.settings.iterations; }),
-      asked_wrongly("prescribed targets of the next step", [](Scene& scene) {
-        for (PrescribedMotion& motion : scene.motions) motion.start -= scene.settings.time_step, motion.end -= scene.settings.time_step;
-      }),
+      asked_wrongly("prescribed targets of the next step",
+                    [](Scene& scene) {
+                      for (PrescribedMotion& motion : scene.motions)
+                        motion.start -= scene.settings.time_step, motion.end -= scene.settings.time_step;
+                    }),
       spoiled("no detection between iterations", detect_before_iterations_only),
       spoiled("X_prev of the first detection kept", keep_first_previous),
       spoiled("guess loop holds contacts in its first round", hold_in_first_round),

@@ -1,4 +1,5 @@
-// Faults of the sweep: what published solvers get wrong in the order of reading and writing, or leave out of one vertex.
+// Faults of the sweep: what published solvers get wrong in the order of reading and writing, or leave out of one
+// vertex.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,8 +24,12 @@ struct SweepCopy {
   std::vector<float> bound;
 
   explicit SweepCopy(const SweepIn& from)
-      : in(from), scene(*from.scene), colour(from.colour.begin(), from.colour.end()), start(from.start.begin(), from.start.end()),
-        target(from.target.begin(), from.target.end()), bound(from.bound.begin(), from.bound.end()) {
+      : in(from),
+        scene(*from.scene),
+        colour(from.colour.begin(), from.colour.end()),
+        start(from.start.begin(), from.start.end()),
+        target(from.target.begin(), from.target.end()),
+        bound(from.bound.begin(), from.bound.end()) {
     in.scene = &scene;
     in.colour = colour;
     in.start = start;
@@ -97,7 +102,8 @@ Fault truncated_late() {
                 if (length <= in.bound[v]) continue;
                 ++out.cut;
                 const double s = in.bound[v] / length;
-                out.position[v] = reference::stored_within({p.x + s * step[0], p.y + s * step[1], p.z + s * step[2]}, p, in.bound[v]);
+                out.position[v] = reference::stored_within({p.x + s * step[0], p.y + s * step[1], p.z + s * step[2]}, p,
+                                                           in.bound[v]);
               }
               return out;
             };
@@ -106,11 +112,13 @@ Fault truncated_late() {
 
 /// Forces of vertex–facet contacts reach the vertex alone.
 void forget_facets(reference::SweepStencils& stencils) {
-  for (auto& contacts : stencils.vertex_facet) std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
+  for (auto& contacts : stencils.vertex_facet)
+    std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
 }
 
 void forget_last_triangle(reference::SweepStencils& stencils) {
-  const auto row = std::find_if(stencils.triangles.rbegin(), stencils.triangles.rend(), [](const auto& triangles) { return !triangles.empty(); });
+  const auto row = std::find_if(stencils.triangles.rbegin(), stencils.triangles.rend(),
+                                [](const auto& triangles) { return !triangles.empty(); });
   if (row != stencils.triangles.rend()) row->pop_back();
 }
 
@@ -120,7 +128,8 @@ std::vector<Fault> sweep_faults() {
   return {
       asked_wrongly("one contact dropped",
                     [](SweepCopy& copy) {
-                      if (!copy.in.vertex_facet.empty()) copy.in.vertex_facet = copy.in.vertex_facet.first(copy.in.vertex_facet.size() - 1);
+                      if (!copy.in.vertex_facet.empty())
+                        copy.in.vertex_facet = copy.in.vertex_facet.first(copy.in.vertex_facet.size() - 1);
                     }),
       asked_wrongly("plain Jacobi", [](SweepCopy& copy) { change_free(copy, [](Index) { return 0; }); }),
       asked_wrongly("neighbours of higher colour read from the new buffer",
@@ -131,7 +140,8 @@ std::vector<Fault> sweep_faults() {
       asked_wrongly("contacts read fresh within a colour", order_within_colours),
       asked_wrongly("inertia missing on one vertex", forget_one_inertia),
       asked_wrongly("damping forgotten", forget_damping),
-      asked_wrongly("friction and damping since the last iteration", [](SweepCopy& copy) { copy.start.assign(copy.in.old.begin(), copy.in.old.end()); }),
+      asked_wrongly("friction and damping since the last iteration",
+                    [](SweepCopy& copy) { copy.start.assign(copy.in.old.begin(), copy.in.old.end()); }),
       asked_wrongly("prescribed vertices stay", [](SweepCopy& copy) { copy.scene.motions.clear(); }),
       gathered_wrongly("contact forces on one side only", forget_facets),
       gathered_wrongly("a triangle missing at one vertex", forget_last_triangle),

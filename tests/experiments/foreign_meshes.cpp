@@ -134,7 +134,8 @@ TEST_CASE("of a sequence, what was changed is said once", "[unit]") {
   for (const char* frame : {"f_1.obj", "f_2.obj", "f_3.obj"}) folder.write(frame, dressed_obj(plane));
   const ProgramResult result = run_ogc("audit '" + (folder / "f_*.obj").string() + "'");
   CHECK(result.status == 0);
-  CHECK(contains(result.err, {"f_1.obj: 48 faces of more than three corners were cut into 96 triangles (said of this"}));
+  CHECK(
+      contains(result.err, {"f_1.obj: 48 faces of more than three corners were cut into 96 triangles (said of this"}));
   CHECK_FALSE(contains(result.err, {"f_2.obj: 48 faces"}));
 }
 
@@ -152,7 +153,8 @@ TEST_CASE("frames that a run exported are audited and asked for contacts", "[pro
   }
 }
 
-TEST_CASE("the option --no-triangulate and --no-drop-unused refuse what is taken otherwise, and name the option", "[unit]") {
+TEST_CASE("the option --no-triangulate and --no-drop-unused refuse what is taken otherwise, and name the option",
+          "[unit]") {
   const TemporaryFolder folder;
   const StockShape plane = stock_shapes().front();
   const std::string file = write(folder, plane, own_formats[1]);
@@ -170,8 +172,8 @@ TEST_CASE("the option --no-triangulate and --no-drop-unused refuse what is taken
 TEST_CASE("ogc run takes a mesh file as cloth above a ground, with settings that follow from it", "[property]") {
   const TemporaryFolder folder;
   const std::string file = write(folder, stock_shapes()[6], own_formats[1]);
-  const ProgramResult result =
-      run_ogc("run " + file + " --ground -0.6 --steps 60 --audit every --json --out " + (folder / "run").string());
+  const ProgramResult result = run_ogc("run " + file + " --ground -0.6 --steps 60 --audit every --json --out " +
+                                       (folder / "run").string());
   INFO(result.err);
   REQUIRE(result.status == 0);
   CHECK(nlohmann::json::parse(result.out).at("guarantee_kept") == true);

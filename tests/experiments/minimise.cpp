@@ -41,12 +41,14 @@ TEST_CASE("sweeps end at the minimiser up to single precision, and those of a fo
           "[agreement]") {
   const compare::Contestant fast = fast::contestant(fast::Backend::cpu);
   const std::vector<compare::Contestant> wrong{
-      misled(fast, [](compare::SweepIn&, compare::RestStateOut& rest) {
-        for (compare::MeetingMaterial& meeting : rest.meetings) meeting.stiffness *= 0.999F;
-      }),
-      misled(fast, [](compare::SweepIn&, compare::RestStateOut& rest) {
-        for (compare::MeetingMaterial& meeting : rest.meetings) meeting.friction *= 0.99F;
-      }),
+      misled(fast,
+             [](compare::SweepIn&, compare::RestStateOut& rest) {
+               for (compare::MeetingMaterial& meeting : rest.meetings) meeting.stiffness *= 0.999F;
+             }),
+      misled(fast,
+             [](compare::SweepIn&, compare::RestStateOut& rest) {
+               for (compare::MeetingMaterial& meeting : rest.meetings) meeting.friction *= 0.99F;
+             }),
       misled(fast, [](compare::SweepIn& in, compare::RestStateOut&) { in.edge_edge = in.edge_edge.subspan(1); })};
   const std::map<std::string, std::int64_t> steps{
       {"cloth_on_sphere", 22}, {"three_cloths_on_sphere", 22}, {"twist", 600}};

@@ -1,10 +1,12 @@
-// Newton, VBD in double and VBD in single precision, asked for the same step: procedural scenes in which a free sheet is pressed onto another one, free or
-// fixed, friction and damping included.
+// Newton, VBD in double and VBD in single precision, asked for the same step: procedural scenes in which a free sheet
+// is pressed onto another one, free or fixed, friction and damping included.
 //
-// Where a step has one solution, x* with f(x*) = 0 and a Hessian of at least m/(2h²) between the two states, each solver is within 2 h²/m ‖f(x)‖ of it, f(x)
-// the force that is left where it stopped. For this both is checked: the Hessian without half of the inertia has a Cholesky factorisation, and no decision about
-// a contact is at an open boundary, where OGC's force jumps: no decision of the exact detection is grey at either end, and both ends have the same
-// contacts (a VBD that steps back and forth over a boundary for ever ends with others). Elsewhere energies and residuals are compared.
+// Where a step has one solution, x* with f(x*) = 0 and a Hessian of at least m/(2h²) between the two states, each
+// solver is within 2 h²/m ‖f(x)‖ of it, f(x) the force that is left where it stopped. For this both is checked: the
+// Hessian without half of the inertia has a Cholesky factorisation, and no decision about a contact is at an open
+// boundary, where OGC's force jumps: no decision of the exact detection is grey at either end, and both ends have the
+// same contacts (a VBD that steps back and forth over a boundary for ever ends with others). Elsewhere energies and
+// residuals are compared.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -77,7 +79,11 @@ struct End {
 class Pair {
  public:
   explicit Pair(const compare::Scene& scene)
-      : scene_(scene), topology_(build_topology(scene)), groups_(rigid_groups(scene)), meter_(scene), potential_(scene_, topology_) {
+      : scene_(scene),
+        topology_(build_topology(scene)),
+        groups_(rigid_groups(scene)),
+        meter_(scene),
+        potential_(scene_, topology_) {
     const std::vector<Vec3f> start = compare::to_single(scene.mesh.positions);
     meter_.begin_step(start, compare::to_single(scene.velocities), 1);
     start_energy_ = meter_.at(start).energy;
@@ -100,7 +106,8 @@ class Pair {
 
   /// Of the Hessian at the state less m/(2h²).
   bool positive_definite(const End& end) {
-    const reference::State x = reference::widened(end.x), start = reference::widened(compare::to_single(scene_.mesh.positions));
+    const reference::State x = reference::widened(end.x),
+                           start = reference::widened(compare::to_single(scene_.mesh.positions));
     potential_.begin_step(start, start);
     potential_.set_contacts({end.facets.exact.contacts, end.edges.exact.contacts}, x);
     potential_.lag_friction(x);
@@ -108,7 +115,9 @@ class Pair {
     matrix.set_stencils(potential_.vertices());
     matrix.assemble(potential_.inertias(), potential_.derivatives(x, compare::HessianProjection::none).stencil);
     for (std::size_t row = 0; row < matrix.rows(); ++row)
-      matrix.values()[static_cast<std::size_t>(matrix.column_begin()[row])] -= potential_.inertia(matrix.free_vertices()[row / 3]) / 2;
+      matrix.values()[static_cast<std::size_t>(matrix.column_begin()[row])] -= potential_.inertia(
+                                                                                   matrix.free_vertices()[row / 3]) /
+                                                                               2;
     reference::Factor factor;
     factor.analyze(matrix);
     return factor.factorize(matrix);
@@ -139,19 +148,23 @@ class Pair {
 double largest_distance(const End& a, const End& b) {
   double largest = 0;
   for (std::size_t v = 0; v < a.x.size(); ++v)
-    largest = std::max(largest, std::hypot(double{a.x[v].x} - b.x[v].x, double{a.x[v].y} - b.x[v].y, double{a.x[v].z} - b.x[v].z));
+    largest = std::max(
+        largest, std::hypot(double{a.x[v].x} - b.x[v].x, double{a.x[v].y} - b.x[v].y, double{a.x[v].z} - b.x[v].z));
   return largest;
 }
 
 }  // namespace
 
-TEST_CASE("Newton and VBD reach the same state on at least 20 of 24 scenes with contacts, wherever the step has one solution", "[agreement]") {
-  const compare::Contestant single = fast::contestant(fast::Backend::cpu), twice = reference::vbd([&](const compare::Scene& scene) {
-    compare::Scene once = scene;
-    once.settings.iterations = 1;
-    const compare::Topology topology = build_topology(once);
-    return single.step({&once, &topology}).colour;
-  });
+TEST_CASE(
+    "Newton and VBD reach the same state on at least 20 of 24 scenes with contacts, wherever the step has one solution",
+    "[agreement]") {
+  const compare::Contestant single = fast::contestant(fast::Backend::cpu),
+                            twice = reference::vbd([&](const compare::Scene&scene) {
+                              compare::Scene once = scene;
+                              once.settings.iterations = 1;
+                              const compare::Topology topology = build_topology(once);
+                              return single.step({&once, &topology}).colour;
+                            });
   std::map<std::string, int> same;
   std::ostringstream elsewhere;
   for (int number = 0; number < 24; ++number) {
@@ -164,17 +177,20 @@ TEST_CASE("Newton and VBD reach the same state on at least 20 of 24 scenes with 
     std::vector<End> settled;
     for (const compare::Contestant* vbd : {&single, &twice}) {
       const End other = pair.end(end_of_step(*vbd, scene));
-      INFO(vbd->name << ", scene " << number << ": residuals " << newton.residual.share << ", " << other.residual.share);
+      INFO(vbd->name << ", scene " << number << ": residuals " << newton.residual.share << ", "
+                     << other.residual.share);
       if (pair.positive_definite(newton) && pair.away_from_boundaries(newton, other)) {
         ++same[vbd->name];
         CHECK(other.residual.share < 1e-5);
         CHECK(largest_distance(newton, other) <= pair.farthest_apart(newton, other));
-        // The bound is far from tight: measured, single precision ends within 5 nm, a few roundings of coordinates of 3 cm.
+        // The bound is far from tight: measured, single precision ends within 5 nm, a few roundings of coordinates of 3
+        // cm.
         CHECK(largest_distance(newton, other) <= 16 * compare::unit_roundoff * 0.03);
         settled.push_back(other);
       } else {
-        elsewhere << "\n  " << vbd->name << ", scene " << number << ": residual " << other.residual.share << " against " << newton.residual.share << ", energy "
-                  << other.residual.energy << " J against " << newton.residual.energy << " J, " << 1e3 * largest_distance(newton, other) << " mm apart";
+        elsewhere << "\n  " << vbd->name << ", scene " << number << ": residual " << other.residual.share << " against "
+                  << newton.residual.share << ", energy " << other.residual.energy << " J against "
+                  << newton.residual.energy << " J, " << 1e3 * largest_distance(newton, other) << " mm apart";
         CHECK(other.residual.share < 1);
         CHECK(std::abs(other.residual.energy - newton.residual.energy) < pair.start_energy());
       }

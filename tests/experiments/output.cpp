@@ -4,7 +4,8 @@
 
 using namespace ogc;
 
-// FNV-1a, 64 bits: the offset basis for no byte at all; for twelve zero bytes it is the basis times prime^12 modulo 2^64.
+// FNV-1a, 64 bits: the offset basis for no byte at all; for twelve zero bytes it is the basis times prime^12 modulo
+// 2^64.
 TEST_CASE("the state's hash is FNV-1a of the positions' bits", "[unit]") {
   CHECK(experiments::state_hash({}) == "cbf29ce484222325");
   std::uint64_t expected = 0xcbf29ce484222325;
@@ -16,7 +17,8 @@ TEST_CASE("the state's hash is FNV-1a of the positions' bits", "[unit]") {
 }
 
 TEST_CASE("the state's hash sees every bit and the order", "[property]") {
-  const std::vector<compare::Vec3f> a{{1, 2, 3}, {4, 5, 6}}, b{{4, 5, 6}, {1, 2, 3}}, c{{1, 2, 3}, {4, 5, 6.0000005f}}, d{{-0.f, 0, 0}}, e{{0, 0, 0}};
+  const std::vector<compare::Vec3f> a{{1, 2, 3}, {4, 5, 6}}, b{{4, 5, 6}, {1, 2, 3}}, c{{1, 2, 3}, {4, 5, 6.0000005f}},
+      d{{-0.f, 0, 0}}, e{{0, 0, 0}};
   CHECK(experiments::state_hash(a) != experiments::state_hash(b));
   CHECK(experiments::state_hash(a) != experiments::state_hash(c));
   CHECK(experiments::state_hash(d) != experiments::state_hash(e));

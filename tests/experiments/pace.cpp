@@ -166,10 +166,10 @@ TEST_CASE(
   const std::string solver = GENERATE("vbd", "newton", "ipc", "reference_vbd");
   const std::filesystem::path run = folder / "run";
   const Clock::time_point begin = Clock::now();
-  const ProgramResult result =
-      run_ogc("run cloth_on_sphere --scale smoke --steps 100000 --set frame_steps=100000 --solver " + solver +
-                  " --out " + run.string(),
-              "timeout --foreground --preserve-status -k 20 -s INT 2 ");
+  const ProgramResult result = run_ogc(
+      "run cloth_on_sphere --scale smoke --steps 100000 --set frame_steps=100000 --solver " + solver + " --out " +
+          run.string(),
+      "timeout --foreground --preserve-status -k 20 -s INT 2 ");
   INFO(solver << "\n" << result.err);
   CHECK(result.status == 130);
   CHECK(seconds_since(begin) < 10);  // 2 until the signal, 1 to act; the rest for a machine with other work

@@ -22,12 +22,15 @@ std::string text_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-const char* const crossing_triangles_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -0.5\nv 0.3 0.2 0.5\nv 0.2 0.3 0.5\nf 1 2 3\nf 4 5 6\n";
-const char* const parallel_triangles_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.001\nv 1 0 0.001\nv 0 1 0.001\nf 1 2 3\nf 4 5 6\n";
+const char* const crossing_triangles_obj =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -0.5\nv 0.3 0.2 0.5\nv 0.2 0.3 0.5\nf 1 2 3\nf 4 5 6\n";
+const char* const parallel_triangles_obj =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.001\nv 1 0 0.001\nv 0 1 0.001\nf 1 2 3\nf 4 5 6\n";
 
 TemporaryFolder::TemporaryFolder() {
   static std::atomic<int> count{0};
-  path_ = std::filesystem::temp_directory_path() / ("ogc-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+  path_ = std::filesystem::temp_directory_path() /
+          ("ogc-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
   std::filesystem::create_directories(path_);
 }
 

@@ -19,7 +19,8 @@ double pairs_won(const std::vector<double>& before, const std::vector<double>& a
 
 /// By trying each way to choose which of n + m values are the first set's.
 double by_enumeration(const std::vector<double>& before, const std::vector<double>& after) {
-  const double middle = 0.5 * static_cast<double>(before.size() * after.size()), distance = std::abs(pairs_won(before, after) - middle);
+  const double middle = 0.5 * static_cast<double>(before.size() * after.size()),
+               distance = std::abs(pairs_won(before, after) - middle);
   std::vector<int> of_first(before.size() + after.size(), 0);
   std::fill(of_first.end() - static_cast<std::ptrdiff_t>(before.size()), of_first.end(), 1);
   double all = 0, extreme = 0;
@@ -50,7 +51,8 @@ TEST_CASE("the exact probability of Mann and Whitney is the share of orders at l
     }
 }
 
-// 3.5 % is four standard deviations of 4000 draws above 2 % (0.22 %) with room for the steps of the discrete test and the error of the approximation.
+// 3.5 % is four standard deviations of 4000 draws above 2 % (0.22 %) with room for the steps of the discrete test and
+// the error of the approximation.
 TEST_CASE("equal distributions are told apart no more often than the level says, with and without ties", "[property]") {
   std::mt19937 random(7);
   for (const auto& [count, round] : {std::pair<std::size_t, bool>{8, false}, {60, false}, {20, true}}) {

@@ -1,4 +1,5 @@
-// Runs that are cut off, by real signals at random moments, and go on: everything but times comes out as if nothing had happened.
+// Runs that are cut off, by real signals at random moments, and go on: everything but times comes out as if nothing had
+// happened.
 #include <map>
 
 #include "compare/files/bytes.hpp"
@@ -14,16 +15,18 @@ using namespace ogc::tests;
 
 namespace fs = std::filesystem;
 
-TEST_CASE("a run that kill -9, SIGINT or SIGTERM cut off again and again ends with the bits of one that was left alone", "[property]") {
+TEST_CASE("a run that kill -9, SIGINT or SIGTERM cut off again and again ends with the bits of one that was left alone",
+          "[property]") {
   const TemporaryFolder folder;
-  const std::string scene = GENERATE("cloth_on_sphere --scale smoke --audit every", "twist --scale smoke --steps 40 --audit frame --set frame_steps=4");
+  const std::string scene = GENERATE("cloth_on_sphere --scale smoke --audit every",
+                                     "twist --scale smoke --steps 40 --audit frame --set frame_steps=4");
   check_cut_runs(folder / "runs", scene, {"KILL", "INT", "TERM"});
 }
 
 TEST_CASE("every solver resumes to the same bits, with its rows by iteration", "[property]") {
   const TemporaryFolder folder;
-  const std::string options = GENERATE("newton --iterations --steps 12", "ipc --iterations --steps 12", "reference_vbd --steps 8",
-                                       "vbd --iterations --residual --profile --steps 8");
+  const std::string options = GENERATE("newton --iterations --steps 12", "ipc --iterations --steps 12",
+                                       "reference_vbd --steps 8", "vbd --iterations --residual --profile --steps 8");
   check_cut_runs(folder / "runs", "cloth_on_sphere --scale smoke --set frame_steps=2 --solver " + options, {"KILL"});
 }
 
@@ -45,7 +48,8 @@ TEST_CASE("what can't be resumed to the same bits is refused, and the message sa
   refused({"finished run (3 steps)", "--from-state", "frame_000003.h5"});
   rewritten("run.json", "\"finished\"", "\"running\"");
   refused({"leave out: SCENE|FILE.json|MESH, --steps"}, " --steps 9 -- twist");
-  const std::string scene = compare::read_bytes(run / "scene/cloth_on_sphere.json"), checkpoint = compare::read_bytes(run / "checkpoint.h5"),
+  const std::string scene = compare::read_bytes(run / "scene/cloth_on_sphere.json"),
+                    checkpoint = compare::read_bytes(run / "checkpoint.h5"),
                     manifest = compare::read_bytes(run / "run.json");
   rewritten("scene/cloth_on_sphere.json", "\"steps\": 3", "\"steps\": 4");
   refused({"is not the scene that this run was begun with", "scene"});
@@ -146,9 +150,11 @@ TEST_CASE("a run that a full disk ended exits 3, names the file, and goes on to 
 TEST_CASE("a run that is still going on is not resumed by a second program", "[unit]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  const std::string first = "'" OGC_PROGRAM "' run twist --scale small --audit off --out " + run + " > /dev/null 2>&1 & first=$!; ";
-  const ProgramResult second = run_ogc("run --resume " + run + "; status=$?; kill -9 $first; wait $first 2> /dev/null; exit $status",
-                                       first + "while [ ! -e " + run + "/checkpoint.h5 ]; do sleep 0.05; done; ");
+  const std::string first = "'" OGC_PROGRAM "' run twist --scale small --audit off --out " + run +
+                            " > /dev/null 2>&1 & first=$!; ";
+  const ProgramResult second = run_ogc(
+      "run --resume " + run + "; status=$?; kill -9 $first; wait $first 2> /dev/null; exit $status",
+      first + "while [ ! -e " + run + "/checkpoint.h5 ]; do sleep 0.05; done; ");
   INFO(second.err);
   CHECK(second.status == 2);
   CHECK(contains(second.err, {"steps.csv", "another process"}));

@@ -95,12 +95,15 @@ TEST_CASE("a run from a stored frame continues to the same bits", "[property]") 
   const nlohmann::json whole = run(command + "--steps 24 --out " + (folder / "whole").string());
   const nlohmann::json begun = run(command + "--steps 20 --out " + (folder / "begun").string());
   std::filesystem::path last;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "begun/frames")) last = std::max(last, entry.path());
-  const nlohmann::json continued = run(command + "--steps 24 --out " + (folder / "continued").string() + " --from-state " + last.string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "begun/frames"))
+    last = std::max(last, entry.path());
+  const nlohmann::json continued = run(command + "--steps 24 --out " + (folder / "continued").string() +
+                                       " --from-state " + last.string());
   CHECK(continued.at("first_step") == 20);
   CHECK(continued.at("final_hash") == whole.at("final_hash"));
   CHECK(begun.at("final_hash") != whole.at("final_hash"));
-  const ProgramResult other = run_ogc("run twist --scale smoke --from-state " + last.string() + " --out " + (folder / "other").string());
+  const ProgramResult other = run_ogc("run twist --scale smoke --from-state " + last.string() + " --out " +
+                                      (folder / "other").string());
   CHECK(other.status == 2);
   CHECK(contains(other.err, {last.filename().string(), "vertices"}));
 }
@@ -110,12 +113,14 @@ TEST_CASE("a scene file runs like the built-in scene that it was written from", 
   REQUIRE(run_ogc("scenes cloth_on_sphere --scale smoke --write " + (folder / "mine").string()).status == 0);
   const std::string options = " --steps 6 --audit off --out ";
   const nlohmann::json file = run((folder / "mine/cloth_on_sphere.json").string() + options + (folder / "a").string());
-  CHECK(file.at("final_hash") == run("cloth_on_sphere --scale smoke" + options + (folder / "b").string()).at("final_hash"));
+  CHECK(file.at("final_hash") ==
+        run("cloth_on_sphere --scale smoke" + options + (folder / "b").string()).at("final_hash"));
 }
 
 TEST_CASE("the option --set reaches the run and its folder", "[unit]") {
   const TemporaryFolder folder;
-  run("cloth_on_sphere --scale smoke --steps 2 --audit off --set iterations=3 --set friction_velocity=0.02 --out " + (folder / "run").string());
+  run("cloth_on_sphere --scale smoke --steps 2 --audit off --set iterations=3 --set friction_velocity=0.02 --out " +
+      (folder / "run").string());
   const compare::RunReader reader(folder / "run");
   CHECK(reader.scene().settings.iterations == 3);
   CHECK(reader.scene().settings.steps == 2);
@@ -124,11 +129,14 @@ TEST_CASE("the option --set reaches the run and its folder", "[unit]") {
 
 TEST_CASE("an activation, a model or a form of damping that is set is the one that runs", "[property]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> choices{"activation=ogc", "activation=ogc_as_printed", "activation=quadratic", "activation=ipc_log", "activation=cubic",
-                                         "membrane=stable_neo_hookean", "bending=isometric_quadratic", "damping=per_vertex"};
+  const std::vector<std::string> choices{
+      "activation=ogc",   "activation=ogc_as_printed",   "activation=quadratic",        "activation=ipc_log",
+      "activation=cubic", "membrane=stable_neo_hookean", "bending=isometric_quadratic", "damping=per_vertex"};
   std::set<nlohmann::json> hashes;
   for (const std::string& choice : choices)
-    hashes.insert(run("cloth_on_sphere --scale smoke --steps 14 --audit off --set " + choice + " --out " + (folder / choice).string()).at("final_hash"));
+    hashes.insert(run("cloth_on_sphere --scale smoke --steps 14 --audit off --set " + choice + " --out " +
+                      (folder / choice).string())
+                      .at("final_hash"));
   CHECK(hashes.size() == choices.size());
 }
 
@@ -179,10 +187,12 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails(file + " --scale smoke", {"--scale"});
 }
 
-TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee and records its iterations", "[figure]") {
+TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee and records its iterations",
+          "[figure]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --solver newton --steps 8 --audit every --condition --json --out " + run);
+  const ProgramResult result = run_ogc(
+      "run cloth_on_sphere --scale smoke --solver newton --steps 8 --audit every --condition --json --out " + run);
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto summary = nlohmann::json::parse(result.out);
@@ -201,10 +211,13 @@ TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee
   CHECK(first.find("nan") == std::string::npos);  // the condition numbers are there
 }
 
-TEST_CASE("IPC runs a scene into the same sort of folder, without an intersection, and counts its detections by kind", "[figure]") {
+TEST_CASE("IPC runs a scene into the same sort of folder, without an intersection, and counts its detections by kind",
+          "[figure]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 12 --audit every --profile --iterations --json --out " + run);
+  const ProgramResult result = run_ogc(
+      "run cloth_on_sphere --scale smoke --solver ipc --steps 12 --audit every --profile --iterations --json --out " +
+      run);
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto summary = nlohmann::json::parse(result.out);
@@ -218,7 +231,8 @@ TEST_CASE("IPC runs a scene into the same sort of folder, without an intersectio
   }
   CHECK(table.rows.back().vertex_facet_contacts > 0);
   // From a state of another solver, as windows of long runs are timed.
-  const ProgramResult window = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 13 --from-state " + run + "/frames/frame_000012.h5 --out " + run + "_window");
+  const ProgramResult window = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 13 --from-state " + run +
+                                       "/frames/frame_000012.h5 --out " + run + "_window");
   INFO(window.err);
   CHECK(window.status == 0);
 }
@@ -231,7 +245,8 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
       "/frames/frame_000030.h5 --out " + out);
   const compare::StepTable table = compare::read_steps(out);
   REQUIRE(table.rows.size() == 1);
-  REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);  // or those of the end are others
+  // or those of the end are others
+  REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);
   std::ifstream file(folder / "run" / "iterations.csv");
   std::string line, last;
   while (std::getline(file, line)) last = line;
@@ -245,12 +260,15 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
 
 TEST_CASE("vbd in single and in double record their residual over iterations of a step with contacts", "[figure]") {
   const TemporaryFolder folder;
-  const std::string start = (folder / "start").string(), scene = "cloth_on_sphere --scale smoke --set redetect_fraction=0 --set redetect_every=5 --audit end ";
+  const std::string start = (folder / "start").string(),
+                    scene =
+                        "cloth_on_sphere --scale smoke --set redetect_fraction=0 --set redetect_every=5 --audit end ";
   run(scene + "--steps 8 --out " + start);
   std::vector<double> last;
   for (const char* solver : {"vbd", "reference_vbd"}) {
     const std::string out = (folder / solver).string();
-    run(scene + "--steps 9 --set iterations=60 --iterations --profile --from-state " + start + "/frames/frame_000008.h5 --solver " + solver + " --out " + out);
+    run(scene + "--steps 9 --set iterations=60 --iterations --profile --from-state " + start +
+        "/frames/frame_000008.h5 --solver " + solver + " --out " + out);
     const compare::StepTable table = compare::read_steps(out);
     REQUIRE(table.rows.size() == 1);
     last.push_back(table.rows[0].residual);
@@ -272,10 +290,12 @@ TEST_CASE("vbd in single and in double record their residual over iterations of 
 TEST_CASE("the option --residual fills the residual of steps.csv and changes no bit", "[unit]") {
   const TemporaryFolder folder;
   const std::string options = "twist --scale smoke --steps 4 --audit off --out ";
-  const nlohmann::json plain = run(options + (folder / "plain").string()), with = run("--residual " + options + (folder / "with").string());
+  const nlohmann::json plain = run(options + (folder / "plain").string()),
+                       with = run("--residual " + options + (folder / "with").string());
   CHECK(plain.at("final_hash") == with.at("final_hash"));
   for (const compare::StepMetrics& row : compare::read_steps(folder / "plain").rows) CHECK(std::isnan(row.residual));
-  for (const compare::StepMetrics& row : compare::read_steps(folder / "with").rows) CHECK((row.residual > 0 && row.residual < 1));
+  for (const compare::StepMetrics& row : compare::read_steps(folder / "with").rows)
+    CHECK((row.residual > 0 && row.residual < 1));
 }
 
 TEST_CASE("a run says where its time went, in its summary and in run.json", "[unit]") {
@@ -294,16 +314,20 @@ TEST_CASE("a run says where its time went, in its summary and in run.json", "[un
   for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) rows += row.wall_ms / 1000;
   CHECK(seconds.at("steps").get<double>() == Approx(rows));
   const std::map<std::string, std::string> extra = compare::RunReader(folder / "run").provenance().extra;
-  for (const auto& [part, key] :
-       {std::pair{"whole", "whole_seconds"}, {"start", "start_seconds"}, {"steps", "step_seconds"},
-        {"audits", "audit_seconds"}, {"writing", "writing_seconds"}})
+  for (const auto& [part, key] : {std::pair{"whole", "whole_seconds"},
+                                  {"start", "start_seconds"},
+                                  {"steps", "step_seconds"},
+                                  {"audits", "audit_seconds"},
+                                  {"writing", "writing_seconds"}})
     CHECK(std::stod(extra.at(key)) == Approx(seconds.at(part).get<double>()).epsilon(1e-4));
 }
 
-TEST_CASE("a step of Newton's that does not converge exits 1, says what to do and keeps the state before it", "[unit]") {
+TEST_CASE("a step of Newton's that does not converge exits 1, says what to do and keeps the state before it",
+          "[unit]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --solver newton --steps 12 --set newton_iterations=1 --out " + run);
+  const ProgramResult result = run_ogc(
+      "run cloth_on_sphere --scale smoke --solver newton --steps 12 --set newton_iterations=1 --out " + run);
   CHECK(result.status == 1);
   CHECK(contains(result.err, {"did not converge", "newton_iterations", "last good state"}));
   CHECK(compare::RunReader(run).frame_count() > 0);
@@ -316,7 +340,8 @@ TEST_CASE("a scene file whose mesh holds a NaN exits 2 and names the file", "[un
   std::filesystem::path mesh;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "scene"))
     if (entry.path().extension() == ".ply") mesh = std::max(mesh, entry.path());
-  std::ofstream(mesh) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\nelement face 1\n"
+  std::ofstream(mesh) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty "
+                         "double z\nelement face 1\n"
                          "property list uchar int vertex_indices\nend_header\n0 0 1\n1 0 nan\n0 1 1\n3 0 1 2\n";
   const ProgramResult result = run_ogc("run " + file + " --out " + (folder / "run").string());
   INFO(result.err);
@@ -326,7 +351,8 @@ TEST_CASE("a scene file whose mesh holds a NaN exits 2 and names the file", "[un
 
 TEST_CASE("a folder that holds a run is not written over", "[unit]") {
   const TemporaryFolder folder;
-  const std::string command = "run cloth_on_sphere --scale smoke --steps 1 --audit off --out " + (folder / "run").string();
+  const std::string command = "run cloth_on_sphere --scale smoke --steps 1 --audit off --out " +
+                              (folder / "run").string();
   REQUIRE(run_ogc(command).status == 0);
   const ProgramResult again = run_ogc(command);
   CHECK(again.status == 2);
@@ -335,8 +361,8 @@ TEST_CASE("a folder that holds a run is not written over", "[unit]") {
 
 TEST_CASE("without a usable device --backend cuda exits 3 and says why", "[unit]") {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_ogc("run cloth_on_sphere --scale smoke --backend cuda --out " + (folder / "run").string(), "CUDA_VISIBLE_DEVICES= ");
+  const ProgramResult result = run_ogc(
+      "run cloth_on_sphere --scale smoke --backend cuda --out " + (folder / "run").string(), "CUDA_VISIBLE_DEVICES= ");
   INFO(result.err);
   CHECK(result.status == 3);
   CHECK(contains(result.err, {"ogc: ", "CUDA"}));
@@ -346,7 +372,8 @@ TEST_CASE("without a usable device --backend cuda exits 3 and says why", "[unit]
 // A limit on the size of files (blocks of 512 bytes) stands in for a full disk.
 TEST_CASE("a run whose disk is full exits 3 and names the file", "[unit]") {
   const TemporaryFolder folder;
-  const ProgramResult result = run_ogc("run cloth_on_sphere --scale smoke --audit off --out " + (folder / "run").string(), "ulimit -f 8; ");
+  const ProgramResult result = run_ogc(
+      "run cloth_on_sphere --scale smoke --audit off --out " + (folder / "run").string(), "ulimit -f 8; ");
   INFO(result.err);
   CHECK(result.status == 3);
   CHECK(contains(result.err, {"ogc: ", (folder / "run").string()}));
@@ -354,8 +381,8 @@ TEST_CASE("a run whose disk is full exits 3 and names the file", "[unit]") {
 
 TEST_CASE("an interrupted run exits 130 and leaves finished frames and a manifest that says so", "[unit]") {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_ogc("run twist --scale small --audit off --out " + (folder / "run").string(), "timeout --foreground --preserve-status -s INT 2 ");
+  const ProgramResult result = run_ogc("run twist --scale small --audit off --out " + (folder / "run").string(),
+                                       "timeout --foreground --preserve-status -s INT 2 ");
   INFO(result.err);
   CHECK(result.status == 130);
   const compare::RunReader reader(folder / "run");

@@ -1,4 +1,5 @@
-// A run whose simulation is at fault, planted: the audit must catch each fault, stop the run and keep the last good state.
+// A run whose simulation is at fault, planted: the audit must catch each fault, stop the run and keep the last good
+// state.
 #include "experiments/run_session.hpp"
 
 #include <limits>
@@ -80,14 +81,17 @@ class FakeSimulation : public compare::Simulation {
   compare::Snapshot state_;
 };
 
-experiments::RunSummary run(Fault fault, const tests::TemporaryFolder& folder, experiments::AuditMode audit, bool beside = false) {
+experiments::RunSummary run(Fault fault, const tests::TemporaryFolder& folder, experiments::AuditMode audit,
+                            bool beside = false) {
   experiments::RunRequest request;
   request.scene = two_bodies();
   request.audit = audit;
   request.audit_beside = beside;
   request.folder = folder / "run";
   compare::Contestant contestant;
-  contestant.start = [fault](const compare::Scene& scene, const compare::SimulationOptions&) { return std::make_unique<FakeSimulation>(scene, fault); };
+  contestant.start = [fault](const compare::Scene& scene, const compare::SimulationOptions&) {
+    return std::make_unique<FakeSimulation>(scene, fault);
+  };
   experiments::RunSession session(std::move(request), contestant);
   return session.run();
 }
@@ -102,8 +106,10 @@ std::vector<std::int64_t> frame_steps(const tests::TemporaryFolder& folder) {
 }  // namespace
 
 TEST_CASE("a run without fault audits what it was asked to and stores every frame", "[unit]") {
-  const std::vector<std::pair<experiments::AuditMode, std::size_t>> modes{
-      {experiments::AuditMode::every, 12}, {experiments::AuditMode::frame, 4}, {experiments::AuditMode::end, 1}, {experiments::AuditMode::off, 0}};
+  const std::vector<std::pair<experiments::AuditMode, std::size_t>> modes{{experiments::AuditMode::every, 12},
+                                                                          {experiments::AuditMode::frame, 4},
+                                                                          {experiments::AuditMode::end, 1},
+                                                                          {experiments::AuditMode::off, 0}};
   for (const bool beside : {false, true})
     for (const auto& [mode, states] : modes) {
       const tests::TemporaryFolder folder;
@@ -118,10 +124,10 @@ TEST_CASE("a run without fault audits what it was asked to and stores every fram
 }
 
 TEST_CASE("the audit catches each planted fault, names it, and keeps the last good state", "[property]") {
-  const auto [fault, words] =
-      GENERATE(table<Fault, std::string>({{Fault::crossing, "upper"},
-                                          {Fault::beyond_bound, "vertex 1 of body 'upper' (4 in the scene)"},
-                                          {Fault::unsafe_bound, "vertex 2 of body 'upper' (5 in the scene)"}}));
+  const auto [fault, words] = GENERATE(
+      table<Fault, std::string>({{Fault::crossing, "upper"},
+                                 {Fault::beyond_bound, "vertex 1 of body 'upper' (4 in the scene)"},
+                                 {Fault::unsafe_bound, "vertex 2 of body 'upper' (5 in the scene)"}}));
   const bool beside = GENERATE(false, true);
   const tests::TemporaryFolder folder;
   const experiments::RunSummary summary = run(fault, folder, experiments::AuditMode::every, beside);
@@ -143,7 +149,8 @@ TEST_CASE("where only frames are audited a fault is found at the next frame", "[
 }
 
 TEST_CASE("a step that is not finite stops the run with its number and keeps the state before it", "[unit]") {
-  for (const experiments::AuditMode mode : {experiments::AuditMode::every, experiments::AuditMode::frame, experiments::AuditMode::off}) {
+  for (const experiments::AuditMode mode :
+       {experiments::AuditMode::every, experiments::AuditMode::frame, experiments::AuditMode::off}) {
     const tests::TemporaryFolder folder;
     const experiments::RunSummary summary = run(Fault::not_finite, folder, mode, true);
     CHECK(tests::contains(summary.failure, {"not a number", "step 7"}));

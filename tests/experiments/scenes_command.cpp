@@ -28,7 +28,8 @@ TEST_CASE("ogc scenes lists every scene with its sizes", "[unit]") {
 
 TEST_CASE("ogc scenes NAME --write writes a scene file that reads back as the scene", "[unit]") {
   const TemporaryFolder folder;
-  const ProgramResult result = run_ogc("scenes cloth_on_sphere --scale smoke --json --write " + (folder / "mine").string());
+  const ProgramResult result = run_ogc("scenes cloth_on_sphere --scale smoke --json --write " +
+                                       (folder / "mine").string());
   INFO(result.err);
   REQUIRE(result.status == 0);
   const compare::Scene scene = compare::read_scene(nlohmann::json::parse(result.out).at("written").get<std::string>());
@@ -62,8 +63,8 @@ TEST_CASE("ten lines are a scene: the example runs, and its cloth meets the ston
   const TemporaryFolder folder;
   const std::filesystem::path file = OGC_SOURCE_DIR "/experiments/examples/drop/drop.json";
   CHECK(std::ranges::count(compare::read_bytes(file), '\n') <= 10);
-  const ProgramResult result =
-      run_ogc("run " + file.string() + " --audit every --json --out " + (folder / "run").string());
+  const ProgramResult result = run_ogc("run " + file.string() + " --audit every --json --out " +
+                                       (folder / "run").string());
   INFO(result.err);
   REQUIRE(result.status == 0);
   const nlohmann::json json = nlohmann::json::parse(result.out);

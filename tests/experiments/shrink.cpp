@@ -10,7 +10,8 @@
 using namespace ogc;
 using namespace ogc::compare;
 
-TEST_CASE("failing cases of planted faults in the detections shrink to two primitives, as a rule, and still fail", "[agreement]") {
+TEST_CASE("failing cases of planted faults in the detections shrink to two primitives, as a rule, and still fail",
+          "[agreement]") {
   const Authority authority = reference::authority();
   std::vector<std::size_t> counts;
   for (const tests::Fault& fault : tests::set_faults()) {
@@ -23,14 +24,17 @@ TEST_CASE("failing cases of planted faults in the detections shrink to two primi
     const StageReport report = judge_stage(fault.stage, wrong, authority, options);
     if (report.tally.mismatches.empty()) continue;
     const Mismatch& mismatch = report.tally.mismatches[0];
-    const TestCase small = shrink_failure(generate(mismatch.name), mismatch.message, wrong, authority, {.tries = 1000, .seconds = 2});
+    const TestCase small = shrink_failure(generate(mismatch.name), mismatch.message, wrong, authority,
+                                          {.tries = 1000, .seconds = 2});
     INFO(fault.name << ": " << primitive_count(small.data));
     const auto again = judge_cases({&small, 1}, wrong, authority);
-    if (fault.name.find("stale") == std::string::npos) CHECK(again[0].tally.mismatched > 0);  // a stale answer depends on what was asked before
+    // a stale answer depends on what was asked before
+    if (fault.name.find("stale") == std::string::npos) CHECK(again[0].tally.mismatched > 0);
     counts.push_back(primitive_count(small.data));
   }
   REQUIRE(counts.size() > 10);
   std::sort(counts.begin(), counts.end());
   CHECK(counts[counts.size() / 2] <= 2);
-  CHECK(std::count_if(counts.begin(), counts.end(), [](std::size_t n) { return n <= 2; }) >= static_cast<std::ptrdiff_t>(counts.size() * 3 / 4));
+  CHECK(std::count_if(counts.begin(), counts.end(), [](std::size_t n) { return n <= 2; }) >=
+        static_cast<std::ptrdiff_t>(counts.size() * 3 / 4));
 }

@@ -41,10 +41,12 @@ TEST_CASE("every stage has a contract, a reference, a CPU and a CUDA implementat
     CHECK(std::filesystem::exists(tree / std::string(info.reference)));
     CHECK(has_stem({"fast/kernels", "fast/stages"}, name));
     CHECK(can_judge(info.stage, host, authority));
-    if (fast::backend_info(fast::Backend::cuda).usable) CHECK(can_judge(info.stage, fast::contestant(fast::Backend::cuda), authority));
+    if (fast::backend_info(fast::Backend::cuda).usable)
+      CHECK(can_judge(info.stage, fast::contestant(fast::Backend::cuda), authority));
   }
   // Both backends instantiate one list of probes: what the CPU has, CUDA has.
-  for (const char* file : {"fast/cpu/probes.cpp", "fast/cuda/probes.cu"}) CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
+  for (const char* file : {"fast/cpu/probes.cpp", "fast/cuda/probes.cu"})
+    CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
 }
 
 TEST_CASE("agreement tests of CPU and CUDA go over all stages", "[unit]") {
@@ -57,7 +59,8 @@ TEST_CASE("agreement tests of CPU and CUDA go over all stages", "[unit]") {
 }
 
 TEST_CASE("the table of stages in compare/README.md is the one that ogc compare --list --markdown prints", "[unit]") {
-  const std::string readme = read("compare/README.md"), begin = "<!-- ogc compare --list --markdown -->\n", end = "<!-- end of the list -->";
+  const std::string readme = read("compare/README.md"), begin = "<!-- ogc compare --list --markdown -->\n",
+                    end = "<!-- end of the list -->";
   const auto from = readme.find(begin);
   REQUIRE(from != std::string::npos);
   const std::string table = readme.substr(from + begin.size(), readme.find(end) - from - begin.size());
@@ -67,13 +70,15 @@ TEST_CASE("the table of stages in compare/README.md is the one that ogc compare 
   CHECK(printed.out == table);
 }
 
-TEST_CASE("every stage has at least three planted faults, and the table in compare/README.md names all of them", "[unit]") {
+TEST_CASE("every stage has at least three planted faults, and the table in compare/README.md names all of them",
+          "[unit]") {
   std::map<Stage, int> by_stage;
   int number = 0;
   const std::string table = read("compare/README.md");
   for (const tests::Fault& fault : tests::faults()) {
     ++by_stage[fault.stage];
-    const std::string row = "| " + std::to_string(++number) + " | " + std::string(stage_name(fault.stage)) + " | " + fault.name.substr(fault.name.find(": ") + 2) + " | ";
+    const std::string row = "| " + std::to_string(++number) + " | " + std::string(stage_name(fault.stage)) + " | " +
+                            fault.name.substr(fault.name.find(": ") + 2) + " | ";
     INFO(row);
     CHECK(table.find(row) != std::string::npos);
   }
@@ -86,10 +91,12 @@ TEST_CASE("every stage has at least three planted faults, and the table in compa
 
 TEST_CASE("the list of stages names generators and parameters of each", "[unit]") {
   const std::string list = experiments::stage_list_text();
-  REQUIRE(tests::contains(list, {"detect_edge_edge", "ladder.strands", "parameters: r, r_q", "parameters: none", "cpu_to_gpu"}));
+  REQUIRE(tests::contains(
+      list, {"detect_edge_edge", "ladder.strands", "parameters: r, r_q", "parameters: none", "cpu_to_gpu"}));
 }
 
-TEST_CASE("the CPU gives the same bits again, on one and two threads, shuffled and in small batches, in every stage", "[agreement]") {
+TEST_CASE("the CPU gives the same bits again, on one and two threads, shuffled and in small batches, in every stage",
+          "[agreement]") {
   for (const DeterminismReport& report : experiments::determinism_of(fast::Backend::cpu, all_stages, 1000, 5)) {
     INFO(stage_name(report.stage) << (report.changed.empty() ? "" : ": " + report.changed[0]));
     CHECK_FALSE(report.skipped);
@@ -132,20 +139,25 @@ TEST_CASE("answers that depend on their company, or change from call to call, ar
   CHECK(check_determinism(Stage::bound, 60, 1, odd, authority, {}).changed.size() >= 1);
 }
 
-TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision boundary, where it has one", "[agreement]") {
+TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision boundary, where it has one",
+          "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant exact = tests::exact_contestant(authority);
   for (const StageInfo& info : stage_table()) {
     if (!info.has_boundary) continue;
     JudgeOptions options;
-    options.cases = is_mesh_stage(info.stage) ? 30000 : 5000;  // so many that whole meshes and batches change the generators' shares little
+    // so many that whole meshes and batches change the generators' shares little
+    options.cases = is_mesh_stage(info.stage) ? 30000 : 5000;
     const StageReport report = judge_stage(info.stage, exact, authority, options);
     INFO(stage_name(info.stage));
     CHECK(report.tally.near_share() >= 0.5);
   }
 }
 
-TEST_CASE("of the meshes that large runs are made of half of the cases lie within 1024 ulp of a boundary too, and the reference passes", "[agreement]") {
+TEST_CASE(
+    "of the meshes that large runs are made of half of the cases lie within 1024 ulp of a boundary too, and the "
+    "reference passes",
+    "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant exact = tests::exact_contestant(authority);
   for (const Stage stage : {Stage::block, Stage::detect_vertex_facet, Stage::detect_edge_edge}) {

@@ -226,11 +226,11 @@ std::string ascii_ply(const StockShape& shape) {
 }
 
 std::string little_endian_ply(const StockShape& shape) {
-  std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(shape.positions.size()) +
-      "\nproperty float x\nproperty float y\nproperty float z\nelement material 1\nproperty double shine\nelement face " +
-      std::to_string(shape.faces.size()) +
-      "\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\nend_header\n";
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(shape.positions.size()) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement material 1\nproperty double "
+                      "shine\nelement face " +
+                      std::to_string(shape.faces.size()) +
+                      "\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\nend_header\n";
   for (const Vec3& p : shape.positions) append_point(bytes, p);
   append(bytes, 1.0);
   for (const auto& face : shape.faces) {
@@ -295,7 +295,8 @@ std::string glb(const StockShape& shape) {
   });
   const std::string size = std::to_string(corners.size()), count = std::to_string(corners.size() / 12);
   const std::string json = padded(
-      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[0,4,0]}],"meshes":[{"primitives":[{"attributes":)"
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[0,4,0]}],)"
+      R"("meshes":[{"primitives":[{"attributes":)"
       R"({"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" +
           count + R"(,"type":"VEC3","min":[-2,-2,-2],"max":[2,2,2]}],"bufferViews":[{"buffer":0,"byteLength":)" + size +
           R"(}],"buffers":[{"byteLength":)" + size + "}]}",

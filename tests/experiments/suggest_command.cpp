@@ -42,15 +42,16 @@ compare::Mesh layers(double gap) {
 
 }  // namespace
 
-TEST_CASE("the run that ogc suggest prints lands, keeps distances above 0 on the way, and is not warned of", "[property]") {
+TEST_CASE("the run that ogc suggest prints lands, keeps distances above 0 on the way, and is not warned of",
+          "[property]") {
   for (const compare::Mesh& mesh : {experiments::grid(10, 0.5, 1), layers(0.02), layers(0.004)}) {
     const TemporaryFolder folder;
     compare::write_mesh(folder / "mesh.obj", mesh);
     const nlohmann::json suggestion = suggested(folder / "mesh.obj", "--fall 0.02");
     const std::string command = suggestion.at("command");
     REQUIRE(command.starts_with("ogc run "));
-    const ProgramResult result =
-        run_ogc(command.substr(4) + " --audit every --json --out " + (folder / "run").string());
+    const ProgramResult result = run_ogc(command.substr(4) + " --audit every --json --out " +
+                                         (folder / "run").string());
     INFO(command << "\n" << result.err);
     REQUIRE(result.status == 0);
     const nlohmann::json summary = nlohmann::json::parse(result.out);

@@ -37,7 +37,10 @@ fast::ContactFinder finder_of(const tests::TestMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("contact_sets: a finder gives the sets of the contestant's stages, on the host and where it computes, also after it was moved", "[unit]") {
+TEST_CASE(
+    "contact_sets: a finder gives the sets of the contestant's stages, on the host and where it computes, also after "
+    "it was moved",
+    "[unit]") {
   const tests::TestMesh mesh = two_sheets();
   fast::ContactFinder first = finder_of(mesh);
   fast::ContactFinder finder = std::move(first);
@@ -49,7 +52,9 @@ TEST_CASE("contact_sets: a finder gives the sets of the contestant's stages, on 
   CHECK(sets.vertex_facet == cpu.detect_vertex_facet(in).contacts);
   CHECK(sets.d_min_triangle == cpu.detect_vertex_facet(in).d_min_triangle);
   CHECK(sets.edge_edge == cpu.detect_edge_edge(in).contacts);
-  CHECK(sets.bound == cpu.bound({&finder.topology(), sets.d_min_vertex, sets.d_min_edge, sets.d_min_triangle, query.bound_relaxation}).bound);
+  CHECK(sets.bound ==
+        cpu.bound({&finder.topology(), sets.d_min_vertex, sets.d_min_edge, sets.d_min_triangle, query.bound_relaxation})
+            .bound);
   const fast::ContactView view = finder.find_resident(mesh.positions.data(), query);
   CHECK(*view.vertex_facet_count == static_cast<int>(sets.vertex_facet.size()));
   CHECK(*view.edge_edge_count == static_cast<int>(sets.edge_edge.size()));
@@ -67,7 +72,8 @@ TEST_CASE("contact_sets: far more contacts than the first guess of the lists are
 TEST_CASE("contact_sets: wrong input is refused with the element's name", "[unit]") {
   const tests::TestMesh mesh = two_sheets();
   const std::vector<compare::Triangle> beyond{{0, 1, 2}, {0, 1, 3}}, twice{{0, 1, 1}};
-  const std::string outside = error_of([&] { fast::ContactFinder(3, beyond); }), repeated = error_of([&] { fast::ContactFinder(3, twice); });
+  const std::string outside = error_of([&] { fast::ContactFinder(3, beyond); }),
+                    repeated = error_of([&] { fast::ContactFinder(3, twice); });
   CHECK((names(outside, "triangle 1") && names(outside, "vertex 3")));
   CHECK((names(repeated, "triangle 0") && names(repeated, "twice")));
   fast::ContactFinder finder = finder_of(mesh);
@@ -78,7 +84,8 @@ TEST_CASE("contact_sets: wrong input is refused with the element's name", "[unit
   CHECK(names(error_of([&] { finder.find(broken, good); }), "vertex 9 is not finite"));
   CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.2F, .query_radius = 0.1F}), compare::InputError);
   CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0, .query_radius = 0.1F}), compare::InputError);
-  CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = 0.1F, .bound_relaxation = 0.5F}), compare::InputError);
+  CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = 0.1F, .bound_relaxation = 0.5F}),
+                  compare::InputError);
   const std::vector<compare::Index> groups(3, 0);
   CHECK_THROWS_AS(fast::ContactFinder(72, mesh.triangles, {}, fast::Backend::cpu, groups), compare::InputError);
 }

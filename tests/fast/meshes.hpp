@@ -30,7 +30,8 @@ struct TestMesh {
 inline TestMesh sheet(int n, float step, float y) {
   TestMesh surface;
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) surface.positions.push_back({static_cast<float>(i) * step, y, static_cast<float>(j) * step});
+    for (int i = 0; i < n; ++i)
+      surface.positions.push_back({static_cast<float>(i) * step, y, static_cast<float>(j) * step});
   }
   for (int j = 0; j + 1 < n; ++j) {
     for (int i = 0; i + 1 < n; ++i) {

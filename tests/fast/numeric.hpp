@@ -1,4 +1,5 @@
-// Double-precision vectors, differences and random placements for the tests of the energies. Energies are written here once more, from their definitions.
+// Double-precision vectors, differences and random placements for the tests of the energies. Energies are written here
+// once more, from their definitions.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ inline double& axis(D3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 inline double axis(const D3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 /// −∂E/∂x_v by central differences with the given step [m].
-inline D3 force_by_differences(const std::function<double(const std::vector<D3>&)>& energy, std::vector<D3> x, std::size_t v, double step) {
+inline D3 force_by_differences(const std::function<double(const std::vector<D3>&)>& energy, std::vector<D3> x,
+                               std::size_t v, double step) {
   D3 force;
   for (int k = 0; k < 3; ++k) {
     const double at = axis(x[v], k);
@@ -36,7 +38,9 @@ inline D3 force_by_differences(const std::function<double(const std::vector<D3>&
   return force;
 }
 
-inline std::array<double, 9> dense(const Symmetric3& h) { return {h.xx, h.xy, h.xz, h.xy, h.yy, h.yz, h.xz, h.yz, h.zz}; }
+inline std::array<double, 9> dense(const Symmetric3& h) {
+  return {h.xx, h.xy, h.xz, h.xy, h.yy, h.yz, h.xz, h.yz, h.zz};
+}
 
 inline double largest_difference(const std::array<double, 9>& a, const std::array<double, 9>& b) {
   double worst = 0;
@@ -50,7 +54,8 @@ inline double least_curvature(const Symmetric3& h, std::mt19937& random) {
   double least = INFINITY;
   for (int i = 0; i < 50; ++i) {
     const D3 u{normal(random), normal(random), normal(random)};
-    const double q = h.xx * u.x * u.x + h.yy * u.y * u.y + h.zz * u.z * u.z + 2 * (h.xy * u.x * u.y + h.xz * u.x * u.z + h.yz * u.y * u.z);
+    const double q = h.xx * u.x * u.x + h.yy * u.y * u.y + h.zz * u.z * u.z +
+                     2 * (h.xy * u.x * u.y + h.xz * u.x * u.z + h.yz * u.y * u.z);
     least = std::min(least, q / dot(u, u));
   }
   return least;

@@ -8,7 +8,8 @@
 namespace ogc::fast::test {
 
 /// Adds n × n vertices on side × side [m] in the plane y = height, centred on the y axis, with one material.
-inline compare::Body& add_sheet(compare::Scene& scene, compare::Index n, double side, double height, bool fixed, const compare::Material& material = {}) {
+inline compare::Body& add_sheet(compare::Scene& scene, compare::Index n, double side, double height, bool fixed,
+                                const compare::Material& material = {}) {
   compare::Body body;
   body.name = "sheet " + std::to_string(scene.bodies.size());
   body.first_vertex = static_cast<compare::Index>(scene.mesh.positions.size());
@@ -18,7 +19,8 @@ inline compare::Body& add_sheet(compare::Scene& scene, compare::Index n, double 
   body.fixed = fixed;
   body.material = material;
   for (compare::Index i = 0; i < n; ++i) {
-    for (compare::Index j = 0; j < n; ++j) scene.mesh.positions.push_back({side * (i / (n - 1.0) - 0.5), height, side * (j / (n - 1.0) - 0.5)});
+    for (compare::Index j = 0; j < n; ++j)
+      scene.mesh.positions.push_back({side * (i / (n - 1.0) - 0.5), height, side * (j / (n - 1.0) - 0.5)});
   }
   for (compare::Index i = 0; i + 1 < n; ++i) {
     for (compare::Index j = 0; j + 1 < n; ++j) {

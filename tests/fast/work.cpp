@@ -30,10 +30,12 @@ fast::SearchWork work_of(const compare::Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand", "[unit]") {
-  // Trees of four primitives a node. Edges: six in two leaves under a root; each of the six searches opens the root and the second leaf, and the three at places
-  // 0 to 2, which look at places up to 3, the first leaf, too: 6 + 6 + 3. Vertices: six searches through root and leaf of two facets: 12.
-  // Edges are offered those behind them: 15 pairs. Vertices are offered both facets: 12. What shares a vertex has no distance: 3 · 3 edges and 3 + 3 vertices do.
+TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand",
+          "[unit]") {
+  // Trees of four primitives a node. Edges: six in two leaves under a root; each of the six searches opens the root and
+  // the second leaf, and the three at places 0 to 2, which look at places up to 3, the first leaf, too: 6 + 6 + 3.
+  // Vertices: six searches through root and leaf of two facets: 12. Edges are offered those behind them: 15 pairs.
+  // Vertices are offered both facets: 12. What shares a vertex has no distance: 3 · 3 edges and 3 + 3 vertices do.
   const fast::SearchWork work = work_of(two_triangles(0.1, 10));
   CHECK(work.nodes == 15 + 12);
   CHECK(work.candidates == 15 + 12);

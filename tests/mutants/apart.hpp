@@ -79,9 +79,12 @@ Ended apart(double seconds, Work work) {
   for (const timeval& time : {used.ru_utime, used.ru_stime})
     ended.seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   const int sent = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (sent == SIGPROF) ended.ending = Ending::late;
-  else if (sent == SIGALRM) ended.ending = Ending::still;
-  else if (sent != 0) ended = {Ending::crashes, "signal " + std::to_string(sent), ended.seconds};
+  if (sent == SIGPROF)
+    ended.ending = Ending::late;
+  else if (sent == SIGALRM)
+    ended.ending = Ending::still;
+  else if (sent != 0)
+    ended = {Ending::crashes, "signal " + std::to_string(sent), ended.seconds};
   else if (WEXITSTATUS(status) != 0)
     ended = {Ending::crashes, "exit status " + std::to_string(WEXITSTATUS(status)), ended.seconds};
   return ended;

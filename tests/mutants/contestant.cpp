@@ -7,6 +7,8 @@
 
 namespace ogc::tests {
 
-compare::Contestant mutant_contestant() { return fast::probe_contestant("mutant", std::make_shared<fast::CpuBackend>()); }
+compare::Contestant mutant_contestant() {
+  return fast::probe_contestant("mutant", std::make_shared<fast::CpuBackend>());
+}
 
 }  // namespace ogc::tests

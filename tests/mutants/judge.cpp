@@ -43,9 +43,9 @@ using namespace ogc::compare;
 using namespace ogc::tests;
 
 constexpr double slow_factor = 10;
-constexpr double least_time = 0.1;        ///< taken for the time of what takes less [s of the processor]
-constexpr double longest = 300;           ///< of a part or a test without any mutant [s of the processor]
-constexpr int most_slow = 3;              ///< parts and tests that are waited for before a mutant counts as slow
+constexpr double least_time = 0.1;  ///< taken for the time of what takes less [s of the processor]
+constexpr double longest = 300;     ///< of a part or a test without any mutant [s of the processor]
+constexpr int most_slow = 3;        ///< parts and tests that are waited for before a mutant counts as slow
 
 /// What is judged on a thread just now. `round`: 0 while truth is found.
 struct Moment {

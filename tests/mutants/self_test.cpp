@@ -44,7 +44,8 @@ void check_parallel() {
     check(squares[i] == (i == 7 ? "" : std::to_string(i * i)), "answers are mixed up");
   int left = 5;
   const auto start = std::chrono::steady_clock::now();
-  hand_out(1, 1000, [](std::size_t) { usleep(100000); }, [&] { return left-- > 0; });
+  hand_out(
+      1, 1000, [](std::size_t) { usleep(100000); }, [&] { return left-- > 0; });
   check(seconds_since(start) < 5, "work is handed out beyond the end");
 }
 

@@ -1,13 +1,14 @@
-// Mutants behind a switch: tests/mutants.py rewrites `a < b` to `a < Less{17} < b`, which is the same until mutant 17 is switched on. So one build holds all
-// mutants, and what is rewritten keeps its precedence. Each struct stands for the ids from its own on, one for each of its alternatives.
+// Mutants behind a switch: tests/mutants.py rewrites `a < b` to `a < Less{17} < b`, which is the same until mutant 17
+// is switched on. So one build holds all mutants, and what is rewritten keeps its precedence. Each struct stands for
+// the ids from its own on, one for each of its alternatives.
 #pragma once
 
 #include <type_traits>
 
 namespace ogc_mutant {
 
-inline int active = 0;           ///< 0: none
-inline bool recording = false;   ///< note which mutants are reached
+inline int active = 0;          ///< 0: none
+inline bool recording = false;  ///< note which mutants are reached
 inline bool reached[1 << 15] = {};
 
 inline bool hit(int id) {
@@ -23,23 +24,23 @@ struct Left {
 };
 
 // What a comparison gives: a bool, or a mask of a pack; operators that packs lack are left out.
-#define OGC_MUTANT_COMPARISON(Name, op, one, other)                                              \
-  struct Name {                                                                                  \
-    int id;                                                                                      \
-  };                                                                                             \
-  template <class A>                                                                             \
-  constexpr Left<A, Name> operator op(A a, Name m) {                                             \
-    return {a, m.id};                                                                            \
-  }                                                                                              \
-  template <class A, class B>                                                                    \
-  constexpr auto operator op(Left<A, Name> left, const B& b)->decltype(left.a op b) {            \
-    if constexpr (requires { left.a one b; }) {                                                  \
-      if (on(left.id)) return left.a one b;                                                      \
-    }                                                                                            \
-    if constexpr (requires { left.a other b; }) {                                                \
-      if (on(left.id + 1)) return left.a other b;                                                \
-    }                                                                                            \
-    return left.a op b;                                                                          \
+#define OGC_MUTANT_COMPARISON(Name, op, one, other)                                   \
+  struct Name {                                                                       \
+    int id;                                                                           \
+  };                                                                                  \
+  template <class A>                                                                  \
+  constexpr Left<A, Name> operator op(A a, Name m) {                                  \
+    return {a, m.id};                                                                 \
+  }                                                                                   \
+  template <class A, class B>                                                         \
+  constexpr auto operator op(Left<A, Name> left, const B& b)->decltype(left.a op b) { \
+    if constexpr (requires { left.a one b; }) {                                       \
+      if (on(left.id)) return left.a one b;                                           \
+    }                                                                                 \
+    if constexpr (requires { left.a other b; }) {                                     \
+      if (on(left.id + 1)) return left.a other b;                                     \
+    }                                                                                 \
+    return left.a op b;                                                               \
   }
 OGC_MUTANT_COMPARISON(Less, <, <=, >=)
 OGC_MUTANT_COMPARISON(Greater, >, >=, <=)
@@ -47,41 +48,41 @@ OGC_MUTANT_COMPARISON(LessEqual, <=, <, >)
 OGC_MUTANT_COMPARISON(GreaterEqual, >=, >, <)
 #undef OGC_MUTANT_COMPARISON
 
-#define OGC_MUTANT_EQUALITY(Name, op, one)                      \
-  struct Name {                                                 \
-    int id;                                                     \
-  };                                                            \
-  template <class A>                                            \
-  constexpr Left<A, Name> operator op(A a, Name m) {            \
-    return {a, m.id};                                           \
-  }                                                             \
-  template <class A, class B>                                   \
-  constexpr bool operator op(Left<A, Name> left, const B& b) {  \
-    return on(left.id) ? left.a one b : left.a op b;            \
+#define OGC_MUTANT_EQUALITY(Name, op, one)                     \
+  struct Name {                                                \
+    int id;                                                    \
+  };                                                           \
+  template <class A>                                           \
+  constexpr Left<A, Name> operator op(A a, Name m) {           \
+    return {a, m.id};                                          \
+  }                                                            \
+  template <class A, class B>                                  \
+  constexpr bool operator op(Left<A, Name> left, const B& b) { \
+    return on(left.id) ? left.a one b : left.a op b;           \
   }
 OGC_MUTANT_EQUALITY(Equal, ==, !=)
 OGC_MUTANT_EQUALITY(Unequal, !=, ==)
 #undef OGC_MUTANT_EQUALITY
 
 // The other operator where it gives the same type, and the left operand alone.
-#define OGC_MUTANT_ARITHMETIC(Name, op, one)                                                     \
-  struct Name {                                                                                  \
-    int id;                                                                                      \
-  };                                                                                             \
-  template <class A>                                                                             \
-  constexpr Left<A, Name> operator op(A a, Name m) {                                             \
-    return {a, m.id};                                                                            \
-  }                                                                                              \
-  template <class A, class B>                                                                    \
-  constexpr auto operator op(Left<A, Name> left, const B& b)->decltype(left.a op b) {            \
-    using Result = decltype(left.a op b);                                                        \
-    if constexpr (requires { requires std::is_same_v<decltype(left.a one b), Result>; }) {       \
-      if (on(left.id)) return left.a one b;                                                      \
-    }                                                                                            \
-    if constexpr (std::is_convertible_v<A, Result>) {                                            \
-      if (on(left.id + 1)) return left.a;                                                        \
-    }                                                                                            \
-    return left.a op b;                                                                          \
+#define OGC_MUTANT_ARITHMETIC(Name, op, one)                                               \
+  struct Name {                                                                            \
+    int id;                                                                                \
+  };                                                                                       \
+  template <class A>                                                                       \
+  constexpr Left<A, Name> operator op(A a, Name m) {                                       \
+    return {a, m.id};                                                                      \
+  }                                                                                        \
+  template <class A, class B>                                                              \
+  constexpr auto operator op(Left<A, Name> left, const B& b)->decltype(left.a op b) {      \
+    using Result = decltype(left.a op b);                                                  \
+    if constexpr (requires { requires std::is_same_v<decltype(left.a one b), Result>; }) { \
+      if (on(left.id)) return left.a one b;                                                \
+    }                                                                                      \
+    if constexpr (std::is_convertible_v<A, Result>) {                                      \
+      if (on(left.id + 1)) return left.a;                                                  \
+    }                                                                                      \
+    return left.a op b;                                                                    \
   }
 OGC_MUTANT_ARITHMETIC(Plus, +, -)
 OGC_MUTANT_ARITHMETIC(Minus, -, +)
@@ -108,8 +109,10 @@ constexpr bool negated(int id, const A& a) {
 /// A number doubled or halved; of whole numbers and 0: one more or one less.
 template <class A>
 constexpr A literal(int id, A a) {
-  if constexpr (std::is_integral_v<A>) return on(id) ? a + 1 : on(id + 1) ? a - 1 : a;
-  else return on(id) ? (a == 0 ? 1 : 2 * a) : on(id + 1) ? (a == 0 ? -1 : a / 2) : a;
+  if constexpr (std::is_integral_v<A>)
+    return on(id) ? a + 1 : on(id + 1) ? a - 1 : a;
+  else
+    return on(id) ? (a == 0 ? 1 : 2 * a) : on(id + 1) ? (a == 0 ? -1 : a / 2) : a;
 }
 
 /// An index 0 … 2, another one below it where there is one.

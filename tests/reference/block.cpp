@@ -1,4 +1,5 @@
-// Stage block: its questions against the conditions as printed in Eq. 8–10, 14 and 15, evaluated with closest points in double, and its boundaries.
+// Stage block: its questions against the conditions as printed in Eq. 8–10, 14 and 15, evaluated with closest points in
+// double, and its boundaries.
 #include "reference/geometry/block.hpp"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, 
 Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// All conditions of a block as margins that must be ≥ 0; the smallest decides. Nothing where it is too small to trust double.
+/// All conditions of a block as margins that must be ≥ 0; the smallest decides. Nothing where it is too small to trust
+/// double.
 class Printed {
  public:
   void need(double margin) { least_ = std::min(least_, margin); }
@@ -44,13 +46,17 @@ class Mesh {
  public:
   explicit Mesh(Surface surface) : surface_(std::move(surface)), topology_(surface_.topology()) {}
 
-  compare::BlockTruth ask(const std::vector<BlockQuestion>& questions) const { return reference::block({&topology_, surface_.positions, questions}); }
+  compare::BlockTruth ask(const std::vector<BlockQuestion>& questions) const {
+    return reference::block({&topology_, surface_.positions, questions});
+  }
 
   /// All questions of a kind about all faces.
   std::vector<BlockQuestion> questions(Kind kind) const {
     std::vector<BlockQuestion> all;
-    const auto count = kind == Kind::edge_in_edges ? topology_.edges.size() : static_cast<std::size_t>(topology_.vertex_count);
-    const std::array<std::size_t, 3> faces{static_cast<std::size_t>(topology_.vertex_count), topology_.edges.size(), topology_.triangles.size()};
+    const auto count = kind == Kind::edge_in_edges ? topology_.edges.size()
+                                                   : static_cast<std::size_t>(topology_.vertex_count);
+    const std::array<std::size_t, 3> faces{static_cast<std::size_t>(topology_.vertex_count), topology_.edges.size(),
+                                           topology_.triangles.size()};
     for (std::size_t of = 0; of < count; ++of)
       for (std::size_t k = 0; k < (kind == Kind::edge_in_edges ? 2u : 3u); ++k)
         for (std::size_t i = 0; i < faces[k]; ++i) {
@@ -61,11 +67,13 @@ class Mesh {
   }
 
   std::optional<bool> printed(const BlockQuestion& question) const {
-    const auto x = question.kind == Kind::vertex_in_surface ? at(question.of) : closest_point(question.of, question.face);
+    const auto x = question.kind == Kind::vertex_in_surface ? at(question.of)
+                                                            : closest_point(question.of, question.face);
     Printed conditions;
     if (question.face.kind == FaceKind::vertex) {
       const Point v = at(question.face.index);
-      for (const Index w : topology_.vertex_neighbours[static_cast<std::size_t>(question.face.index)]) conditions.need(dot(x - v, v - at(w)));
+      for (const Index w : topology_.vertex_neighbours[static_cast<std::size_t>(question.face.index)])
+        conditions.need(dot(x - v, v - at(w)));
     } else if (question.face.kind == FaceKind::edge) {
       between(x, question.face.index, conditions);
       if (question.kind == Kind::vertex_in_surface) beside(x, question.face.index, conditions);
@@ -87,10 +95,12 @@ class Mesh {
 
   bool apart(const BlockQuestion& question) const {
     const reference::Complex mesh{topology_, surface_.positions};
-    const auto mine = question.kind == Kind::edge_in_edges ? mesh.vertices({FaceKind::edge, question.of}) : mesh.vertices({FaceKind::vertex, question.of});
+    const auto mine = question.kind == Kind::edge_in_edges ? mesh.vertices({FaceKind::edge, question.of})
+                                                           : mesh.vertices({FaceKind::vertex, question.of});
     const auto others = mesh.vertices(question.face);
-    return std::none_of(mine.span().begin(), mine.span().end(),
-                        [&](Index v) { return std::find(others.span().begin(), others.span().end(), v) != others.span().end(); });
+    return std::none_of(mine.span().begin(), mine.span().end(), [&](Index v) {
+      return std::find(others.span().begin(), others.span().end(), v) != others.span().end();
+    });
   }
 
   static Point nearest(const std::array<Point, 2>& e, const Point& x) {
@@ -170,7 +180,10 @@ Counts compare_on_random_meshes(Kind kind) {
 
 /// A flat patch of four triangles about vertex 0, and an edge from vertex 5 to vertex 6 above it.
 Surface patch(const Vec3f& from, const Vec3f& to) {
-  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, from, to}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}, {{5, 6}}, {}};
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, from, to},
+          {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
+          {{5, 6}},
+          {}};
 }
 
 }  // namespace
@@ -189,7 +202,10 @@ TEST_CASE("block: an edge's closest point lies in the blocks of the edges where 
   CHECK(counts.wrong == 0);
 }
 
-TEST_CASE("block: straight above a vertex is in the vertex's closed block and in no open one; no relative change of the input turns that", "[unit]") {
+TEST_CASE(
+    "block: straight above a vertex is in the vertex's closed block and in no open one; no relative change of the "
+    "input turns that",
+    "[unit]") {
   const Surface surface = patch({0, 0, 1}, {3, 4, 5});
   const compare::Topology topology = surface.topology();
   std::vector<BlockQuestion> questions{{Kind::vertex_in_surface, 5, {FaceKind::vertex, 0}}};
@@ -202,7 +218,8 @@ TEST_CASE("block: straight above a vertex is in the vertex's closed block and in
 }
 
 TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly", "[unit]") {
-  // The corner x = 0 of the block of vertex 0 towards vertex 1, reached on a slant so that coordinates cancel: (1 + δ) − 1 with 1 of both signs.
+  // The corner x = 0 of the block of vertex 0 towards vertex 1, reached on a slant so that coordinates cancel: (1 + δ)
+  // − 1 with 1 of both signs.
   const auto about = [](float x) {
     const Surface surface{{{1, 1, 0}, {2, 2, 0}, {x, 0, 5}, {9, 9, 9}, {9, 8, 9}}, {}, {{0, 1}, {2, 3}, {3, 4}}, {}};
     return Mesh(surface).ask({{Kind::vertex_in_surface, 2, {FaceKind::vertex, 0}}});
@@ -219,7 +236,9 @@ TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly"
 
 TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[unit]") {
   // Above vertex 0: the foot on the edge over it lies beyond x = 0 for a slanted edge, at the end for a short one.
-  const auto inside = [](const Vec3f& from, const Vec3f& to, Face a) { return Mesh(patch(from, to)).ask({{Kind::edge_in_edges, 8, a}}).inside[0]; };
+  const auto inside = [](const Vec3f& from, const Vec3f& to, Face a) {
+    return Mesh(patch(from, to)).ask({{Kind::edge_in_edges, 8, a}}).inside[0];
+  };
   REQUIRE(patch({}, {1, 0, 1}).topology().edges[8] == compare::Edge{5, 6});
   const Face vertex{FaceKind::vertex, 0};
   CHECK(inside({-1, 0, 1}, {1, 0, 1}, vertex) == 1);

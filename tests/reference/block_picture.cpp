@@ -1,4 +1,5 @@
-// Pictures show the blocks that are decided exactly: what they enclose is inside, what lies beyond their patches is not.
+// Pictures show the blocks that are decided exactly: what they enclose is inside, what lies beyond their patches is
+// not.
 #include "reference/geometry/block_picture.hpp"
 
 #include <cmath>
@@ -26,7 +27,8 @@ Point3 mean_of(const BlockPicture& picture) {
   return {sum[0] / n, sum[1] / n, sum[2] / n};
 }
 
-/// From the middle of the block (they are convex) through the middle of a triangle of its boundary, to the part t of the way.
+/// From the middle of the block (they are convex) through the middle of a triangle of its boundary, to the part t of
+/// the way.
 Vec3f on_ray(const BlockPicture& picture, const std::array<int, 3>& t, const Point3& centre, double part) {
   Point3 x{};
   for (const int k : t) {
@@ -49,7 +51,9 @@ TEST_CASE("block_picture: just inside each patch is in the block, just outside i
       const BlockPicture picture = reference::block_picture(mesh, face, r, edge_only, 0.02);
       const int dimension = reference::gauss_map(mesh, face, edge_only).dimension + static_cast<int>(face.kind);
       if (dimension < 2) return;  // flat: nothing is inside
-      const auto inside = [&](const Vec3f& x) { return edge_only ? reference::in_edge_only_block(mesh, face, x, r) : reference::in_block(mesh, face, x, r); };
+      const auto inside = [&](const Vec3f& x) {
+        return edge_only ? reference::in_edge_only_block(mesh, face, x, r) : reference::in_block(mesh, face, x, r);
+      };
       const Point3 centre = mean_of(picture);
       for (const auto& patch : picture.patches) {
         std::size_t missed = 0, beyond = 0;
@@ -67,12 +71,16 @@ TEST_CASE("block_picture: just inside each patch is in the block, just outside i
       check(reference::edge_face(static_cast<Index>(e)), false);
       check(reference::edge_face(static_cast<Index>(e)), true);
     }
-    for (std::size_t t = 0; t < topology.triangles.size(); ++t) check(reference::triangle_face(static_cast<Index>(t)), false);
+    for (std::size_t t = 0; t < topology.triangles.size(); ++t)
+      check(reference::triangle_face(static_cast<Index>(t)), false);
   }
   CHECK(patches > 200);
 }
 
-TEST_CASE("block_picture: open are the ends of edges and the walls of triangles, closed everything else, as printed in Eq. 8 to 10", "[unit]") {
+TEST_CASE(
+    "block_picture: open are the ends of edges and the walls of triangles, closed everything else, as printed in Eq. 8 "
+    "to 10",
+    "[unit]") {
   const Surface surface = tetrahedron();
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};
@@ -83,10 +91,12 @@ TEST_CASE("block_picture: open are the ends of edges and the walls of triangles,
       CHECK(patch.closed != open);
     }
   }
-  CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);  // cylinder, two ends, two walls
+  // cylinder, two ends, two walls
+  CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);
   const Surface flat = grid(3);
   const auto names = flat.topology();
-  CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);  // a segment to either side
+  // a segment to either side
+  CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);
   const Surface star = saddle();
   const auto around = star.topology();
   CHECK(reference::block_picture({around, star.positions}, reference::vertex_face(0), 1).patches.empty());

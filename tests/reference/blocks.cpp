@@ -1,4 +1,5 @@
-// Blocks: the four properties of §3.3 as theorems, on random and hand-made meshes, and the boundaries of Eq. 8–10, 14 and 15 as printed.
+// Blocks: the four properties of §3.3 as theorems, on random and hand-made meshes, and the boundaries of Eq. 8–10, 14
+// and 15 as printed.
 #include "reference/geometry/blocks.hpp"
 
 #include <algorithm>
@@ -23,13 +24,22 @@ using reference::vertex_face;
 
 namespace {
 
-Surface tetrahedron() { return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}, {}, {}}; }
+Surface tetrahedron() {
+  return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}, {}, {}};
+}
 
 /// Four triangles around vertex 0, whose neighbours are alternately above and below it.
-Surface saddle() { return {{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}, {}, {}}; }
+Surface saddle() {
+  return {{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
+          {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
+          {},
+          {}};
+}
 
 /// Three triangles on the edge from vertex 0 to vertex 1.
-Surface fan() { return {{{0, 0, 0}, {4, 0, 0}, {2, 3, 0}, {2, -3, 1}, {2, 0, 4}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {}, {}}; }
+Surface fan() {
+  return {{{0, 0, 0}, {4, 0, 0}, {2, 3, 0}, {2, -3, 1}, {2, 0, 4}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {}, {}};
+}
 
 /// Distance from x to the closed face.
 double distance_to(const Complex& mesh, Face face, const Vec3f& x) {
@@ -117,7 +127,8 @@ TEST_CASE("blocks: exclusive, covering up to d = r and locally closest on random
   check_properties(examine_around(soup(12, 20, random), random, 500, 0.2f));
 }
 
-TEST_CASE("blocks: exclusive, covering and locally closest on points of integer lattices, where many lie on boundaries", "[property]") {
+TEST_CASE("blocks: exclusive, covering and locally closest on points of integer lattices, where many lie on boundaries",
+          "[property]") {
   for (const Surface& surface : {tetrahedron(), saddle(), fan(), grid(3, 0, 2), mapped(grid(3), turned)}) {
     const auto topology = surface.topology();
     const Complex mesh{topology, surface.positions};
@@ -126,7 +137,8 @@ TEST_CASE("blocks: exclusive, covering and locally closest on points of integer 
     for (int i = -3; i <= 5; ++i) {
       for (int j = -3; j <= 5; ++j) {
         for (int k = -3; k <= 5; ++k) {
-          examine(mesh, {static_cast<float>(i) * step, static_cast<float>(j) * step, static_cast<float>(k) * step}, 3 * step, counts);
+          examine(mesh, {static_cast<float>(i) * step, static_cast<float>(j) * step, static_cast<float>(k) * step},
+                  3 * step, counts);
         }
       }
     }
@@ -148,7 +160,9 @@ TEST_CASE("blocks: the distance r is inside, the next float beyond it is not", "
   CHECK_FALSE(in_block(mesh, triangle_face(0), {1, 1, -beyond}, r));
 }
 
-TEST_CASE("blocks: an edge block is open at its ends and closed at its side planes, a boundary edge's is half a cylinder", "[unit]") {
+TEST_CASE(
+    "blocks: an edge block is open at its ends and closed at its side planes, a boundary edge's is half a cylinder",
+    "[unit]") {
   const Surface surface = grid(3, 0, 4);
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};
@@ -169,10 +183,14 @@ TEST_CASE("blocks: the block of a saddle vertex is the vertex itself", "[unit]")
   CHECK(in_block(mesh, vertex_face(0), {0, 0, 0}, 1));
   std::mt19937 random(5);
   std::normal_distribution<float> normal(0, 0.3f);
-  for (int k = 0; k < 2000; ++k) CHECK_FALSE(in_block(mesh, vertex_face(0), {normal(random), normal(random), normal(random)}, 1));
+  for (int k = 0; k < 2000; ++k)
+    CHECK_FALSE(in_block(mesh, vertex_face(0), {normal(random), normal(random), normal(random)}, 1));
 }
 
-TEST_CASE("blocks: every vertex around a non-manifold edge cuts its block; an edge without triangles keeps the whole cylinder", "[unit]") {
+TEST_CASE(
+    "blocks: every vertex around a non-manifold edge cuts its block; an edge without triangles keeps the whole "
+    "cylinder",
+    "[unit]") {
   Surface surface = fan();
   surface.loose_edges = {{2, 3}};
   const auto topology = surface.topology();
@@ -189,7 +207,10 @@ TEST_CASE("blocks: every vertex around a non-manifold edge cuts its block; an ed
   }
 }
 
-TEST_CASE("blocks: in the edge-only manifold an edge has the whole cylinder and a vertex the ball cut by its neighbours' planes", "[unit]") {
+TEST_CASE(
+    "blocks: in the edge-only manifold an edge has the whole cylinder and a vertex the ball cut by its neighbours' "
+    "planes",
+    "[unit]") {
   const Surface surface = grid(3, 0, 4);
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};

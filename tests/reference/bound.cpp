@@ -11,7 +11,8 @@
 using namespace ogc;
 using namespace ogc::tests;
 
-TEST_CASE("bound: γ_p times the smallest distance of the vertex, its edges and its triangles, rounded down", "[property]") {
+TEST_CASE("bound: γ_p times the smallest distance of the vertex, its edges and its triangles, rounded down",
+          "[property]") {
   std::mt19937 random(7);
   Surface surface = soup(20, 25, random);
   surface.loose_edges = {{0, 1}, {2, 3}};

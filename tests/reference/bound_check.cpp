@@ -21,7 +21,8 @@ namespace {
 std::vector<float> bounds_of(const compare::DetectIn& in, float relaxation) {
   const auto facets = reference::detect_vertex_facet(in).exact;
   const auto edges = reference::detect_edge_edge(in).exact;
-  return reference::bound({in.topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
+  return reference::bound({in.topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation})
+      .exact.bound;
 }
 
 std::vector<float> stepped_up(std::vector<float> bounds, int steps) {
@@ -33,7 +34,10 @@ std::vector<float> stepped_up(std::vector<float> bounds, int steps) {
 
 }  // namespace
 
-TEST_CASE("bound_check: Eq. 21, no bound of the reference is above the exact one; two units in the last place more, and every bound is", "[property]") {
+TEST_CASE(
+    "bound_check: Eq. 21, no bound of the reference is above the exact one; two units in the last place more, and "
+    "every bound is",
+    "[property]") {
   std::size_t tight = 0, asked = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -41,8 +45,8 @@ TEST_CASE("bound_check: Eq. 21, no bound of the reference is above the exact one
     const auto in = question(specimen.surface, topology, specimen.radius, 2 * specimen.radius);
     const auto bounds = bounds_of(in, 0.45f);
     CHECK(reference::bounds_above_exact(in, 0.45f, bounds).empty());
-    // Two roundings down, of the distance and of the product: less than one unit each in the last place of numbers whose digits may begin a power of two
-    // apart, so three steps up are above.
+    // Two roundings down, of the distance and of the product: less than one unit each in the last place of numbers
+    // whose digits may begin a power of two apart, so three steps up are above.
     const bool all_above = reference::bounds_above_exact(in, 0.45f, stepped_up(bounds, 3)).size() == bounds.size();
     CHECK(all_above);
     tight += reference::bounds_above_exact(in, 0.45f, stepped_up(bounds, 1)).size();
@@ -80,7 +84,8 @@ TEST_CASE("bound_check: Eq. 27, moves within the bounds never make an intersecti
       auto after = before;
       for (std::size_t v = 0; v < after.size(); ++v) {
         const double x = normal(random), y = normal(random), z = normal(random), length = std::hypot(x, y, z);
-        const double step = 0.999999 * static_cast<double>(bounds[v]) / length;  // the sums round far below what this leaves
+        // the sums round far below what this leaves
+        const double step = 0.999999 * static_cast<double>(bounds[v]) / length;
         after[v] = {after[v].x + step * x, after[v].y + step * y, after[v].z + step * z};
       }
       CHECK(compare::audit(topology, after).count == 0);

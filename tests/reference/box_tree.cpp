@@ -8,12 +8,14 @@
 using namespace ogc::reference;
 
 /// Sizes about the leaves' and about those from which on two threads build: every node has its place beforehand.
-TEST_CASE("the reference's box tree visits each box that meets the query once, and no other, at any number of boxes", "[property]") {
+TEST_CASE("the reference's box tree visits each box that meets the query once, and no other, at any number of boxes",
+          "[property]") {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> coordinate(0, 40), side(0, 2);
   const auto random_box = [&] {
     Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) box.low[axis] = coordinate(random), box.high[axis] = box.low[axis] + side(random);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      box.low[axis] = coordinate(random), box.high[axis] = box.low[axis] + side(random);
     return box;
   };
   std::vector<std::size_t> counts{2047, 2048, 2049, 4096, 4097, 9001};

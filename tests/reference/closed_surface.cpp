@@ -1,4 +1,5 @@
-// §3.9 outside the body: what is inside, and blocks that go outward only. The two decisions share no formula, so each tests the other.
+// §3.9 outside the body: what is inside, and blocks that go outward only. The two decisions share no formula, so each
+// tests the other.
 #include "reference/geometry/closed_surface.hpp"
 
 #include <algorithm>
@@ -37,7 +38,13 @@ Surface overlapping_cubes() {
 }
 
 std::vector<Surface> bodies() {
-  return {tetrahedron(), octahedron(), cube(), dented_cube(), hollow_cube(), overlapping_cubes(), mapped(dented_cube(), turned)};
+  return {tetrahedron(),
+          octahedron(),
+          cube(),
+          dented_cube(),
+          hollow_cube(),
+          overlapping_cubes(),
+          mapped(dented_cube(), turned)};
 }
 
 struct Body {
@@ -60,7 +67,8 @@ std::vector<Vec3f> points_around(const Surface& surface, std::mt19937& random) {
   const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
   for (int k = 0; k < 120; ++k) {
     const auto coordinate = [&] { return k % 2 == 0 ? static_cast<float>(eighth(random)) / 8 : anywhere(random); };
-    points.push_back({mix(low.x, high.x, coordinate()), mix(low.y, high.y, coordinate()), mix(low.z, high.z, coordinate())});
+    points.push_back(
+        {mix(low.x, high.x, coordinate()), mix(low.y, high.y, coordinate()), mix(low.z, high.z, coordinate())});
   }
   return points;
 }
@@ -79,7 +87,8 @@ std::vector<Face> nearest_faces(const Complex& mesh, const Vec3f& x) {
   };
   for (Index v = 0; v < mesh.topology.vertex_count; ++v) offer(reference::vertex_face(v));
   for (std::size_t e = 0; e < mesh.topology.edges.size(); ++e) offer(reference::edge_face(static_cast<Index>(e)));
-  for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) offer(reference::triangle_face(static_cast<Index>(t)));
+  for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t)
+    offer(reference::triangle_face(static_cast<Index>(t)));
   return nearest;
 }
 
@@ -95,14 +104,16 @@ std::string refusal(const Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("closed surface: winding numbers and points of the surface of a cube, a dent, a cavity and an overlap, by hand", "[unit]") {
+TEST_CASE(
+    "closed surface: winding numbers and points of the surface of a cube, a dent, a cavity and an overlap, by hand",
+    "[unit]") {
   const Body plain(cube()), dent(dented_cube()), hollow(hollow_cube()), both(overlapping_cubes());
   const ClosedSurface a(plain.mesh()), b(dent.mesh()), c(hollow.mesh()), d(both.mesh());
   CHECK(a.locate({1, 1, 1}).winding == 1);
-  CHECK(a.locate({1, 1, 2}).on_surface);           // on a diagonal of two triangles
-  CHECK(a.locate({2, 2, 2}).on_surface);           // a vertex
-  CHECK(a.locate({-1, 0, 0}).outside());           // the ray runs along an edge
-  CHECK(a.locate({-1, 1, 1}).outside());           // and through diagonals
+  CHECK(a.locate({1, 1, 2}).on_surface);  // on a diagonal of two triangles
+  CHECK(a.locate({2, 2, 2}).on_surface);  // a vertex
+  CHECK(a.locate({-1, 0, 0}).outside());  // the ray runs along an edge
+  CHECK(a.locate({-1, 1, 1}).outside());  // and through diagonals
   CHECK(a.locate({0, 3, 0}).outside());
   CHECK(b.locate({1.75f, 1.75f, 1.75f}).outside());  // where the corner was
   CHECK(b.locate({0.25f, 0.25f, 0.25f}).inside());
@@ -112,11 +123,13 @@ TEST_CASE("closed surface: winding numbers and points of the surface of a cube, 
   CHECK(d.locate({2.5f, 1, 1}).winding == 1);
 }
 
-TEST_CASE("closed surface: the block of a nearest face is outward exactly where the point is not inside", "[property]") {
+TEST_CASE("closed surface: the block of a nearest face is outward exactly where the point is not inside",
+          "[property]") {
   std::mt19937 random(9);
   std::size_t inside = 0, outside = 0, on_surface = 0;
   for (const Surface& surface : bodies()) {
-    if (surface.triangles.size() == overlapping_cubes().triangles.size() && surface.positions[8].x == 1.25f) continue;  // its nearest faces may lie inside it
+    // its nearest faces may lie inside it
+    if (surface.triangles.size() == overlapping_cubes().triangles.size() && surface.positions[8].x == 1.25f) continue;
     const Body body(surface);
     const ClosedSurface closed(body.mesh());
     for (const Vec3f& x : points_around(surface, random)) {
@@ -132,12 +145,15 @@ TEST_CASE("closed surface: the block of a nearest face is outward exactly where 
   CHECK(std::min({inside, outside, on_surface}) > 40);
 }
 
-TEST_CASE("closed surface: outward blocks cover the outside up to r, hold the surface, and lie in the blocks of Eq. 8 to 10", "[property]") {
+TEST_CASE(
+    "closed surface: outward blocks cover the outside up to r, hold the surface, and lie in the blocks of Eq. 8 to 10",
+    "[property]") {
   std::mt19937 random(10);
   for (const Surface& surface : bodies()) {
     const Body body(surface);
     const ClosedSurface closed(body.mesh());
-    const float r = 0.5f * std::abs(surface.positions[1].x - surface.positions[0].x + surface.positions[1].y - surface.positions[0].y);
+    const float r = 0.5f * std::abs(surface.positions[1].x - surface.positions[0].x + surface.positions[1].y -
+                                    surface.positions[0].y);
     for (const Vec3f& x : points_around(surface, random)) {
       const auto faces = nearest_faces(body.mesh(), x);
       const reference::Place place = closed.locate(x);
@@ -157,12 +173,14 @@ TEST_CASE("closed surface: a ridge has its outward block, a dent only its own po
   CHECK(closed.in_outward_block(reference::edge_face(ridge), {1, 0, 0}, 1));
   const reference::Face dent = reference::vertex_face(7);
   CHECK(closed.in_outward_block(dent, body.mesh().at(7), 1));
-  CHECK_FALSE(closed.in_outward_block(dent, {1.5f, 1.5f, 1.5f}, 4));  // outside, but in no direction of the dent's normals
+  // outside, but in no direction of the dent's normals
+  CHECK_FALSE(closed.in_outward_block(dent, {1.5f, 1.5f, 1.5f}, 4));
   CHECK(reference::in_block(body.mesh(), dent, {0.25f, 0.5f, 0.25f}, 4));
   CHECK_FALSE(closed.in_outward_block(dent, {0.25f, 0.5f, 0.25f}, 4));  // in their direction, but inside
 }
 
-TEST_CASE("closed surface: what is not closed, not oriented, folded or inside out is refused by its element's name", "[unit]") {
+TEST_CASE("closed surface: what is not closed, not oriented, folded or inside out is refused by its element's name",
+          "[unit]") {
   Surface open = cube();
   open.triangles.pop_back();
   CHECK(refusal(open).find("edge") != std::string::npos);

@@ -1,4 +1,5 @@
-// closest_face: values derived by hand on one triangle in all vertex orders, the planes between features, collapsed and needle triangles.
+// closest_face: values derived by hand on one triangle in all vertex orders, the planes between features, collapsed and
+// needle triangles.
 #include "reference/geometry/closest_face.hpp"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ struct Case {
   std::array<double, 3> weights;
 };
 
-// Strictly inside each region, then on each plane that separates two regions (the lower-dimensional feature wins), then on three at once.
+// Strictly inside each region, then on each plane that separates two regions (the lower-dimensional feature wins), then
+// on three at once.
 const std::vector<Case> cases{
     {{1, 1, 3}, TriangleFeature::interior, 3, {0.5, 0.25, 0.25}},
     {{-1, -2, 2}, TriangleFeature::corner_0, 3, {1, 0, 0}},
@@ -35,15 +37,15 @@ const std::vector<Case> cases{
     {{1, -3, 4}, TriangleFeature::edge_01, 5, {0.75, 0.25, 0}},
     {{4, 4, 1}, TriangleFeature::edge_12, 3, {0, 0.5, 0.5}},
     {{-3, 1, 4}, TriangleFeature::edge_20, 5, {0.75, 0, 0.25}},
-    {{1, 0, 5}, TriangleFeature::edge_01, 5, {0.75, 0.25, 0}},    // interior | edge_01
-    {{2, 2, 3}, TriangleFeature::edge_12, 3, {0, 0.5, 0.5}},      // interior | edge_12
-    {{0, 1, 6}, TriangleFeature::edge_20, 6, {0.75, 0, 0.25}},    // interior | edge_20
-    {{0, -3, 4}, TriangleFeature::corner_0, 5, {1, 0, 0}},        // edge_01 | corner_0
-    {{-3, 0, 4}, TriangleFeature::corner_0, 5, {1, 0, 0}},        // edge_20 | corner_0
-    {{4, -3, 4}, TriangleFeature::corner_1, 5, {0, 1, 0}},        // edge_01 | corner_1
-    {{6, 2, 1}, TriangleFeature::corner_1, 3, {0, 1, 0}},         // edge_12 | corner_1
-    {{-3, 4, 4}, TriangleFeature::corner_2, 5, {0, 0, 1}},        // edge_20 | corner_2
-    {{2, 6, 1}, TriangleFeature::corner_2, 3, {0, 0, 1}},         // edge_12 | corner_2
+    {{1, 0, 5}, TriangleFeature::edge_01, 5, {0.75, 0.25, 0}},  // interior | edge_01
+    {{2, 2, 3}, TriangleFeature::edge_12, 3, {0, 0.5, 0.5}},    // interior | edge_12
+    {{0, 1, 6}, TriangleFeature::edge_20, 6, {0.75, 0, 0.25}},  // interior | edge_20
+    {{0, -3, 4}, TriangleFeature::corner_0, 5, {1, 0, 0}},      // edge_01 | corner_0
+    {{-3, 0, 4}, TriangleFeature::corner_0, 5, {1, 0, 0}},      // edge_20 | corner_0
+    {{4, -3, 4}, TriangleFeature::corner_1, 5, {0, 1, 0}},      // edge_01 | corner_1
+    {{6, 2, 1}, TriangleFeature::corner_1, 3, {0, 1, 0}},       // edge_12 | corner_1
+    {{-3, 4, 4}, TriangleFeature::corner_2, 5, {0, 0, 1}},      // edge_20 | corner_2
+    {{2, 6, 1}, TriangleFeature::corner_2, 3, {0, 0, 1}},       // edge_12 | corner_2
     {{0, 0, 7}, TriangleFeature::corner_0, 7, {1, 0, 0}},
     {{4, 0, 7}, TriangleFeature::corner_1, 7, {0, 1, 0}},
     {{0, 0, 0}, TriangleFeature::corner_0, 0, {1, 0, 0}},
@@ -52,7 +54,9 @@ const std::vector<Case> cases{
 
 /// The feature of the permuted triangle (t[order[0]], …) that is the same set of points.
 TriangleFeature renamed(TriangleFeature feature, const std::array<std::size_t, 3>& order) {
-  const auto place = [&](std::size_t corner) { return static_cast<int>(std::find(order.begin(), order.end(), corner) - order.begin()); };
+  const auto place = [&](std::size_t corner) {
+    return static_cast<int>(std::find(order.begin(), order.end(), corner) - order.begin());
+  };
   const auto f = static_cast<std::size_t>(feature);
   if (f < 3) return static_cast<TriangleFeature>(place(f));
   if (f == 6) return feature;
@@ -64,7 +68,8 @@ double length(double x, double y, double z) { return std::sqrt(x * x + y * y + z
 
 /// Distance from p to the point with these weights.
 double distance_at(const Corners& t, const std::array<double, 3>& w, const Vec3f& p) {
-  return length(w[0] * t[0].x + w[1] * t[1].x + w[2] * t[2].x - p.x, w[0] * t[0].y + w[1] * t[1].y + w[2] * t[2].y - p.y,
+  return length(w[0] * t[0].x + w[1] * t[1].x + w[2] * t[2].x - p.x,
+                w[0] * t[0].y + w[1] * t[1].y + w[2] * t[2].y - p.y,
                 w[0] * t[0].z + w[1] * t[1].z + w[2] * t[2].z - p.z);
 }
 
@@ -88,8 +93,10 @@ TEST_CASE("closest_face: every region and every plane between two, in all six ve
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-TEST_CASE("closest_face: the smallest step across a plane changes the feature, and both answers are accepted", "[unit]") {
-  // The plane between interior and edge_12 passes through (1.1, 2.9, z); one unit in the last place of x moves the point to either side.
+TEST_CASE("closest_face: the smallest step across a plane changes the feature, and both answers are accepted",
+          "[unit]") {
+  // The plane between interior and edge_12 passes through (1.1, 2.9, z); one unit in the last place of x moves the
+  // point to either side.
   const Corners t{Vec3f{0, 0, 0}, Vec3f{4, 0, 0}, Vec3f{0, 4, 0}};
   const float y = 2.9f, on = 4 - y;  // exact: 4 − y needs fewer digits than y
   ClosestFaceIn in;
@@ -118,8 +125,9 @@ TEST_CASE("closest_face: a collapsed triangle gives corners and edges, never its
   add({a, a, b}, {-3, 0, 4});
   add({b, b, b}, {4, 3, 4});
   const auto truth = reference::closest_face(in);
-  const std::array<TriangleFeature, 6> features{TriangleFeature::edge_01,  TriangleFeature::corner_2, TriangleFeature::corner_0,
-                                                TriangleFeature::edge_12, TriangleFeature::corner_0, TriangleFeature::corner_0};
+  const std::array<TriangleFeature, 6> features{TriangleFeature::edge_01,  TriangleFeature::corner_2,
+                                                TriangleFeature::corner_0, TriangleFeature::edge_12,
+                                                TriangleFeature::corner_0, TriangleFeature::corner_0};
   for (std::size_t i = 0; i < features.size(); ++i) {
     CAPTURE(i);
     CHECK(truth.exact.feature[i] == features[i]);
@@ -129,13 +137,18 @@ TEST_CASE("closest_face: a collapsed triangle gives corners and edges, never its
   }
 }
 
-TEST_CASE("closest_face: no point of the triangle is nearer, weights reach the distance, distance_below is the float just below it", "[property]") {
+TEST_CASE(
+    "closest_face: no point of the triangle is nearer, weights reach the distance, distance_below is the float just "
+    "below it",
+    "[property]") {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> exponent(-20, 10), coordinate(-1, 1), share(0, 1);
   ClosestFaceIn in;
   for (int i = 0; i < 4000; ++i) {
     const float scale = std::exp2(exponent(random)), flat = std::exp2(exponent(random) / 2 - 5);
-    const auto draw = [&](float height) { return Vec3f{scale * coordinate(random), scale * coordinate(random), scale * height * coordinate(random)}; };
+    const auto draw = [&](float height) {
+      return Vec3f{scale * coordinate(random), scale * coordinate(random), scale * height * coordinate(random)};
+    };
     const Vec3f a = draw(1), along = draw(1);
     // Every second triangle is a needle: its third corner lies almost on the line of the other two.
     const float s = share(random);
@@ -173,6 +186,7 @@ TEST_CASE("closest_face: random cases are hardly ever grey", "[property]") {
     in.triangle.push_back({draw(), draw(), draw()});
   }
   const auto truth = reference::closest_face(in);
-  const auto grey = std::count_if(truth.accepted.begin(), truth.accepted.end(), [](unsigned bits) { return (bits & (bits - 1)) != 0; });
+  const auto grey = std::count_if(truth.accepted.begin(), truth.accepted.end(),
+                                  [](unsigned bits) { return (bits & (bits - 1)) != 0; });
   CHECK(grey <= 10);
 }

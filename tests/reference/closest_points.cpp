@@ -42,12 +42,13 @@ const std::vector<Case> cases{
     {{Vec3f{1, 9, 4}, Vec3f{1, 3, 4}}, interior, end_1, {0.25, 1}, 5},
     {{Vec3f{7, 0, 4}, Vec3f{9, 1, 4}}, end_1, end_0, {1, 0}, 5},
     {{Vec3f{-9, 1, 4}, Vec3f{-3, 0, 4}}, end_0, end_1, {0, 1}, 5},
-    {{Vec3f{0, -1, 3}, Vec3f{0, 3, 3}}, end_0, interior, {0, 0.25}, 3},    // on the plane between interior and end_0 of the first edge
-    {{Vec3f{1, 0, 3}, Vec3f{1, 3, 3}}, interior, end_0, {0.25, 0}, 3},     // the same for the second
-    {{Vec3f{4, 0, 3}, Vec3f{4, 3, 3}}, end_1, end_0, {1, 0}, 3},           // both
-    {{Vec3f{4, 3, 4}, Vec3f{8, 3, 4}}, end_1, end_0, {1, 0}, 5},           // parallel, projections share one point
-    {{Vec3f{7, 0, 4}, Vec3f{9, 0, 4}}, end_1, end_0, {1, 0}, 5},           // parallel, projections apart
-    {{Vec3f{1, 3, 4}, Vec3f{1, 3, 4}}, interior, end_0, {0.25, 0}, 5},     // zero length
+    // on the plane between interior and end_0 of the first edge
+    {{Vec3f{0, -1, 3}, Vec3f{0, 3, 3}}, end_0, interior, {0, 0.25}, 3},
+    {{Vec3f{1, 0, 3}, Vec3f{1, 3, 3}}, interior, end_0, {0.25, 0}, 3},  // the same for the second
+    {{Vec3f{4, 0, 3}, Vec3f{4, 3, 3}}, end_1, end_0, {1, 0}, 3},        // both
+    {{Vec3f{4, 3, 4}, Vec3f{8, 3, 4}}, end_1, end_0, {1, 0}, 5},        // parallel, projections share one point
+    {{Vec3f{7, 0, 4}, Vec3f{9, 0, 4}}, end_1, end_0, {1, 0}, 5},        // parallel, projections apart
+    {{Vec3f{1, 3, 4}, Vec3f{1, 3, 4}}, interior, end_0, {0.25, 0}, 5},  // zero length
     {{Vec3f{7, 0, 4}, Vec3f{7, 0, 4}}, end_1, end_0, {1, 0}, 5},
 };
 
@@ -111,9 +112,10 @@ TEST_CASE("closest_points: the limit between nearly parallel and not is 10⁻⁶
   CHECK(crossing.distance[0] == 0.5);
 }
 
-TEST_CASE("closest_points: a nearly parallel pair keeps its true distance beside that of the contact points", "[unit]") {
-  // Slope 10⁻⁴, crossing at x = −1/2 above the first edge: true distance 1/2. The middle of the overlap is x = 0, where the second edge
-  // is 5·10⁻⁵ aside.
+TEST_CASE("closest_points: a nearly parallel pair keeps its true distance beside that of the contact points",
+          "[unit]") {
+  // Slope 10⁻⁴, crossing at x = −1/2 above the first edge: true distance 1/2. The middle of the overlap is x = 0, where
+  // the second edge is 5·10⁻⁵ aside.
   const Ends first{Vec3f{-1, 0, 0}, Vec3f{1, 0, 0}};
   const float slope = 1e-4f;
   const auto truth = ask(first, {Vec3f{-1, -0.5f * slope, 0.5f}, Vec3f{1, 1.5f * slope, 0.5f}});
@@ -133,24 +135,31 @@ TEST_CASE("closest_points: crossing interiors keep the exact distance down a lad
   }
 }
 
-TEST_CASE("closest_points: no two points are nearer, parameters reach the distance, distance_below is the float just below it", "[property]") {
+TEST_CASE(
+    "closest_points: no two points are nearer, parameters reach the distance, distance_below is the float just below "
+    "it",
+    "[property]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> exponent(-20, 10), coordinate(-1, 1), share(0, 1);
   ClosestPointsIn in;
   for (int i = 0; i < 4000; ++i) {
     const float scale = std::exp2(exponent(random)), slope = i % 2 == 0 ? 1 : std::exp2(exponent(random));
-    const auto draw = [&] { return Vec3f{scale * coordinate(random), scale * coordinate(random), scale * coordinate(random)}; };
+    const auto draw = [&] {
+      return Vec3f{scale * coordinate(random), scale * coordinate(random), scale * coordinate(random)};
+    };
     const Vec3f a = draw(), b = draw(), c = draw(), d = draw();
     in.first.push_back({a, b});
     // Every second pair is parallel up to `slope`.
-    in.second.push_back({c, i % 2 == 0 ? d : Vec3f{c.x + b.x - a.x + slope * d.x, c.y + b.y - a.y + slope * d.y, c.z + b.z - a.z}});
+    in.second.push_back(
+        {c, i % 2 == 0 ? d : Vec3f{c.x + b.x - a.x + slope * d.x, c.y + b.y - a.y + slope * d.y, c.z + b.z - a.z}});
   }
   const auto truth = reference::closest_points(in);
   for (std::size_t i = 0; i < in.first.size(); ++i) {
     CAPTURE(i);
     const Ends &e = in.first[i], &f = in.second[i];
     const auto [s, t] = truth.parameters[i];
-    const double d = truth.distance[i], size = std::abs(e[0].x) + std::abs(e[1].x) + std::abs(f[0].x) + std::abs(f[1].x) + d;
+    const double d = truth.distance[i],
+                 size = std::abs(e[0].x) + std::abs(e[1].x) + std::abs(f[0].x) + std::abs(f[1].x) + d;
     CHECK((s >= 0 && s <= 1 && t >= 0 && t <= 1));
     CHECK(std::abs(distance_at(e, s, f, t) - truth.contact_distance[i]) <= 1e-13 * size);
     CHECK(truth.contact_distance[i] >= d * (1 - 1e-15));
@@ -165,14 +174,17 @@ TEST_CASE("closest_points: next to a boundary both answers are accepted, away fr
   const auto code = [](EdgeFeature f, EdgeFeature g, unsigned parallel_rule) {
     return 1u << (static_cast<unsigned>(f) + 3 * static_cast<unsigned>(g) + 9 * parallel_rule);
   };
-  // The second edge lies in the plane x + y = 8 through end_1 = (4,4,0), up to the last place of one coordinate; 8 − 5.1 and 8 − 5.7 are exact.
+  // The second edge lies in the plane x + y = 8 through end_1 = (4,4,0), up to the last place of one coordinate; 8 −
+  // 5.1 and 8 − 5.7 are exact.
   const Ends diagonal{Vec3f{0, 0, 0}, Vec3f{4, 4, 0}};
   const auto nudged = [&](float x) { return ask(diagonal, {Vec3f{x, 8 - 5.1f, 2}, Vec3f{8 - 5.7f, 5.7f, 2}}); };
-  const auto inside = nudged(std::nextafter(5.1f, 0.0f)), on = nudged(5.1f), outside = nudged(std::nextafter(5.1f, 9.0f)), away = nudged(5.2f);
+  const auto inside = nudged(std::nextafter(5.1f, 0.0f)), on = nudged(5.1f),
+             outside = nudged(std::nextafter(5.1f, 9.0f)), away = nudged(5.2f);
   CHECK(inside.exact.first_feature[0] == interior);
   CHECK(on.exact.first_feature[0] == end_1);
   CHECK(outside.exact.first_feature[0] == end_1);
-  for (const auto& truth : {inside, on, outside}) CHECK(truth.accepted[0] == (code(end_1, interior, 0) | code(interior, interior, 0)));
+  for (const auto& truth : {inside, on, outside})
+    CHECK(truth.accepted[0] == (code(end_1, interior, 0) | code(interior, interior, 0)));
   CHECK(away.accepted[0] == code(end_1, interior, 0));
   const auto limit = ask({Vec3f{-1, 0, 0}, Vec3f{1, 0, 0}}, {Vec3f{-1, -0.001f, 0.5f}, Vec3f{1, 0.001f, 0.5f}});
   CHECK(limit.accepted[0] == (code(interior, interior, 1) | code(interior, interior, 0)));

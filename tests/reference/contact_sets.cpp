@@ -1,5 +1,6 @@
-// The contact sets in three ways that must agree: by definition over all faces, by the algorithms over all pairs, by the algorithms with CGAL's tree. The
-// detections, with their own tree and their questions about the grey zone, are a fourth.
+// The contact sets in three ways that must agree: by definition over all faces, by the algorithms over all pairs, by
+// the algorithms with CGAL's tree. The detections, with their own tree and their questions about the grey zone, are a
+// fourth.
 #include "reference/geometry/contact_sets.hpp"
 
 #include <algorithm>
@@ -20,11 +21,16 @@ using reference::Complex;
 namespace {
 
 /// A valley over the x axis, and a ridge if `height` < 0: two triangles on the edge from vertex 0 to vertex 1.
-Surface valley(float height) { return {{{-2, 0, 0}, {2, 0, 0}, {0, 2, height}, {0, -2, height}}, {{0, 1, 2}, {1, 0, 3}}, {}, {}}; }
+Surface valley(float height) {
+  return {{{-2, 0, 0}, {2, 0, 0}, {0, 2, height}, {0, -2, height}}, {{0, 1, 2}, {1, 0, 3}}, {}, {}};
+}
 
 }  // namespace
 
-TEST_CASE("contact_sets: definition, Algorithm 1 over all pairs, with CGAL's tree, and the detection give one F_OGC on every mesh of the zoo", "[property]") {
+TEST_CASE(
+    "contact_sets: definition, Algorithm 1 over all pairs, with CGAL's tree, and the detection give one F_OGC on every "
+    "mesh of the zoo",
+    "[property]") {
   std::size_t contacts = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -44,7 +50,10 @@ TEST_CASE("contact_sets: definition, Algorithm 1 over all pairs, with CGAL's tre
   CHECK(contacts > 3000);
 }
 
-TEST_CASE("contact_sets: definition, Algorithm 2 over all pairs, with CGAL's tree, and the detection give one E_OGC on every mesh of the zoo", "[property]") {
+TEST_CASE(
+    "contact_sets: definition, Algorithm 2 over all pairs, with CGAL's tree, and the detection give one E_OGC on every "
+    "mesh of the zoo",
+    "[property]") {
   std::size_t contacts = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -79,7 +88,10 @@ TEST_CASE("contact_sets: rigid groups leave out the same pairs in all ways", "[p
   }
 }
 
-TEST_CASE("contact_sets: V_OGC holds each contact under its owner, E_OGC(e) each pair under both of its edges, layers count F_OGC", "[property]") {
+TEST_CASE(
+    "contact_sets: V_OGC holds each contact under its owner, E_OGC(e) each pair under both of its edges, layers count "
+    "F_OGC",
+    "[property]") {
   std::mt19937 random(22);
   const Surface surface = folded(8, 0.4f, random, 0.3f);
   const auto topology = surface.topology();
@@ -107,14 +119,18 @@ TEST_CASE("contact_sets: V_OGC holds each contact under its owner, E_OGC(e) each
   }
 }
 
-TEST_CASE("contact_sets: Fig. 3, over a ridge IPC pushes both facets, SDF one or both, OGC the ridge alone; over a valley OGC both", "[unit]") {
+TEST_CASE(
+    "contact_sets: Fig. 3, over a ridge IPC pushes both facets, SDF one or both, OGC the ridge alone; over a valley "
+    "OGC both",
+    "[unit]") {
   for (const float height : {-1.0f, 1.0f}) {
     const Surface surface = with_vertex(valley(height), {0, 0, 0.5f});
     const auto topology = surface.topology();
     const Complex mesh{topology, surface.positions};
     const auto contacts = reference::vertex_facet_over_all_pairs(question(surface, topology, 1, 1));
     CHECK(reference::ipc_face_set(mesh, 4, 1) == std::vector<Index>{0, 1});
-    CHECK(reference::sdf_face_set(mesh, mesh.at(4), 1) == std::vector<Index>{0, 1});  // equally near: the printed argmin is not one triangle
+    // equally near: the printed argmin is not one triangle
+    CHECK(reference::sdf_face_set(mesh, mesh.at(4), 1) == std::vector<Index>{0, 1});
     const Vec3f beside{0, 0x1p-20f, 0.5f};
     // One slope is nearer; over the ridge still the crest, which both have.
     CHECK(reference::sdf_face_set(mesh, beside, 1) == (height < 0 ? std::vector<Index>{0, 1} : std::vector<Index>{0}));
@@ -129,7 +145,9 @@ TEST_CASE("contact_sets: Fig. 3, over a ridge IPC pushes both facets, SDF one or
   }
 }
 
-TEST_CASE("contact_sets: F_SDF of a vertex of the mesh is its own triangles (§2.2), F_IPC leaves them out and is open at r", "[unit]") {
+TEST_CASE(
+    "contact_sets: F_SDF of a vertex of the mesh is its own triangles (§2.2), F_IPC leaves them out and is open at r",
+    "[unit]") {
   const Surface sheet = grid(3);
   const auto topology = sheet.topology();
   const Complex mesh{topology, sheet.positions};
@@ -145,7 +163,8 @@ TEST_CASE("contact_sets: F_SDF of a vertex of the mesh is its own triangles (§2
   CHECK(reference::sdf_face_set(lifted, lifted.at(4), std::nextafter(1.0f, 2.0f)) == std::vector<Index>{0});
 }
 
-TEST_CASE("contact_sets: every triangle of F_SDF is in F_IPC, and what OGC touches is a face of a triangle of F_IPC", "[property]") {
+TEST_CASE("contact_sets: every triangle of F_SDF is in F_IPC, and what OGC touches is a face of a triangle of F_IPC",
+          "[property]") {
   std::mt19937 random(23);
   const Surface surface = together(folded(6, 0.4f, random, 0.3f), soup(8, 0, random));
   const auto topology = surface.topology();
@@ -153,7 +172,8 @@ TEST_CASE("contact_sets: every triangle of F_SDF is in F_IPC, and what OGC touch
   const auto contacts = reference::vertex_facet_over_all_pairs(question(surface, topology, 0.7f, 0.7f));
   for (Index v = 36; v < topology.vertex_count; ++v) {
     const auto ipc = reference::ipc_face_set(mesh, v, 0.7f);
-    for (const Index t : reference::sdf_face_set(mesh, mesh.at(v), 0.7f)) CHECK(std::find(ipc.begin(), ipc.end(), t) != ipc.end());
+    for (const Index t : reference::sdf_face_set(mesh, mesh.at(v), 0.7f))
+      CHECK(std::find(ipc.begin(), ipc.end(), t) != ipc.end());
   }
   for (const VertexFacetContact& c : contacts) {
     const auto ipc = reference::ipc_face_set(mesh, c.vertex, 0.7f);

@@ -23,7 +23,8 @@ std::vector<Face> all_faces(const compare::Topology& topology) {
   std::vector<Face> faces;
   for (Index v = 0; v < topology.vertex_count; ++v) faces.push_back(reference::vertex_face(v));
   for (std::size_t e = 0; e < topology.edges.size(); ++e) faces.push_back(reference::edge_face(static_cast<Index>(e)));
-  for (std::size_t t = 0; t < topology.triangles.size(); ++t) faces.push_back(reference::triangle_face(static_cast<Index>(t)));
+  for (std::size_t t = 0; t < topology.triangles.size(); ++t)
+    faces.push_back(reference::triangle_face(static_cast<Index>(t)));
   return faces;
 }
 
@@ -33,10 +34,13 @@ bool holds(const BlockMargin& margin) { return margin.holds(); }
 
 TEST_CASE("mesh zoo: at least 200 meshes, each with points to ask about", "[unit]") {
   CHECK(mesh_zoo().size() >= 200);
-  CHECK(std::all_of(mesh_zoo().begin(), mesh_zoo().end(), [](const Specimen& s) { return s.points.size() >= 20 && s.radius > 0; }));
+  CHECK(std::all_of(mesh_zoo().begin(), mesh_zoo().end(),
+                    [](const Specimen& s) { return s.points.size() >= 20 && s.radius > 0; }));
 }
 
-TEST_CASE("defined_blocks: Eq. 7 through the Gauss map gives the blocks of Eq. 8 to 10, 14 and 15 on every mesh of the zoo", "[property]") {
+TEST_CASE(
+    "defined_blocks: Eq. 7 through the Gauss map gives the blocks of Eq. 8 to 10, 14 and 15 on every mesh of the zoo",
+    "[property]") {
   std::size_t inside = 0, on_boundary = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -48,8 +52,10 @@ TEST_CASE("defined_blocks: Eq. 7 through the Gauss map gives the blocks of Eq. 8
       for (const Vec3f& x : specimen.points) {
         const bool in = reference::in_block(mesh, face, x, specimen.radius);
         different += in != blocks.contains(face, x, specimen.radius);
-        const bool in_edges = face.kind != FaceKind::triangle && reference::in_edge_only_block(mesh, face, x, specimen.radius);
-        if (face.kind != FaceKind::triangle) different += in_edges != blocks.contains_edge_only(face, x, specimen.radius);
+        const bool in_edges = face.kind != FaceKind::triangle &&
+                              reference::in_edge_only_block(mesh, face, x, specimen.radius);
+        if (face.kind != FaceKind::triangle)
+          different += in_edges != blocks.contains_edge_only(face, x, specimen.radius);
         inside += in + in_edges;
         if (!in) continue;
         const auto margins = reference::block_margins(mesh, face, x, specimen.radius);
@@ -62,7 +68,8 @@ TEST_CASE("defined_blocks: Eq. 7 through the Gauss map gives the blocks of Eq. 8
   CHECK(on_boundary > 1000);
 }
 
-TEST_CASE("block_margins: a point is in a block where all margins hold; lengths carry their exact signs", "[property]") {
+TEST_CASE("block_margins: a point is in a block where all margins hold; lengths carry their exact signs",
+          "[property]") {
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
     const auto topology = specimen.surface.topology();
@@ -72,12 +79,15 @@ TEST_CASE("block_margins: a point is in a block where all margins hold; lengths 
       for (std::size_t k = 0; k < specimen.points.size(); k += 3) {
         const Vec3f& x = specimen.points[k];
         const auto margins = reference::block_margins(mesh, face, x, specimen.radius);
-        different += std::all_of(margins.begin(), margins.end(), holds) != reference::in_block(mesh, face, x, specimen.radius);
+        different += std::all_of(margins.begin(), margins.end(), holds) !=
+                     reference::in_block(mesh, face, x, specimen.radius);
         if (face.kind != FaceKind::triangle) {
           const auto edges = reference::block_margins(mesh, face, x, specimen.radius, true);
-          different += std::all_of(edges.begin(), edges.end(), holds) != reference::in_edge_only_block(mesh, face, x, specimen.radius);
+          different += std::all_of(edges.begin(), edges.end(), holds) !=
+                       reference::in_edge_only_block(mesh, face, x, specimen.radius);
         }
-        for (const BlockMargin& m : margins) wrong_sign += !std::isfinite(m.length) || (m.length > 0) - (m.length < 0) != m.sign;
+        for (const BlockMargin& m : margins)
+          wrong_sign += !std::isfinite(m.length) || (m.length > 0) - (m.length < 0) != m.sign;
       }
     }
     CHECK(different == 0);
@@ -85,7 +95,8 @@ TEST_CASE("block_margins: a point is in a block where all margins hold; lengths 
   }
 }
 
-TEST_CASE("block_margins: distances to each boundary of an edge's, a triangle's and a vertex's block by hand", "[unit]") {
+TEST_CASE("block_margins: distances to each boundary of an edge's, a triangle's and a vertex's block by hand",
+          "[unit]") {
   // Edge 0 from (0,0,0) to (4,0,0), triangle towards +y with its third corner at (0,3,0); x = (1,-2,0) with r = 5.
   const Surface surface{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, {{0, 1, 2}}, {}, {}};
   const auto topology = surface.topology();
@@ -104,9 +115,9 @@ TEST_CASE("block_margins: distances to each boundary of an edge's, a triangle's 
   const auto triangle = reference::block_margins(mesh, reference::triangle_face(0), {1, 1, 3}, 3);
   REQUIRE(triangle.size() == 4);
   CHECK(triangle[0].sign == 0);
-  CHECK(triangle[1].length == 1);              // to the edge on the x axis
-  CHECK(triangle[2].length == Approx(1.0));    // |3·1 + 4·1 − 12| / 5
-  CHECK(triangle[3].length == 1);              // to the edge on the y axis
+  CHECK(triangle[1].length == 1);            // to the edge on the x axis
+  CHECK(triangle[2].length == Approx(1.0));  // |3·1 + 4·1 − 12| / 5
+  CHECK(triangle[3].length == 1);            // to the edge on the y axis
   const auto vertex = reference::block_margins(mesh, reference::vertex_face(0), {-1, 2, 0}, 3);
   REQUIRE(vertex.size() == 3);
   CHECK(vertex[1].length == 1);
@@ -120,5 +131,6 @@ TEST_CASE("block_margins: next to the sphere the length is r − d without cance
   const Complex mesh{topology, surface.positions};
   const float z = std::nextafter(1.0f, 0.0f);
   CHECK(reference::block_margins(mesh, reference::vertex_face(0), {0, 0, z}, 1)[0].length == 0x1p-24);
-  CHECK(reference::block_margins(mesh, reference::vertex_face(0), {0, 0, std::nextafter(1.0f, 2.0f)}, 1)[0].length == -0x1p-23);
+  CHECK(reference::block_margins(mesh, reference::vertex_face(0), {0, 0, std::nextafter(1.0f, 2.0f)}, 1)[0].length ==
+        -0x1p-23);
 }

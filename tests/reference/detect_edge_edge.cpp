@@ -1,4 +1,5 @@
-// detect_edge_edge: contacts by hand, Algorithm 2 against the definition of method.md §1.2 to §1.4, smallest distances, invariances, grey decisions.
+// detect_edge_edge: contacts by hand, Algorithm 2 against the definition of method.md §1.2 to §1.4, smallest distances,
+// invariances, grey decisions.
 #include "reference/geometry/detect_edge_edge.hpp"
 
 #include <algorithm>
@@ -58,12 +59,15 @@ Face face_of(const compare::Topology& topology, Index e, EdgeFeature feature) {
   return vertex_face(topology.edges[static_cast<std::size_t>(e)][static_cast<std::size_t>(feature)]);
 }
 
-/// Eq. 15 for a closest point in double, with a margin instead of a sign: NaN-free and independent of the exact predicates.
-bool in_vertex_block(const compare::Topology& topology, const Surface& surface, Index v, const std::array<double, 3>& c) {
+/// Eq. 15 for a closest point in double, with a margin instead of a sign: NaN-free and independent of the exact
+/// predicates.
+bool in_vertex_block(const compare::Topology& topology, const Surface& surface, Index v,
+                     const std::array<double, 3>& c) {
   const auto& x = surface.positions[static_cast<std::size_t>(v)];
   for (const Index u : topology.vertex_neighbours[static_cast<std::size_t>(v)]) {
     const auto& y = surface.positions[static_cast<std::size_t>(u)];
-    const double dx = static_cast<double>(x.x) - y.x, dy = static_cast<double>(x.y) - y.y, dz = static_cast<double>(x.z) - y.z;
+    const double dx = static_cast<double>(x.x) - y.x, dy = static_cast<double>(x.y) - y.y,
+                 dz = static_cast<double>(x.z) - y.z;
     if ((c[0] - x.x) * dx + (c[1] - x.y) * dy + (c[2] - x.z) * dz < 0) return false;
   }
   return true;
@@ -72,7 +76,8 @@ bool in_vertex_block(const compare::Topology& topology, const Surface& surface, 
 std::array<double, 3> point_on(const compare::Topology& topology, const Surface& surface, Index e, double s) {
   const auto [i, j] = topology.edges[static_cast<std::size_t>(e)];
   const auto &a = surface.positions[static_cast<std::size_t>(i)], &b = surface.positions[static_cast<std::size_t>(j)];
-  return {a.x + s * (static_cast<double>(b.x) - a.x), a.y + s * (static_cast<double>(b.y) - a.y), a.z + s * (static_cast<double>(b.z) - a.z)};
+  return {a.x + s * (static_cast<double>(b.x) - a.x), a.y + s * (static_cast<double>(b.y) - a.y),
+          a.z + s * (static_cast<double>(b.z) - a.z)};
 }
 
 /// E_OGC from closest points in double: random states have no case close enough to a boundary to matter.
@@ -84,15 +89,19 @@ std::vector<EdgeEdgeContact> by_definition(const Surface& surface, float r) {
     if (!(pairs.truth.exact.distance_below[i] < r)) continue;
     const auto [e, f] = pairs.edges[i];
     const auto [s, t] = pairs.truth.parameters[i];
-    const Face p = face_of(topology, e, pairs.truth.exact.first_feature[i]), q = face_of(topology, f, pairs.truth.exact.second_feature[i]);
-    if (p.kind == FaceKind::vertex && !in_vertex_block(topology, surface, p.index, point_on(topology, surface, f, t))) continue;
-    if (q.kind == FaceKind::vertex && !in_vertex_block(topology, surface, q.index, point_on(topology, surface, e, s))) continue;
+    const Face p = face_of(topology, e, pairs.truth.exact.first_feature[i]),
+               q = face_of(topology, f, pairs.truth.exact.second_feature[i]);
+    if (p.kind == FaceKind::vertex && !in_vertex_block(topology, surface, p.index, point_on(topology, surface, f, t)))
+      continue;
+    if (q.kind == FaceKind::vertex && !in_vertex_block(topology, surface, q.index, point_on(topology, surface, e, s)))
+      continue;
     found.try_emplace(std::minmax(p, q), std::array<Index, 2>{e, f});
   }
   std::vector<EdgeEdgeContact> contacts;
   for (const auto& [faces, edges] : found) {
     const auto [a, b] = topology.edges[static_cast<std::size_t>(edges[0])];
-    const bool first_on_lower = faces.first == edge_face(edges[0]) || faces.first == vertex_face(a) || faces.first == vertex_face(b);
+    const bool first_on_lower = faces.first == edge_face(edges[0]) || faces.first == vertex_face(a) ||
+                                faces.first == vertex_face(b);
     contacts.push_back({faces.first, faces.second, edges[first_on_lower ? 0 : 1], edges[first_on_lower ? 1 : 0]});
   }
   return contacts;
@@ -104,16 +113,19 @@ bool accepted(const compare::DetectEdgeEdgeTruth& truth, const std::vector<EdgeE
   for (const auto& decision : truth.grey) {
     for (const auto& c : decision.contacts) decisions.emplace(c, &decision);
   }
-  const std::set<EdgeEdgeContact> exact(truth.exact.contacts.begin(), truth.exact.contacts.end()), given(answer.begin(), answer.end());
+  const std::set<EdgeEdgeContact> exact(truth.exact.contacts.begin(), truth.exact.contacts.end()),
+      given(answer.begin(), answer.end());
   const auto replaced = [&](const EdgeEdgeContact& c) {
     const auto [first, last] = decisions.equal_range(c);
     return std::any_of(first, last, [&](const auto& entry) {
       const auto& list = entry.second->contacts;
-      return entry.second->absence_accepted || std::any_of(list.begin(), list.end(), [&](const auto& other) { return given.contains(other); });
+      return entry.second->absence_accepted ||
+             std::any_of(list.begin(), list.end(), [&](const auto& other) { return given.contains(other); });
     });
   };
   return std::all_of(exact.begin(), exact.end(), [&](const auto& c) { return given.contains(c) || replaced(c); }) &&
-         std::all_of(given.begin(), given.end(), [&](const auto& c) { return exact.contains(c) || decisions.contains(c); });
+         std::all_of(given.begin(), given.end(),
+                     [&](const auto& c) { return exact.contains(c) || decisions.contains(c); });
 }
 
 Surface two_edges(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return {{a, b, c, d}, {}, {{0, 1}, {2, 3}}, {}}; }
@@ -138,16 +150,24 @@ TEST_CASE("detect_edge_edge: crossing, end to interior and end to end", "[unit]"
   const auto ends = detect(two_edges({-2, 0, 0}, {2, 0, 0}, {5, 4, 1}, {3, 1, 0}), 2, 3);
   CHECK(ends.exact.contacts == std::vector<EdgeEdgeContact>{{vertex_face(1), vertex_face(3), 0, 1}});
   CHECK(detect(two_edges({-2, 0, 0}, {2, 0, 0}, {0, -2, 1}, {0, 2, 1}), 1, 3).exact.contacts.empty());
-  CHECK(detect(two_edges({-2, 0, 0}, {2, 0, 0}, {0, -2, 5}, {0, 2, 5}), 1, 3).exact.d_min_edge == std::vector<float>{3, 3});
+  CHECK(detect(two_edges({-2, 0, 0}, {2, 0, 0}, {0, -2, 5}, {0, 2, 5}), 1, 3).exact.d_min_edge ==
+        std::vector<float>{3, 3});
 }
 
-TEST_CASE("detect_edge_edge: a bend meets what passes outside it with its vertex, once, and what passes inside with both edges", "[unit]") {
+TEST_CASE(
+    "detect_edge_edge: a bend meets what passes outside it with its vertex, once, and what passes inside with both "
+    "edges",
+    "[unit]") {
   Surface bend{{{-2, 0, 2}, {0, 0, 0}, {2, 0, 2}, {0, -2, -0.5f}, {0, 2, -0.5f}}, {}, {{0, 1}, {1, 2}, {3, 4}}, {}};
   CHECK(detect(bend, 1, 2).exact.contacts == std::vector<EdgeEdgeContact>{{vertex_face(1), edge_face(2), 0, 2}});
   bend.positions[3].z = bend.positions[4].z = 0.5f;
-  CHECK(detect(bend, 1, 2).exact.contacts == std::vector<EdgeEdgeContact>{{edge_face(0), edge_face(2), 0, 2}, {edge_face(1), edge_face(2), 1, 2}});
+  CHECK(detect(bend, 1, 2).exact.contacts ==
+        std::vector<EdgeEdgeContact>{{edge_face(0), edge_face(2), 0, 2}, {edge_face(1), edge_face(2), 1, 2}});
   // Two bends whose vertices 1 and 4 meet through four pairs of edges.
-  const Surface bends{{{-2, 0, 2}, {0, 0, 0.5f}, {2, 0, 2}, {0, -2, -2}, {0, 0, -0.5f}, {0, 2, -2}}, {}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}}, {}};
+  const Surface bends{{{-2, 0, 2}, {0, 0, 0.5f}, {2, 0, 2}, {0, -2, -2}, {0, 0, -0.5f}, {0, 2, -2}},
+                      {},
+                      {{0, 1}, {1, 2}, {3, 4}, {4, 5}},
+                      {}};
   CHECK(detect(bends, 2, 3).exact.contacts == std::vector<EdgeEdgeContact>{{vertex_face(1), vertex_face(4), 0, 2}});
 }
 
@@ -156,7 +176,8 @@ TEST_CASE("detect_edge_edge: nearly parallel edges are one interior pair, from t
   CHECK(overlap.exact.contacts == std::vector<EdgeEdgeContact>{{edge_face(0), edge_face(1), 0, 1}});
   const auto one_point = detect(two_edges({0, 0, 0}, {4, 0, 0}, {4, 0, 1}, {8, 0, 1}), 2, 3);
   CHECK(one_point.exact.contacts == std::vector<EdgeEdgeContact>{{vertex_face(1), vertex_face(2), 0, 1}});
-  // End 0 of the second edge is nearest (d = 1), the middle of the overlap is farther than r = 1.0001 from it: still a contact.
+  // End 0 of the second edge is nearest (d = 1), the middle of the overlap is farther than r = 1.0001 from it: still a
+  // contact.
   const auto sloped = detect(two_edges({0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1.002f}), 1.0001f, 3);
   CHECK(sloped.exact.contacts == std::vector<EdgeEdgeContact>{{edge_face(0), edge_face(1), 0, 1}});
   CHECK(sloped.exact.d_min_edge[0] == 1);
@@ -166,7 +187,9 @@ TEST_CASE("detect_edge_edge: nearly parallel edges count where closest points li
   // Edge 01 of a triangle below edge 23 of another one, each given its third vertex.
   const auto pair_with = [](Vec3f below, Vec3f above, float tilt, float shift) {
     const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1 + shift, 0, 1}, {5 + shift, 0, 1 + tilt}, below, above},
-                          {{0, 1, 4}, {2, 3, 5}}, {}, {}};
+                          {{0, 1, 4}, {2, 3, 5}},
+                          {},
+                          {}};
     const auto topology = surface.topology();
     const Index e = compare::find_edge(topology, 0, 1), f = compare::find_edge(topology, 2, 3);
     const auto found = detect(surface, 1.25f, 3).exact.contacts;
@@ -180,11 +203,14 @@ TEST_CASE("detect_edge_edge: nearly parallel edges count where closest points li
       CHECK_FALSE(pair_with({2, 3, 1}, {3, 3, 0}, tilt, shift));  // each leans towards the other, at both its ends
     }
   }
-  // A third vertex whose triangle leans over vertex 1 alone: at that end of the overlap no contact, at vertex 2 there is.
+  // A third vertex whose triangle leans over vertex 1 alone: at that end of the overlap no contact, at vertex 2 there
+  // is.
   const auto leaning_at = [](float tilt) {
-    const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1 + tilt}, {4, 2, 1}, {5, 2, 1}, {2, 2, -1},
-                           {2, 2, 2}},
-                          {{0, 1, 6}, {1, 4, 5}, {2, 3, 7}}, {}, {}};
+    const Surface surface{
+        {{0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1 + tilt}, {4, 2, 1}, {5, 2, 1}, {2, 2, -1}, {2, 2, 2}},
+        {{0, 1, 6}, {1, 4, 5}, {2, 3, 7}},
+        {},
+        {}};
     const auto topology = surface.topology();
     const Index e = compare::find_edge(topology, 0, 1), f = compare::find_edge(topology, 2, 3);
     const auto found = detect(surface, 1.25f, 3).exact.contacts;
@@ -227,7 +253,9 @@ TEST_CASE("detect_edge_edge: parallel strands keep their contacts at any tilt", 
 TEST_CASE("detect_edge_edge: two parallel flat sheets have interior pairs only, along the normal", "[unit]") {
   // The second sheet is turned by a 3-4-5 angle and shifted: no two edges across the sheets are parallel.
   const int n = 7;
-  const Surface upper = mapped(grid(n), [](Vec3f x) { return Vec3f{0.6f * x.x - 0.8f * x.y + 3.37f, 0.8f * x.x + 0.6f * x.y - 1.21f, 0.5f}; });
+  const Surface upper = mapped(grid(n), [](Vec3f x) {
+    return Vec3f{0.6f * x.x - 0.8f * x.y + 3.37f, 0.8f * x.x + 0.6f * x.y - 1.21f, 0.5f};
+  });
   const Surface sheets = together(grid(n), upper);
   const auto topology = sheets.topology();
   const reference::Complex mesh{topology, sheets.positions};
@@ -237,7 +265,8 @@ TEST_CASE("detect_edge_edge: two parallel flat sheets have interior pairs only, 
     if (!inner(mesh, c.first, n) || !inner(mesh, c.second, n)) continue;
     CHECK(c.first.kind == FaceKind::edge);
     CHECK(c.second.kind == FaceKind::edge);
-    const auto it = std::find(pairs.edges.begin(), pairs.edges.end(), std::array<Index, 2>{c.first.index, c.second.index});
+    const auto it = std::find(pairs.edges.begin(), pairs.edges.end(),
+                              std::array<Index, 2>{c.first.index, c.second.index});
     REQUIRE(it != pairs.edges.end());
     const auto [s, t] = pairs.truth.parameters[static_cast<std::size_t>(it - pairs.edges.begin())];
     const auto a = point_on(topology, sheets, c.first.index, s), b = point_on(topology, sheets, c.second.index, t);
@@ -247,7 +276,8 @@ TEST_CASE("detect_edge_edge: two parallel flat sheets have interior pairs only, 
   CHECK(between > 20);
 }
 
-TEST_CASE("detect_edge_edge: Algorithm 2 gives the set of the definition, with the lowest generating edges", "[property]") {
+TEST_CASE("detect_edge_edge: Algorithm 2 gives the set of the definition, with the lowest generating edges",
+          "[property]") {
   std::mt19937 random(14);
   for (int k = 0; k < 4; ++k) {
     Surface surface = k % 2 == 0 ? folded(6, 0.4f, random, 0.3f) : soup(18, 12, random);
@@ -283,14 +313,22 @@ TEST_CASE("detect_edge_edge: scaling by powers of two gives the same set, distan
   const Surface surface = folded(6, 0.4f, random, 0.3f);
   const auto truth = detect(surface, 0.7f, 1.25f);
   for (const float scale : {0x1p-20f, 0x1p-10f, 0x1p10f, 0x1p20f}) {
-    const auto scaled = detect(mapped(surface, [&](Vec3f x) { return Vec3f{scale * x.x, scale * x.y, scale * x.z}; }), scale * 0.7f, scale * 1.25f);
+    const auto scaled = detect(mapped(surface,
+                                      [&](Vec3f x) {
+                                        return Vec3f{scale * x.x, scale * x.y, scale * x.z};
+                                      }),
+                               scale * 0.7f, scale * 1.25f);
     CHECK(scaled.exact.contacts == truth.exact.contacts);
     CHECK(scaled.pairs == truth.pairs);
-    for (std::size_t e = 0; e < truth.exact.d_min_edge.size(); ++e) CHECK(scaled.exact.d_min_edge[e] == scale * truth.exact.d_min_edge[e]);
+    for (std::size_t e = 0; e < truth.exact.d_min_edge.size(); ++e)
+      CHECK(scaled.exact.d_min_edge[e] == scale * truth.exact.d_min_edge[e]);
   }
 }
 
-TEST_CASE("detect_edge_edge: the set is symmetric: renumbered vertices, and with them the roles of the edges, give the renamed pairs", "[property]") {
+TEST_CASE(
+    "detect_edge_edge: the set is symmetric: renumbered vertices, and with them the roles of the edges, give the "
+    "renamed pairs",
+    "[property]") {
   std::mt19937 random(17);
   const Surface surface = folded(6, 0.4f, random, 0.3f);
   const auto topology = surface.topology();
@@ -299,7 +337,8 @@ TEST_CASE("detect_edge_edge: the set is symmetric: renumbered vertices, and with
   std::shuffle(name.begin(), name.end(), random);
   Surface renamed = surface;
   const auto renumbered = [&](Index v) { return name[static_cast<std::size_t>(v)]; };
-  for (std::size_t v = 0; v < name.size(); ++v) renamed.positions[static_cast<std::size_t>(name[v])] = surface.positions[v];
+  for (std::size_t v = 0; v < name.size(); ++v)
+    renamed.positions[static_cast<std::size_t>(name[v])] = surface.positions[v];
   for (auto& t : renamed.triangles) t = {renumbered(t[1]), renumbered(t[2]), renumbered(t[0])};
   const auto renamed_topology = renamed.topology();
   const auto renamed_face = [&](Face face) {
@@ -308,7 +347,8 @@ TEST_CASE("detect_edge_edge: the set is symmetric: renumbered vertices, and with
     return edge_face(compare::find_edge(renamed_topology, renumbered(a), renumbered(b)));
   };
   std::set<std::pair<Face, Face>> expected, found;
-  for (const auto& c : detect(surface, 0.7f, 1.25f).exact.contacts) expected.insert(std::minmax(renamed_face(c.first), renamed_face(c.second)));
+  for (const auto& c : detect(surface, 0.7f, 1.25f).exact.contacts)
+    expected.insert(std::minmax(renamed_face(c.first), renamed_face(c.second)));
   for (const auto& c : detect(renamed, 0.7f, 1.25f).exact.contacts) found.insert({c.first, c.second});
   CHECK(found == expected);
 }
@@ -327,12 +367,14 @@ TEST_CASE("detect_edge_edge: pairs inside one rigid group are neither contacts n
 
 TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "[unit]") {
   const auto one_up = [](float x) { return std::nextafter(x, 1e9f); };
-  // Oblique end: the second edge lies in the plane x + y = 8 through vertex 1 up to a last place; 8 − 5.1 and 8 − 5.7 are exact.
+  // Oblique end: the second edge lies in the plane x + y = 8 through vertex 1 up to a last place; 8 − 5.1 and 8 − 5.7
+  // are exact.
   for (const float x : {5.1f, one_up(5.1f)}) {
     const auto truth = detect(two_edges({0, 0, 0}, {4, 4, 0}, {x, 8 - 5.1f, 2}, {8 - 5.7f, 5.7f, 2}), 3, 4);
     REQUIRE(truth.grey.size() == 1);
     CHECK_FALSE(truth.grey[0].absence_accepted);
-    CHECK(truth.grey[0].contacts == std::vector<EdgeEdgeContact>{{vertex_face(1), edge_face(1), 0, 1}, {edge_face(0), edge_face(1), 0, 1}});
+    CHECK(truth.grey[0].contacts ==
+          std::vector<EdgeEdgeContact>{{vertex_face(1), edge_face(1), 0, 1}, {edge_face(0), edge_face(1), 0, 1}});
   }
   // Distance: absence is accepted on both sides.
   for (const float z : {std::nextafter(1.0f, 0.0f), 1.0f, one_up(1.0f)}) {
@@ -343,10 +385,12 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
   // The limit of nearly parallel, where the other answer is end to interior.
   const auto limit = detect(two_edges({0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1.004f}), 2, 3);
   REQUIRE(limit.grey.size() == 1);
-  CHECK(limit.grey[0].contacts == std::vector<EdgeEdgeContact>{{vertex_face(2), edge_face(0), 1, 0}, {edge_face(0), edge_face(1), 0, 1}});
+  CHECK(limit.grey[0].contacts ==
+        std::vector<EdgeEdgeContact>{{vertex_face(2), edge_face(0), 1, 0}, {edge_face(0), edge_face(1), 0, 1}});
 }
 
-TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place stays within the grey decisions", "[property]") {
+TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place stays within the grey decisions",
+          "[property]") {
   // Coordinates and differences of one size, so that a last place is less than 16 u of every difference.
   std::mt19937 random(18);
   std::uniform_int_distribution<int> step(-1, 1);
@@ -363,9 +407,19 @@ TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place
   // Exactly parallel edges 01 and 23 whose blocks hold one end of their overlap, the other, both, none, or end there.
   for (int way = 0; way < 81; ++way) {
     const auto lean = [way](int place) { return static_cast<float>(way / place % 3 - 1); };
-    const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1}, {4, 2, lean(1)}, {5, 2, lean(3)},
-                           {1, 2, 1 + lean(9)}, {0, 2, 1 + lean(27)}, {2, 2, -1}, {2, 2, 2}},
-                          {{0, 1, 8}, {1, 4, 5}, {2, 3, 9}, {2, 6, 7}}, {}, {}};
+    const Surface surface{{{0, 0, 0},
+                           {4, 0, 0},
+                           {1, 0, 1},
+                           {5, 0, 1},
+                           {4, 2, lean(1)},
+                           {5, 2, lean(3)},
+                           {1, 2, 1 + lean(9)},
+                           {0, 2, 1 + lean(27)},
+                           {2, 2, -1},
+                           {2, 2, 2}},
+                          {{0, 1, 8}, {1, 4, 5}, {2, 3, 9}, {2, 6, 7}},
+                          {},
+                          {}};
     const Surface oblique = mapped(surface, turned);
     const auto truth = detect(oblique, 1.25f * turned_scale, 60);
     CHECK(accepted(truth, truth.exact.contacts));
@@ -374,7 +428,8 @@ TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place
   }
 }
 
-TEST_CASE("detect_edge_edge: random states are hardly ever grey, aligned axis-parallel sheets not at all", "[property]") {
+TEST_CASE("detect_edge_edge: random states are hardly ever grey, aligned axis-parallel sheets not at all",
+          "[property]") {
   std::mt19937 random(19);
   const auto truth = detect(folded(30, 0.4f, random, 0.3f), 0.7f, 1.5f);
   CHECK(truth.pairs > 50000);

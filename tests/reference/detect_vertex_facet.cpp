@@ -1,4 +1,5 @@
-// detect_vertex_facet: contacts by hand, Algorithm 1 against the definition (Eq. 12), smallest distances, invariances, grey decisions.
+// detect_vertex_facet: contacts by hand, Algorithm 1 against the definition (Eq. 12), smallest distances, invariances,
+// grey decisions.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <algorithm>
@@ -51,9 +52,12 @@ std::vector<VertexFacetContact> by_definition(const Surface& surface, float r) {
       for (const Face face : faces) {
         const auto vertices = mesh.vertices(face);
         if (std::find(vertices.span().begin(), vertices.span().end(), v) != vertices.span().end()) continue;
-        if (!reference::in_block(mesh, face, mesh.at(v), r) || reference::sign(reference::face_gap(mesh, face, mesh.at(v), r)) >= 0) continue;
+        if (!reference::in_block(mesh, face, mesh.at(v), r) ||
+            reference::sign(reference::face_gap(mesh, face, mesh.at(v), r)) >= 0)
+          continue;
         const auto same = [&](const VertexFacetContact& c) { return c.face == face; };
-        if (std::none_of(found.begin(), found.end(), same)) found.insert({v, face, number});  // triangles ascend: the first one is the owner
+        // triangles ascend: the first one is the owner
+        if (std::none_of(found.begin(), found.end(), same)) found.insert({v, face, number});
       }
     }
     contacts.insert(contacts.end(), found.begin(), found.end());
@@ -67,7 +71,8 @@ struct Distances {
 
 /// Eq. 22 and 26 over all pairs.
 Distances smallest_by_definition(const Surface& surface, float r_q) {
-  Distances result{std::vector<float>(surface.positions.size(), r_q), std::vector<float>(surface.triangles.size(), r_q)};
+  Distances result{std::vector<float>(surface.positions.size(), r_q),
+                   std::vector<float>(surface.triangles.size(), r_q)};
   compare::ClosestFaceIn in;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t v = 0; v < surface.positions.size(); ++v) {
@@ -91,27 +96,35 @@ Distances smallest_by_definition(const Surface& surface, float r_q) {
 
 /// Whether an answer is the exact one or differs only where grey decisions allow it.
 bool accepted(const compare::DetectVertexFacetTruth& truth, const std::vector<VertexFacetContact>& answer) {
-  const std::set<VertexFacetContact> exact(truth.exact.contacts.begin(), truth.exact.contacts.end()), given(answer.begin(), answer.end());
+  const std::set<VertexFacetContact> exact(truth.exact.contacts.begin(), truth.exact.contacts.end()),
+      given(answer.begin(), answer.end());
   const auto listed = [&](const VertexFacetContact& c, auto condition) {
     return std::any_of(truth.grey.begin(), truth.grey.end(), [&](const auto& decision) {
-      return std::find(decision.contacts.begin(), decision.contacts.end(), c) != decision.contacts.end() && condition(decision);
+      return std::find(decision.contacts.begin(), decision.contacts.end(), c) != decision.contacts.end() &&
+             condition(decision);
     });
   };
   const auto replaced = [&](const auto& decision) {
-    return decision.absence_accepted ||
-           std::any_of(decision.contacts.begin(), decision.contacts.end(), [&](const VertexFacetContact& c) { return given.contains(c); });
+    return decision.absence_accepted || std::any_of(decision.contacts.begin(), decision.contacts.end(),
+                                                    [&](const VertexFacetContact& c) { return given.contains(c); });
   };
-  const bool none_missing = std::all_of(exact.begin(), exact.end(), [&](const auto& c) { return given.contains(c) || listed(c, replaced); });
+  const bool none_missing = std::all_of(exact.begin(), exact.end(),
+                                        [&](const auto& c) { return given.contains(c) || listed(c, replaced); });
   return none_missing && std::all_of(given.begin(), given.end(), [&](const auto& c) {
-    return exact.contains(c) || listed(c, [](const auto&) { return true; });
-  });
+           return exact.contains(c) || listed(c, [](const auto&) { return true; });
+         });
 }
 
-bool same(const compare::DetectVertexFacetTruth& a, const compare::DetectVertexFacetTruth& b) { return a.exact.contacts == b.exact.contacts; }
+bool same(const compare::DetectVertexFacetTruth& a, const compare::DetectVertexFacetTruth& b) {
+  return a.exact.contacts == b.exact.contacts;
+}
 
 }  // namespace
 
-TEST_CASE("detect_vertex_facet: a vertex straight above a vertex, an edge or an interior has one contact, whatever the valence", "[unit]") {
+TEST_CASE(
+    "detect_vertex_facet: a vertex straight above a vertex, an edge or an interior has one contact, whatever the "
+    "valence",
+    "[unit]") {
   // Vertex 12 is (2,2); triangle 20 is (12, 13, 17), its centre (7/3, 7/3).
   const Surface sheet = grid(5);
   const auto topology = sheet.topology();
@@ -130,7 +143,8 @@ TEST_CASE("detect_vertex_facet: a vertex straight above a vertex, an edge or an 
     CAPTURE(one.above.x, one.above.y);
     for (const bool turn : {false, true}) {
       const Surface surface = with_vertex(sheet, one.above);
-      const auto truth = turn ? detect(mapped(surface, turned), 0.5f * turned_scale, turned_scale) : detect(surface, 0.5f, 1);
+      const auto truth = turn ? detect(mapped(surface, turned), 0.5f * turned_scale, turned_scale)
+                              : detect(surface, 0.5f, 1);
       CHECK(truth.exact.contacts == std::vector<VertexFacetContact>{{25, one.face, one.owner}});
       CHECK(truth.exact.d_min_vertex[25] == (turn ? 0.25f * turned_scale : 0.25f));
     }
@@ -147,12 +161,16 @@ TEST_CASE("detect_vertex_facet: a vertex over a valley touches both slopes, over
   CHECK(contacts_of(below, 4) == std::vector<VertexFacetContact>{{4, triangle_face(0), 0}, {4, triangle_face(1), 1}});
 }
 
-TEST_CASE("detect_vertex_facet: d = r is no contact, and d_min counts faces whose blocks do not hold the vertex", "[unit]") {
+TEST_CASE("detect_vertex_facet: d = r is no contact, and d_min counts faces whose blocks do not hold the vertex",
+          "[unit]") {
   const Surface sheet = grid(3, 0, 4);
   CHECK(detect(with_vertex(sheet, {1, 1, 2}), 2, 3).exact.contacts.empty());
   CHECK(detect(with_vertex(sheet, {1, 1, std::nextafter(2.0f, 0.0f)}), 2, 3).exact.contacts.size() == 1);
   // Over the saddle's vertex nothing but its neighbours' faces can be in contact, but the distance to it counts.
-  const Surface saddle{{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}, {}, {}};
+  const Surface saddle{{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
+                       {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
+                       {},
+                       {}};
   const auto truth = detect(with_vertex(saddle, {0, 0, 0.5f}), 0.125f, 3);
   CHECK(truth.exact.contacts.empty());
   CHECK(truth.exact.d_min_vertex[5] < 0.5f);
@@ -173,7 +191,8 @@ TEST_CASE("detect_vertex_facet: Algorithm 1 gives the set of Eq. 12", "[property
   CHECK(detect(exact, 10, 20).exact.contacts == by_definition(exact, 10));
 }
 
-TEST_CASE("detect_vertex_facet: smallest distances are those over all pairs, never above the exact ones", "[property]") {
+TEST_CASE("detect_vertex_facet: smallest distances are those over all pairs, never above the exact ones",
+          "[property]") {
   std::mt19937 random(9);
   for (const float r_q : {0.35f, 1.5f}) {
     const Surface surface = folded(9, 0.4f, random, 0.3f);
@@ -189,11 +208,16 @@ TEST_CASE("detect_vertex_facet: scaling by powers of two gives the same set, dis
   const Surface surface = folded(8, 0.4f, random, 0.3f);
   const auto truth = detect(surface, 0.8f, 1.25f);
   for (const float scale : {0x1p-20f, 0x1p-10f, 0x1p10f, 0x1p20f}) {
-    const auto scaled = detect(mapped(surface, [&](Vec3f x) { return Vec3f{scale * x.x, scale * x.y, scale * x.z}; }), scale * 0.8f, scale * 1.25f);
+    const auto scaled = detect(mapped(surface,
+                                      [&](Vec3f x) {
+                                        return Vec3f{scale * x.x, scale * x.y, scale * x.z};
+                                      }),
+                               scale * 0.8f, scale * 1.25f);
     CHECK(same(scaled, truth));
     CHECK(scaled.pairs == truth.pairs);
     CHECK(scaled.grey.size() == truth.grey.size());
-    for (std::size_t v = 0; v < surface.positions.size(); ++v) CHECK(scaled.exact.d_min_vertex[v] == scale * truth.exact.d_min_vertex[v]);
+    for (std::size_t v = 0; v < surface.positions.size(); ++v)
+      CHECK(scaled.exact.d_min_vertex[v] == scale * truth.exact.d_min_vertex[v]);
   }
 }
 
@@ -205,8 +229,11 @@ TEST_CASE("detect_vertex_facet: renumbered vertices give the renumbered set", "[
   std::iota(name.begin(), name.end(), 0);
   std::shuffle(name.begin(), name.end(), random);
   Surface renamed = surface;
-  for (std::size_t v = 0; v < name.size(); ++v) renamed.positions[static_cast<std::size_t>(name[v])] = surface.positions[v];
-  for (auto& t : renamed.triangles) t = {name[static_cast<std::size_t>(t[1])], name[static_cast<std::size_t>(t[2])], name[static_cast<std::size_t>(t[0])]};
+  for (std::size_t v = 0; v < name.size(); ++v)
+    renamed.positions[static_cast<std::size_t>(name[v])] = surface.positions[v];
+  for (auto& t : renamed.triangles)
+    t = {name[static_cast<std::size_t>(t[1])], name[static_cast<std::size_t>(t[2])],
+         name[static_cast<std::size_t>(t[0])]};
   const auto renamed_topology = renamed.topology();
   std::vector<VertexFacetContact> expected;
   for (VertexFacetContact c : detect(surface, 0.8f, 1.25f).exact.contacts) {
@@ -214,7 +241,8 @@ TEST_CASE("detect_vertex_facet: renumbered vertices give the renumbered set", "[
     if (c.face.kind == FaceKind::vertex) c.face.index = name[static_cast<std::size_t>(c.face.index)];
     if (c.face.kind == FaceKind::edge) {
       const auto [a, b] = topology.edges[static_cast<std::size_t>(c.face.index)];
-      c.face.index = compare::find_edge(renamed_topology, name[static_cast<std::size_t>(a)], name[static_cast<std::size_t>(b)]);
+      c.face.index = compare::find_edge(renamed_topology, name[static_cast<std::size_t>(a)],
+                                        name[static_cast<std::size_t>(b)]);
     }
     expected.push_back(c);
   }
@@ -237,7 +265,8 @@ TEST_CASE("detect_vertex_facet: pairs inside one rigid group are neither contact
   CHECK(detect(surface, 0.5f, 1).exact.contacts == std::vector<VertexFacetContact>{{9, vertex_face(4), 1}});
 }
 
-TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coinciding and collapsed ones give no NaN", "[unit]") {
+TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coinciding and collapsed ones give no NaN",
+          "[unit]") {
   Surface yarn{{{0, 0, 0}, {4, 0, 0}, {2, 0, 0.5f}}, {}, {{0, 1}}, {}};
   const auto loose = detect(yarn, 1, 2);
   CHECK(loose.exact.contacts.empty());
@@ -247,9 +276,10 @@ TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coincidin
   CHECK(contacts_of(truth, 3).size() == 1);
   CHECK(truth.exact.d_min_vertex[3] == 0.5f);
   CHECK(truth.exact.d_min_vertex[4] == 0);
-  // Vertices 1 and 2 coincide, so both are closest in triangle 0. The lower-numbered corner is 1, whose block ends before its neighbour 4; another order
-  // of the corners would give a contact with 2.
-  Surface coinciding{{{4, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {-1, 0, 2}, {-1, 1, 2}}, {{0, 1, 2}, {1, 4, 5}}, {}, {}};
+  // Vertices 1 and 2 coincide, so both are closest in triangle 0. The lower-numbered corner is 1, whose block ends
+  // before its neighbour 4; another order of the corners would give a contact with 2.
+  Surface coinciding{
+      {{4, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {-1, 0, 2}, {-1, 1, 2}}, {{0, 1, 2}, {1, 4, 5}}, {}, {}};
   const auto tie = detect(coinciding, 2, 3);
   const VertexFacetContact other{3, vertex_face(2), 0};
   std::vector<VertexFacetContact> answer = tie.exact.contacts;
@@ -259,7 +289,10 @@ TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coincidin
   CHECK(accepted(tie, answer));
 }
 
-TEST_CASE("detect_vertex_facet: a vertex one unit in the last place beside a shared edge is grey between the edge and its triangles", "[unit]") {
+TEST_CASE(
+    "detect_vertex_facet: a vertex one unit in the last place beside a shared edge is grey between the edge and its "
+    "triangles",
+    "[unit]") {
   const Surface sheet = mapped(grid(3), turned);
   const auto topology = sheet.topology();
   const Index shared = compare::find_edge(topology, 4, 6);
@@ -288,7 +321,8 @@ TEST_CASE("detect_vertex_facet: a distance next to r is grey, and absence is acc
   CHECK(detect(with_vertex(sheet, {1, 1, 1.99f}), 2, 2).grey.empty());
 }
 
-TEST_CASE("detect_vertex_facet: moving every coordinate by a unit in the last place stays within the grey decisions", "[property]") {
+TEST_CASE("detect_vertex_facet: moving every coordinate by a unit in the last place stays within the grey decisions",
+          "[property]") {
   // Coordinates and differences of one size, so that a last place is less than 16 u of every difference.
   std::mt19937 random(12);
   std::uniform_int_distribution<int> step(-1, 1);

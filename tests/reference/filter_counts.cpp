@@ -19,7 +19,8 @@ reference::Margin drowned() { return reference::along({0, 0, 0}, {0x1p40f, 1, -0
 
 }  // namespace
 
-TEST_CASE("filter_counts: a sign of a few digits is decided by intervals, one that a double drowns by exact numbers", "[unit]") {
+TEST_CASE("filter_counts: a sign of a few digits is decided by intervals, one that a double drowns by exact numbers",
+          "[unit]") {
   const auto before = reference::filter_counts();
   CHECK(reference::sign(reference::along({0, 0, 0}, {1, 0, 0}, {2, 0, 0})) == 1);
   CHECK(reference::sign(reference::along({0, 0, 0}, {1, 0, 0}, {0, 2, 0})) == 0);
@@ -41,7 +42,8 @@ TEST_CASE("filter_counts: threads that have ended and threads that run are all c
   }
   for (std::thread& thread : running) thread.join();
   reference::sign(drowned());
-  CHECK(reference::filter_counts().since(before)[Filtered::along] == reference::FilterCount{threads * questions + 1, threads * questions + 1});
+  CHECK(reference::filter_counts().since(before)[Filtered::along] ==
+        reference::FilterCount{threads * questions + 1, threads * questions + 1});
 }
 
 TEST_CASE("filter_counts: distances are counted where they are rounded and where they are compared", "[unit]") {
@@ -57,7 +59,8 @@ TEST_CASE("filter_counts: distances are counted where they are rounded and where
 
 TEST_CASE("filter_counts: every predicate has a name of its own", "[unit]") {
   std::set<std::string_view> names;
-  for (std::size_t k = 0; k < reference::filtered_predicates; ++k) names.insert(reference::name(static_cast<Filtered>(k)));
+  for (std::size_t k = 0; k < reference::filtered_predicates; ++k)
+    names.insert(reference::name(static_cast<Filtered>(k)));
   CHECK(names.size() == reference::filtered_predicates);
   CHECK(names.count("") == 0);
   CHECK(reference::name(Filtered::gap_lines) == "gap_lines");

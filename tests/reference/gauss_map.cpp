@@ -1,4 +1,5 @@
-// The polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, areas that are angle deficits.
+// The polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, areas that are angle
+// deficits.
 #include "reference/geometry/gauss_map.hpp"
 
 #include <algorithm>
@@ -29,24 +30,32 @@ double angle_deficit(const Complex& mesh, Index v) {
     for (const Index u : mesh.triangle(t)) {
       if (u == v) continue;
       const Vec3f &a = mesh.at(v), &b = mesh.at(u);
-      d[static_cast<std::size_t>(k++)] = {static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y, static_cast<double>(b.z) - a.z};
+      d[static_cast<std::size_t>(k++)] = {static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y,
+                                          static_cast<double>(b.z) - a.z};
     }
     const double dot = d[0][0] * d[1][0] + d[0][1] * d[1][1] + d[0][2] * d[1][2];
-    sum += std::acos(std::clamp(dot / std::hypot(d[0][0], d[0][1], d[0][2]) / std::hypot(d[1][0], d[1][1], d[1][2]), -1.0, 1.0));
+    sum += std::acos(
+        std::clamp(dot / std::hypot(d[0][0], d[0][1], d[0][2]) / std::hypot(d[1][0], d[1][1], d[1][2]), -1.0, 1.0));
   }
   return 2 * pi - sum;
 }
 
 bool near_unit(const Unit& a, const Unit& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 1e-12; }
 
-/// Five triangles around vertex 0: neighbours on the corners of a square at height −1, and vertex 2 in the middle of a side at `height`.
+/// Five triangles around vertex 0: neighbours on the corners of a square at height −1, and vertex 2 in the middle of a
+/// side at `height`.
 Surface five_spokes(float height) {
-  return {{{0, 0, 0}, {2, 2, -1}, {0, 2, height}, {-2, 2, -1}, {-2, -2, -1}, {2, -2, -1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}}, {}, {}};
+  return {{{0, 0, 0}, {2, 2, -1}, {0, 2, height}, {-2, 2, -1}, {-2, -2, -1}, {2, -2, -1}},
+          {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}},
+          {},
+          {}};
 }
 
 bool is_inner(const compare::Topology& topology, Index v) {
   const auto edges = topology.vertex_edges[static_cast<std::size_t>(v)];
-  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](Index e) { return topology.edge_triangles[static_cast<std::size_t>(e)].size() == 2; });
+  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](Index e) {
+    return topology.edge_triangles[static_cast<std::size_t>(e)].size() == 2;
+  });
 }
 
 bool has(const std::vector<Unit>& units, const Unit& u) {
@@ -65,12 +74,14 @@ TEST_CASE("gauss_map: convex, mixed and saddle vertices by hand", "[unit]") {
   CHECK(kind_of(saddle(), 0) == VertexKind::saddle);
   CHECK(kind_of(saddle(), 1) == VertexKind::convex);  // at the rim: two triangles that meet in a ridge
   CHECK(kind_of(grid(3), 4) == VertexKind::convex);   // flat
-  CHECK(kind_of(five_spokes(-0.25f), 0) == VertexKind::convex);  // (0,2,−1/4) is above the line between its neighbours: still a ridge
+  // (0,2,−1/4) is above the line between its neighbours: still a ridge
+  CHECK(kind_of(five_spokes(-0.25f), 0) == VertexKind::convex);
   CHECK(kind_of(five_spokes(-1.5f), 0) == VertexKind::mixed);
   CHECK(kind_of({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}, {}}, 0) == VertexKind::convex);
 }
 
-TEST_CASE("gauss_map: Eq. 6, a triangle has two opposite normals, an edge an arc between its triangles' normals", "[unit]") {
+TEST_CASE("gauss_map: Eq. 6, a triangle has two opposite normals, an edge an arc between its triangles' normals",
+          "[unit]") {
   const Surface surface = cube();
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};
@@ -94,7 +105,10 @@ TEST_CASE("gauss_map: Eq. 6, a triangle has two opposite normals, an edge an arc
   CHECK(reference::solid_angle(corner) == Approx(pi / 2));
 }
 
-TEST_CASE("gauss_map: boundary edges have half a circle, edges of M^e a whole one, the end of a yarn half the sphere, a lone vertex all of it", "[unit]") {
+TEST_CASE(
+    "gauss_map: boundary edges have half a circle, edges of M^e a whole one, the end of a yarn half the sphere, a lone "
+    "vertex all of it",
+    "[unit]") {
   Surface surface{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, 5}, {1, 1, 1}}, {{0, 1, 2}}, {{2, 3}}, {}};
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};
@@ -105,17 +119,21 @@ TEST_CASE("gauss_map: boundary edges have half a circle, edges of M^e a whole on
   CHECK(near_unit(half.corners[1], {0, -1, 0}));
   CHECK(std::abs(half.corners[0][2]) == 1);
   CHECK_FALSE(half.closed);
-  for (const auto& whole : {reference::gauss_map(mesh, reference::edge_face(rim), true), reference::gauss_map(mesh, reference::edge_face(yarn))}) {
+  for (const auto& whole : {reference::gauss_map(mesh, reference::edge_face(rim), true),
+                            reference::gauss_map(mesh, reference::edge_face(yarn))}) {
     CHECK(whole.dimension == 1);
     CHECK(whole.corners.size() == 4);
     CHECK(whole.closed);
   }
   CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(3))) == Approx(2 * pi));
   CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(4))) == Approx(4 * pi));
-  CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(0))) == Approx(pi));  // a right angle of a sheet: a quarter of a sphere
+  // a right angle of a sheet: a quarter of a sphere
+  CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(0))) == Approx(pi));
 }
 
-TEST_CASE("gauss_map: the area of a convex inner vertex is its angle deficit, of a mixed one at least that, of a saddle zero", "[property]") {
+TEST_CASE(
+    "gauss_map: the area of a convex inner vertex is its angle deficit, of a mixed one at least that, of a saddle zero",
+    "[property]") {
   std::array<int, 3> seen{};
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
@@ -125,7 +143,8 @@ TEST_CASE("gauss_map: the area of a convex inner vertex is its angle deficit, of
     for (Index v = 0; v < topology.vertex_count; ++v) {
       if (!is_inner(topology, v) || !reference::indicatrix(mesh, v)) continue;
       const VertexKind kind = reference::classify(mesh, v);
-      const double area = reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(v))), deficit = angle_deficit(mesh, v);
+      const double area = reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(v))),
+                   deficit = angle_deficit(mesh, v);
       ++seen[static_cast<std::size_t>(kind)];
       if (kind == VertexKind::convex) CHECK(std::abs(area - deficit) < 1e-6);
       if (kind == VertexKind::mixed) CHECK(area > deficit - 1e-6);
@@ -137,21 +156,27 @@ TEST_CASE("gauss_map: the area of a convex inner vertex is its angle deficit, of
   CHECK(seen[2] > 50);
 }
 
-TEST_CASE("gauss_map: every direction is a normal of some vertex of a closed mesh; of a convex one just once", "[property]") {
+TEST_CASE("gauss_map: every direction is a normal of some vertex of a closed mesh; of a convex one just once",
+          "[property]") {
   const auto total = [](const Surface& surface) {
     const auto topology = surface.topology();
     const Complex mesh{topology, surface.positions};
     double area = 0;
-    for (Index v = 0; v < topology.vertex_count; ++v) area += reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(v)));
+    for (Index v = 0; v < topology.vertex_count; ++v)
+      area += reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(v)));
     return area;
   };
-  for (const Surface& surface : {tetrahedron(), octahedron(), cube(), mapped(cube(), turned)}) CHECK(total(surface) == Approx(4 * pi));
+  for (const Surface& surface : {tetrahedron(), octahedron(), cube(), mapped(cube(), turned)})
+    CHECK(total(surface) == Approx(4 * pi));
   Surface dented = octahedron();
   dented.positions[4].z = -1;
   CHECK(total(dented) > 4 * pi);
 }
 
-TEST_CASE("gauss_map: Echeverria's indicatrix of a closed fan encloses the angle deficit, with inverted parts counted against it", "[property]") {
+TEST_CASE(
+    "gauss_map: Echeverria's indicatrix of a closed fan encloses the angle deficit, with inverted parts counted "
+    "against it",
+    "[property]") {
   int closed = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -162,9 +187,11 @@ TEST_CASE("gauss_map: Echeverria's indicatrix of a closed fan encloses the angle
       if (!polygon || !polygon->closed) continue;
       ++closed;
       CHECK(polygon->normals.size() == topology.vertex_triangles[static_cast<std::size_t>(v)].size());
-      // An area on the sphere is known up to whole spheres. Where a star passes through itself, an arc between two normals that passed through opposite
-      // directions has jumped to the other side of the sphere: then up to half spheres.
-      const bool crosses_itself = specimen.name.starts_with("folded sheet") || specimen.name.starts_with("jittered") || specimen.name.starts_with("soup");
+      // An area on the sphere is known up to whole spheres. Where a star passes through itself, an arc between two
+      // normals that passed through opposite directions has jumped to the other side of the sphere: then up to half
+      // spheres.
+      const bool crosses_itself = specimen.name.starts_with("folded sheet") || specimen.name.starts_with("jittered") ||
+                                  specimen.name.starts_with("soup");
       const double turns = (polygon->area - angle_deficit(mesh, v)) / (crosses_itself ? 2 * pi : 4 * pi);
       CHECK(std::abs(turns - std::round(turns)) < 1e-6);
     }
@@ -172,7 +199,9 @@ TEST_CASE("gauss_map: Echeverria's indicatrix of a closed fan encloses the angle
   CHECK(closed > 200);
 }
 
-TEST_CASE("gauss_map: the indicatrix of a convex corner is its Gauss map; boundary vertices give an open polygon, books none", "[unit]") {
+TEST_CASE(
+    "gauss_map: the indicatrix of a convex corner is its Gauss map; boundary vertices give an open polygon, books none",
+    "[unit]") {
   const Surface box = cube();
   const auto topology = box.topology();
   const Complex mesh{topology, box.positions};
@@ -190,7 +219,8 @@ TEST_CASE("gauss_map: the indicatrix of a convex corner is its Gauss map; bounda
   CHECK_FALSE(reference::indicatrix({spine, pages.positions}, 0));
 }
 
-TEST_CASE("gauss_map: edges of the hull are those of ridges, and planes of other edges change no vertex block", "[property]") {
+TEST_CASE("gauss_map: edges of the hull are those of ridges, and planes of other edges change no vertex block",
+          "[property]") {
   const Surface dented = five_spokes(-1.5f);
   const auto topology = dented.topology();
   const Complex mesh{topology, dented.positions};

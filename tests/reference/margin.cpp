@@ -1,4 +1,5 @@
-// What the grey zone is measured by: the written-out derivatives of the margins against forward differentiation of the formulas themselves.
+// What the grey zone is measured by: the written-out derivatives of the margins against forward differentiation of the
+// formulas themselves.
 #include "reference/geometry/margin.hpp"
 
 #include "compare/judge/random.hpp"
@@ -16,7 +17,9 @@ namespace {
 using Number = reference::Dual<9>;
 using Corner = reference::Point<Number>;
 
-Number gap(const reference::Quotient<Number>& d, float radius) { return d.numerator - Number(double{radius} * radius) * d.denominator; }
+Number gap(const reference::Quotient<Number>& d, float radius) {
+  return d.numerator - Number(double{radius} * radius) * d.denominator;
+}
 
 Number formula(const Margin& m, const std::array<Corner, 4>& at) {
   switch (m.kind) {
@@ -60,15 +63,18 @@ Margin some_margin(MarginKind kind, compare::Random& random) {
 
 }  // namespace
 
-TEST_CASE("margin: the sum of derivatives times coordinates is that of the differentiated formula, for each kind", "[property]") {
+TEST_CASE("margin: the sum of derivatives times coordinates is that of the differentiated formula, for each kind",
+          "[property]") {
   for (int kind = 0; kind <= static_cast<int>(MarginKind::gap_lines); ++kind) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
       compare::Random random("margin", "sensitivity", static_cast<std::uint64_t>(kind), i);
       const Margin margin = some_margin(static_cast<MarginKind>(kind), random);
       const double exact = differentiated(margin);
       INFO("kind " << kind << ", case " << i);
-      // Both are sums of products of coordinates up to 4 and of at most 10⁶ of them (parallel), rounded some twenty times.
-      REQUIRE(reference::sensitivity(margin) == Approx(exact).epsilon(1e-12).margin(kind == static_cast<int>(MarginKind::parallel) ? 1e-7 : 1e-12));
+      // Both are sums of products of coordinates up to 4 and of at most 10⁶ of them (parallel), rounded some twenty
+      // times.
+      REQUIRE(reference::sensitivity(margin) ==
+              Approx(exact).epsilon(1e-12).margin(kind == static_cast<int>(MarginKind::parallel) ? 1e-7 : 1e-12));
     }
   }
 }

@@ -42,11 +42,14 @@ Surface ball(int rings, int sides) {
   for (int j = 1; j < rings; ++j) {
     for (int i = 0; i < sides; ++i) {
       const double theta = pi * j / rings, phi = 2 * pi * i / sides;
-      surface.positions.push_back(at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+      surface.positions.push_back(
+          at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
     }
   }
   surface.positions.push_back(at(0, 0, -1));
-  const auto vertex = [&](int j, int i) { return j == 0 ? 0 : j == rings ? 1 + (rings - 1) * sides : 1 + (j - 1) * sides + i % sides; };
+  const auto vertex = [&](int j, int i) {
+    return j == 0 ? 0 : j == rings ? 1 + (rings - 1) * sides : 1 + (j - 1) * sides + i % sides;
+  };
   for (int j = 0; j < rings; ++j) {
     for (int i = 0; i < sides; ++i) {
       if (j > 0) surface.triangles.push_back({vertex(j, i), vertex(j + 1, i), vertex(j, i + 1)});
@@ -69,7 +72,8 @@ Surface with_yarn(Surface surface) {
   return surface;
 }
 
-/// Points near a mesh: its vertices, the middles of its edges and triangles, each moved along the axes, along the diagonal and at random by parts of r.
+/// Points near a mesh: its vertices, the middles of its edges and triangles, each moved along the axes, along the
+/// diagonal and at random by parts of r.
 std::vector<Vec3f> points_near(const Surface& surface, float r, std::size_t count, std::mt19937& random) {
   std::vector<Vec3f> centres = surface.positions;
   for (const auto& t : surface.triangles) {
@@ -84,7 +88,12 @@ std::vector<Vec3f> points_near(const Surface& surface, float r, std::size_t coun
   for (std::size_t k = 0; k < count; ++k) {
     const Vec3f& c = centres[k % centres.size()];
     const float step = (k % 2 == 0 ? 1.0f : -1.0f) * r / static_cast<float>(1u << (k % 3));
-    const Vec3f moves[] = {{0, 0, 0}, {0, 0, step}, {step, 0, 0}, {0, step, 0}, {move(random), move(random), move(random)}, {0, step / 2, step / 2}};
+    const Vec3f moves[] = {{0, 0, 0},
+                           {0, 0, step},
+                           {step, 0, 0},
+                           {0, step, 0},
+                           {move(random), move(random), move(random)},
+                           {0, step / 2, step / 2}};
     const Vec3f& m = moves[(k / centres.size() + k) % 6];
     points.push_back({c.x + m.x, c.y + m.y, c.z + m.z});
   }
@@ -99,14 +108,16 @@ class Zoo {
     all_.push_back(std::move(specimen));
   }
 
-  /// The same mesh, turned exactly, scaled by powers of ten, by powers of two down to denormal coordinates, and moved far away.
+  /// The same mesh, turned exactly, scaled by powers of ten, by powers of two down to denormal coordinates, and moved
+  /// far away.
   void add_family(const std::string& name, const Surface& surface, double radius) {
     add(name, surface, radius);
     add(name + ", turned", mapped(surface, turned), turned_scale * radius);
     for (const double factor : {1e-6, 1e-3, 1e3, 1e6, 0x1p-20, 0x1p20, 0x1p-130, 0x1p120}) {
       add(name + " times " + std::to_string(std::log10(factor)), scaled(surface, factor), factor * radius);
     }
-    add(name + ", moved by 2^10", mapped(surface, [](Vec3f x) { return at(x.x + 1024.0, x.y - 1024.0, x.z + 512.0); }), radius);
+    add(name + ", moved by 2^10", mapped(surface, [](Vec3f x) { return at(x.x + 1024.0, x.y - 1024.0, x.z + 512.0); }),
+        radius);
   }
 
   void add_shapes();
@@ -129,17 +140,24 @@ void Zoo::add_shapes() {
   add_family("open book", book(3, 0.75), 1);
   add_family("Moebius band", moebius(7), 0.5);
   add_family("waves", waves(5, 0.8), 0.6);
-  add_family("two sheets", together(grid(3), mapped(grid(3), [](Vec3f x) { return Vec3f{x.x + 0.25f, x.y + 0.5f, 0.5f}; })), 0.75);
+  add_family("two sheets",
+             together(grid(3), mapped(grid(3),
+                                      [](Vec3f x) {
+                                        return Vec3f{x.x + 0.25f, x.y + 0.5f, 0.5f};
+                                      })),
+             0.75);
   add_family("needles", needles(4, 0x1p-8), 0.125);
   add_family("sheet with yarn", with_yarn(grid(3)), 1);
   add("one triangle", {{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}, {}}, 1);
   for (const int pages : {1, 2, 3, 4, 5, 8}) add("book of " + std::to_string(pages), book(pages, 1), 0.5);
   for (const int n : {3, 4, 6, 8}) add("ball of " + std::to_string(n), ball(n, n + 1), 0.4);
-  for (const double thickness : {1e-3, 1e-4, 1e-5, 1e-6}) add("needles of " + std::to_string(thickness), needles(3, thickness), 0.1);
+  for (const double thickness : {1e-3, 1e-4, 1e-5, 1e-6})
+    add("needles of " + std::to_string(thickness), needles(3, thickness), 0.1);
 }
 
 void Zoo::add_random() {
-  for (int k = 0; k < 16; ++k) add("jittered sheet " + std::to_string(k), jittered(grid(4), random_, 0.1f + 0.05f * static_cast<float>(k)), 0.5);
+  for (int k = 0; k < 16; ++k)
+    add("jittered sheet " + std::to_string(k), jittered(grid(4), random_, 0.1f + 0.05f * static_cast<float>(k)), 0.5);
   for (int k = 0; k < 16; ++k) add("folded sheet " + std::to_string(k), folded(5, 0.4f, random_, 0.3f), 0.7);
   for (int k = 0; k < 16; ++k) add("soup " + std::to_string(k), soup(10 + k, 14, random_), 0.25);
 }
@@ -157,7 +175,12 @@ void Zoo::add_stars() {
 
 void Zoo::add_coincidences() {
   add("two equal sheets", together(grid(3), grid(3)), 0.75);
-  add("sheet on a sheet's edges", together(grid(3), mapped(grid(2), [](Vec3f x) { return Vec3f{x.x + 0.5f, x.y, 0}; })), 0.75);
+  add("sheet on a sheet's edges",
+      together(grid(3), mapped(grid(2),
+                               [](Vec3f x) {
+                                 return Vec3f{x.x + 0.5f, x.y, 0};
+                               })),
+      0.75);
   add("vertex on a vertex", with_vertex(grid(3), {1, 1, 0}), 0.5);
   add("vertex on an edge", with_vertex(grid(3), {1, 0.5f, 0}), 0.5);
   add("vertex on a triangle", with_vertex(grid(3), {0.25f, 0.25f, 0}), 0.5);
@@ -170,21 +193,31 @@ void Zoo::add_coincidences() {
 
 }  // namespace
 
-Surface tetrahedron() { return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}, {}, {}}; }
+Surface tetrahedron() {
+  return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}, {}, {}};
+}
 
 Surface octahedron() {
   return {{{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 2}, {0, 0, -2}},
-          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}, {}, {}};
+          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}},
+          {},
+          {}};
 }
 
 Surface cube() {
   Surface surface;
   for (int i = 0; i < 8; ++i) surface.positions.push_back(at(2 * (i & 1), 2 * (i >> 1 & 1), 2 * (i >> 2 & 1)));
-  surface.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  surface.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return surface;
 }
 
-Surface saddle() { return {{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}, {}, {}}; }
+Surface saddle() {
+  return {{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
+          {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
+          {},
+          {}};
+}
 
 Surface book(int pages, double turn) {
   Surface surface{{{0, 0, 0}, {2, 0, 0}}, {}, {}, {}};

@@ -1,4 +1,5 @@
-// Two hundred and more meshes on which the theorems of the paper's section 3 are tested: every kind of vertex and edge, every size, exact coincidences.
+// Two hundred and more meshes on which the theorems of the paper's section 3 are tested: every kind of vertex and edge,
+// every size, exact coincidences.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace ogc::tests {
 
-/// A mesh with a contact radius of about its edges' length, and points to ask about: near its faces, on its planes and vertices.
+/// A mesh with a contact radius of about its edges' length, and points to ask about: near its faces, on its planes and
+/// vertices.
 struct Specimen {
   std::string name;
   Surface surface;

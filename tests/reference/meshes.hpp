@@ -1,4 +1,5 @@
-// Small meshes whose contacts can be derived by hand, and exact ways to move them: integer coordinates stay exact in single precision.
+// Small meshes whose contacts can be derived by hand, and exact ways to move them: integer coordinates stay exact in
+// single precision.
 #pragma once
 
 #include <array>
@@ -30,12 +31,13 @@ inline compare::DetectIn question(const Surface& surface, const compare::Topolog
   return {&topology, surface.groups, surface.positions, r, r_q};
 }
 
-/// n × n vertices, vertex i + n j at (i, j, z) · spacing; each cell is cut from its lower right to its upper left corner, so inner vertices have
-/// six neighbours.
+/// n × n vertices, vertex i + n j at (i, j, z) · spacing; each cell is cut from its lower right to its upper left
+/// corner, so inner vertices have six neighbours.
 inline Surface grid(int n, float z = 0, float spacing = 1) {
   Surface surface;
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) surface.positions.push_back({static_cast<float>(i) * spacing, static_cast<float>(j) * spacing, z});
+    for (int i = 0; i < n; ++i)
+      surface.positions.push_back({static_cast<float>(i) * spacing, static_cast<float>(j) * spacing, z});
   }
   for (int j = 0; j + 1 < n; ++j) {
     for (int i = 0; i + 1 < n; ++i) {
@@ -94,7 +96,8 @@ inline Surface folded(int n, float gap, std::mt19937& random, float amount) {
 inline Surface soup(int vertices, int triangles, std::mt19937& random) {
   Surface surface;
   std::uniform_real_distribution<float> coordinate(0, 1);
-  for (int v = 0; v < vertices; ++v) surface.positions.push_back({coordinate(random), coordinate(random), coordinate(random)});
+  for (int v = 0; v < vertices; ++v)
+    surface.positions.push_back({coordinate(random), coordinate(random), coordinate(random)});
   std::uniform_int_distribution<Index> pick(0, vertices - 1);
   while (static_cast<int>(surface.triangles.size()) < triangles) {
     const Index a = pick(random), b = pick(random), c = pick(random);

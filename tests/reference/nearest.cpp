@@ -31,7 +31,8 @@ Kernel::Point_3 point(const Surface& surface, Index v) {
   return {exact(x.x), exact(x.y), exact(x.z)};
 }
 
-/// What all_pairs is about: the square of d_min, r_q² where nothing is nearer, and the lowest-numbered partner of that distance.
+/// What all_pairs is about: the square of d_min, r_q² where nothing is nearer, and the lowest-numbered partner of that
+/// distance.
 struct Smallest {
   Rational square;
   Index partner = -1;
@@ -51,7 +52,8 @@ bool share_a_vertex(const A& a, const B& b) {
 
 AllPairs all_pairs(const Surface& surface, const compare::Topology& topology, float query_radius) {
   const Smallest none{exact(query_radius) * exact(query_radius)};
-  AllPairs result{std::vector<Smallest>(surface.positions.size(), none), std::vector<Smallest>(topology.edges.size(), none),
+  AllPairs result{std::vector<Smallest>(surface.positions.size(), none),
+                  std::vector<Smallest>(topology.edges.size(), none),
                   std::vector<Smallest>(topology.triangles.size(), none)};
   for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
     const auto& c = topology.triangles[t];
@@ -63,7 +65,9 @@ AllPairs all_pairs(const Surface& surface, const compare::Topology& topology, fl
       result.triangle[t].offer(v, d);
     }
   }
-  const auto segment = [&](const compare::Edge& e) { return Kernel::Segment_3(point(surface, e[0]), point(surface, e[1])); };
+  const auto segment = [&](const compare::Edge& e) {
+    return Kernel::Segment_3(point(surface, e[0]), point(surface, e[1]));
+  };
   for (std::size_t e = 0; e < topology.edges.size(); ++e) {
     for (std::size_t f = 0; f < e; ++f) {
       if (share_a_vertex(topology.edges[e], topology.edges[f])) continue;
@@ -82,7 +86,8 @@ std::string text(const Rational& q) {
   return stream.str();
 }
 
-void check(const std::vector<Smallest>& expected, const std::vector<reference::Nearest>& nearest, const std::vector<std::string>& squares) {
+void check(const std::vector<Smallest>& expected, const std::vector<reference::Nearest>& nearest,
+           const std::vector<std::string>& squares) {
   REQUIRE(nearest.size() == expected.size());
   bool partners = true, fractions = true;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -95,10 +100,14 @@ void check(const std::vector<Smallest>& expected, const std::vector<reference::N
 
 }  // namespace
 
-TEST_CASE("nearest: partners and fractions are those of CGAL's rational squared distances over all pairs", "[agreement]") {
+TEST_CASE("nearest: partners and fractions are those of CGAL's rational squared distances over all pairs",
+          "[agreement]") {
   std::mt19937 random(51);
-  std::vector<Surface> surfaces{folded(5, 0.4f, random, 0.3f), grid(4), together(grid(3), grid(3, 0.5f)), soup(14, 12, random)};
-  surfaces.push_back(mapped(together(grid(3), mapped(grid(3, 1), turned)), [](Vec3f x) { return Vec3f{x.x / 3, x.y / 7, x.z / 5}; }));
+  std::vector<Surface> surfaces{folded(5, 0.4f, random, 0.3f), grid(4), together(grid(3), grid(3, 0.5f)),
+                                soup(14, 12, random)};
+  surfaces.push_back(mapped(together(grid(3), mapped(grid(3, 1), turned)), [](Vec3f x) {
+    return Vec3f{x.x / 3, x.y / 7, x.z / 5};
+  }));
   surfaces.back().loose_edges = {{0, 10}, {1, 12}};
   for (const Surface& surface : surfaces) {
     const auto topology = surface.topology();
@@ -112,8 +121,10 @@ TEST_CASE("nearest: partners and fractions are those of CGAL's rational squared 
       check(expected.triangle, nearest.triangle, squares.triangle);
       for (std::size_t v = 0; v < expected.vertex.size(); ++v) {
         Rational smallest = expected.vertex[v].square;
-        for (const Index e : topology.vertex_edges[v]) smallest = std::min(smallest, expected.edge[static_cast<std::size_t>(e)].square);
-        for (const Index t : topology.vertex_triangles[v]) smallest = std::min(smallest, expected.triangle[static_cast<std::size_t>(t)].square);
+        for (const Index e : topology.vertex_edges[v])
+          smallest = std::min(smallest, expected.edge[static_cast<std::size_t>(e)].square);
+        for (const Index t : topology.vertex_triangles[v])
+          smallest = std::min(smallest, expected.triangle[static_cast<std::size_t>(t)].square);
         CHECK(squares.bound[v] == text(exact(0.45f) * exact(0.45f) * smallest));
       }
     }
@@ -121,7 +132,8 @@ TEST_CASE("nearest: partners and fractions are those of CGAL's rational squared 
 }
 
 TEST_CASE("nearest: fractions by hand", "[unit]") {
-  // 3/4 above the middle of a triangle's long side; the sides' own smallest distances are those of the point's absence: r_q = 2.
+  // 3/4 above the middle of a triangle's long side; the sides' own smallest distances are those of the point's absence:
+  // r_q = 2.
   const Surface surface = with_vertex({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}, {}}, {2, 2, 0.75f});
   const auto topology = surface.topology();
   const auto squares = reference::exact_squares(question(surface, topology, 1, 2), 0.5f);
@@ -141,12 +153,16 @@ TEST_CASE("nearest: of equally near partners the lowest-numbered, whatever the t
   CHECK(first.vertex[14].partner == *std::min_element(around.begin(), around.end()));
   for (int k = 0; k < 5; ++k) {
     const auto again = reference::nearest_primitives(in);
-    for (std::size_t t = 0; t < first.triangle.size(); ++t) CHECK(again.triangle[t].partner == first.triangle[t].partner);
+    for (std::size_t t = 0; t < first.triangle.size(); ++t)
+      CHECK(again.triangle[t].partner == first.triangle[t].partner);
     for (std::size_t e = 0; e < first.edge.size(); ++e) CHECK(again.edge[e].partner == first.edge[e].partner);
   }
 }
 
-TEST_CASE("nearest: Eq. 21–26, the detections' distances are these rounded down, and their bounds are below these, on every mesh of the zoo", "[property]") {
+TEST_CASE(
+    "nearest: Eq. 21–26, the detections' distances are these rounded down, and their bounds are below these, on every "
+    "mesh of the zoo",
+    "[property]") {
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
     const auto topology = specimen.surface.topology();
@@ -159,13 +175,16 @@ TEST_CASE("nearest: Eq. 21–26, the detections' distances are these rounded dow
       for (const auto& one : all) distances.push_back(reference::distance_below(one.gap));
       return distances;
     };
-    const bool same = rounded(nearest.vertex) == facets.d_min_vertex && rounded(nearest.triangle) == facets.d_min_triangle &&
-                      rounded(nearest.edge) == edges.d_min_edge;
+    const bool same = rounded(nearest.vertex) == facets.d_min_vertex &&
+                      rounded(nearest.triangle) == facets.d_min_triangle && rounded(nearest.edge) == edges.d_min_edge;
     CHECK(same);
-    const auto bounds = reference::bound({in.topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, 0.45f}).exact.bound;
+    const auto bounds = reference::bound(
+                            {in.topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, 0.45f})
+                            .exact.bound;
     const auto limits = reference::limiting_distances(topology, nearest);
     bool none_above = true;
-    for (std::size_t v = 0; v < bounds.size(); ++v) none_above = none_above && !reference::scaled_distance_less(limits[v], 0.45f, bounds[v]);
+    for (std::size_t v = 0; v < bounds.size(); ++v)
+      none_above = none_above && !reference::scaled_distance_less(limits[v], 0.45f, bounds[v]);
     CHECK(none_above);
   }
 }

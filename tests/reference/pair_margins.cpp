@@ -22,7 +22,8 @@ bool signs_fit(const std::vector<BlockMargin>& margins) {
 TEST_CASE("pair margins: two crossing edges, and a vertex beside an edge, by hand", "[unit]") {
   const Surface cross{{{-1, 0, 0}, {3, 0, 0}, {0, -1, 0.5f}, {0, 3, 0.5f}}, {}, {{0, 1}, {2, 3}}, {}};
   const auto topology = cross.topology();
-  const auto margins = reference::pair_margins({topology, cross.positions}, {reference::edge_face(0), reference::edge_face(1), 0, 1}, 1);
+  const auto margins = reference::pair_margins({topology, cross.positions},
+                                               {reference::edge_face(0), reference::edge_face(1), 0, 1}, 1);
   const auto lengths = [](const std::vector<BlockMargin>& all) {
     std::vector<double> result;
     for (const BlockMargin& m : all) result.push_back(m.length);
@@ -33,7 +34,8 @@ TEST_CASE("pair margins: two crossing edges, and a vertex beside an edge, by han
   // The vertex 2 of a chain 2–3 ends beside the middle of edge 0–1: its block begins at the plane across its own edge.
   const Surface beside{{{-1, 0, 0}, {3, 0, 0}, {0, 0.5f, 0}, {0, 2, 0}}, {}, {{0, 1}, {2, 3}}, {}};
   const auto near = beside.topology();
-  const auto end = reference::pair_margins({near, beside.positions}, {reference::vertex_face(2), reference::edge_face(0), 1, 0}, 1);
+  const auto end = reference::pair_margins({near, beside.positions},
+                                           {reference::vertex_face(2), reference::edge_face(0), 1, 0}, 1);
   CHECK(lengths(end.first) == std::vector<double>{0.5, 0.5});
   CHECK(end.first[1].closed);
   CHECK(lengths(end.second) == std::vector<double>{0.5, 1, 3});

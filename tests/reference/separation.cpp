@@ -37,12 +37,14 @@ compare::Scene waves(double gap, double noise) {
 
 TEST_CASE("a slab shows that primitives are apart, up to about their distance, and never farther", "[property]") {
   // (0, 0, 5) over a triangle in z = 0, and crossing edges 2 apart.
-  const std::array<Vec3f, 4> point{Vec3f{0.25f, 0.25f, 5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, edges{Vec3f{-1, 0, 0}, {1, 0, 0}, {0, -1, 2}, {0, 3, 2}};
+  const std::array<Vec3f, 4> point{Vec3f{0.25f, 0.25f, 5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+      edges{Vec3f{-1, 0, 0}, {1, 0, 0}, {0, -1, 2}, {0, 3, 2}};
   CHECK(reference::surely_beyond_triangle(point, 4.9));
   CHECK_FALSE(reference::surely_beyond_triangle(point, 5));
   CHECK(reference::surely_beyond_edge(edges, 1.9));
   CHECK_FALSE(reference::surely_beyond_edge(edges, 2));
-  const std::array<Vec3f, 4> touching{Vec3f{0, 0, 0}, {1, 0, 0}, {0.5f, -1, 0}, {0.5f, 1, 0}}, collapsed{Vec3f{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
+  const std::array<Vec3f, 4> touching{Vec3f{0, 0, 0}, {1, 0, 0}, {0.5f, -1, 0}, {0.5f, 1, 0}},
+      collapsed{Vec3f{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   for (const double distance : {0.0, 1e-30}) {
     CHECK_FALSE(reference::surely_beyond_edge(touching, distance));
     CHECK_FALSE(reference::surely_beyond_edge(collapsed, distance));
@@ -50,16 +52,20 @@ TEST_CASE("a slab shows that primitives are apart, up to about their distance, a
   }
 }
 
-TEST_CASE("exact detections and distances alone answer as the judged detections do, on every mesh of the zoo", "[property]") {
+TEST_CASE("exact detections and distances alone answer as the judged detections do, on every mesh of the zoo",
+          "[property]") {
   for (const Specimen& specimen : mesh_zoo()) {
     const compare::Topology topology = specimen.surface.topology();
     for (const float reach : {1.0f, 2.5f}) {
       INFO(specimen.name << ' ' << reach);
       const compare::DetectIn in = question(specimen.surface, topology, specimen.radius, reach * specimen.radius);
-      const compare::DetectVertexFacetOut facets = reference::exact_vertex_facet(in), judged_facets = reference::detect_vertex_facet(in).exact;
-      const compare::DetectEdgeEdgeOut edges = reference::exact_edge_edge(in), judged_edges = reference::detect_edge_edge(in).exact;
+      const compare::DetectVertexFacetOut facets = reference::exact_vertex_facet(in),
+                                          judged_facets = reference::detect_vertex_facet(in).exact;
+      const compare::DetectEdgeEdgeOut edges = reference::exact_edge_edge(in),
+                                       judged_edges = reference::detect_edge_edge(in).exact;
       CHECK((facets.contacts == judged_facets.contacts && edges.contacts == judged_edges.contacts));
-      CHECK((facets.d_min_vertex == judged_facets.d_min_vertex && facets.d_min_triangle == judged_facets.d_min_triangle));
+      CHECK(
+          (facets.d_min_vertex == judged_facets.d_min_vertex && facets.d_min_triangle == judged_facets.d_min_triangle));
       CHECK(edges.d_min_edge == judged_edges.d_min_edge);
       const reference::PrimitiveDistances alone = reference::primitive_distances(in);
       CHECK((alone.vertex == judged_facets.d_min_vertex && alone.triangle == judged_facets.d_min_triangle));

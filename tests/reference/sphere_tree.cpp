@@ -1,4 +1,5 @@
-// The sphere query of CGAL's tree against all boxes, in integers small enough for exact doubles, and on balls that touch.
+// The sphere query of CGAL's tree against all boxes, in integers small enough for exact doubles, and on balls that
+// touch.
 #include "reference/geometry/sphere_tree.hpp"
 
 #include <algorithm>
@@ -30,7 +31,8 @@ std::vector<Index> sorted(std::vector<Index> found) {
 
 }  // namespace
 
-TEST_CASE("sphere_tree: boxes, flat ones, segments and points that a ball meets, touching included, as over all boxes", "[property]") {
+TEST_CASE("sphere_tree: boxes, flat ones, segments and points that a ball meets, touching included, as over all boxes",
+          "[property]") {
   std::mt19937 random(31);
   std::uniform_int_distribution<int> coordinate(-12, 12), size(0, 3);
   std::size_t touching = 0;
@@ -44,7 +46,8 @@ TEST_CASE("sphere_tree: boxes, flat ones, segments and points that a ball meets,
     }
     const reference::SphereTree tree(boxes);
     for (int q = 0; q < 200; ++q) {
-      const std::array<double, 3> centre{double(coordinate(random)), double(coordinate(random)), double(coordinate(random))};
+      const std::array<double, 3> centre{double(coordinate(random)), double(coordinate(random)),
+                                         double(coordinate(random))};
       const double square = coordinate(random) + 12;
       std::vector<Index> expected;
       for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -68,4 +71,6 @@ TEST_CASE("sphere_tree: one unit in the last place decides, however far from the
   }
 }
 
-TEST_CASE("sphere_tree: no boxes, nothing found", "[unit]") { CHECK(reference::SphereTree({}).within({0, 0, 0}, 1).empty()); }
+TEST_CASE("sphere_tree: no boxes, nothing found", "[unit]") {
+  CHECK(reference::SphereTree({}).within({0, 0, 0}, 1).empty());
+}

@@ -27,7 +27,8 @@ struct Body {
   std::vector<Tetrahedron> tetrahedra;
 };
 
-/// nx × ny × nz cells, six tetrahedra around the diagonal of each; vertex (i, j, k) at map(i, j, k). Tetrahedra are listed cell by cell, i slowest.
+/// nx × ny × nz cells, six tetrahedra around the diagonal of each; vertex (i, j, k) at map(i, j, k). Tetrahedra are
+/// listed cell by cell, i slowest.
 template <class Map>
 Body blocks(int nx, int ny, int nz, Map map) {
   Body body;
@@ -35,7 +36,8 @@ Body blocks(int nx, int ny, int nz, Map map) {
   for (int i = 0; i <= nx; ++i)
     for (int j = 0; j <= ny; ++j)
       for (int k = 0; k <= nz; ++k) body.positions.push_back(map(i, j, k));
-  constexpr std::array<std::array<int, 3>, 6> orders{{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  constexpr std::array<std::array<int, 3>, 6> orders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j)
       for (int k = 0; k < nz; ++k)
@@ -53,7 +55,9 @@ Body blocks(int nx, int ny, int nz, Map map) {
 }
 
 Body box(int n) {
-  return blocks(n, n, n, [](int i, int j, int k) { return Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)}; });
+  return blocks(n, n, n, [](int i, int j, int k) {
+    return Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
+  });
 }
 
 constexpr int ring_cells = 40, ring_turn = 36;  // one turn is 36 cells: the last 4 cells lie in the first 4
@@ -62,14 +66,17 @@ constexpr int ring_cells = 40, ring_turn = 36;  // one turn is 36 cells: the las
 Body overlapping_ring() {
   return blocks(2, ring_cells, 2, [](int i, int j, int k) {
     const double angle = 2 * std::numbers::pi * j / ring_turn, radius = 1 + i;
-    return Vec3f{static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)), static_cast<float>(k)};
+    return Vec3f{static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)),
+                 static_cast<float>(k)};
   });
 }
 
 /// The cell along the bar that a tetrahedron of the ring lies in.
 int ring_cell(Index tetrahedron) { return tetrahedron / 12 % ring_cells; }
 
-double euclidean(const Vec3f& x, const std::array<double, 3>& y) { return std::hypot(x.x - y[0], x.y - y[1], x.z - y[2]); }
+double euclidean(const Vec3f& x, const std::array<double, 3>& y) {
+  return std::hypot(x.x - y[0], x.y - y[1], x.z - y[2]);
+}
 
 /// By the closest features of Algorithm 1, which share no formula with the rational closest points.
 double triangle_distance(const Body& body, const reference::BoundaryTriangle& side, const Vec3f& x) {
@@ -91,7 +98,8 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 }  // namespace
 
-TEST_CASE("tet volume: in a box the depth is the distance to the nearest side, exactly, whatever the path crosses", "[property]") {
+TEST_CASE("tet volume: in a box the depth is the distance to the nearest side, exactly, whatever the path crosses",
+          "[property]") {
   const Body body = box(2);
   const TetVolume volume(body.positions, body.tetrahedra);
   std::mt19937 random(3);
@@ -103,7 +111,8 @@ TEST_CASE("tet volume: in a box the depth is the distance to the nearest side, e
     CAPTURE(x.x, x.y, x.z);
     const auto sheets = volume.sheets(x);
     REQUIRE(sheets.size() == 1);
-    const double expected = std::min({static_cast<double>(x.x), 2.0 - x.x, static_cast<double>(x.y), 2.0 - x.y, static_cast<double>(x.z), 2.0 - x.z});
+    const double expected = std::min({static_cast<double>(x.x), 2.0 - x.x, static_cast<double>(x.y), 2.0 - x.y,
+                                      static_cast<double>(x.z), 2.0 - x.z});
     for (const Index t : sheets[0]) {
       const BoundaryDepth depth = volume.shortest_path_to_boundary(x, t);
       CHECK(depth.path.length == expected);  // the square of a short number is exact
@@ -113,23 +122,31 @@ TEST_CASE("tet volume: in a box the depth is the distance to the nearest side, e
   }
 }
 
-TEST_CASE("tet volume: where a bar overlaps itself each sheet has its own depth, and Euclid's nearest boundary is the wrong one", "[property]") {
+TEST_CASE(
+    "tet volume: where a bar overlaps itself each sheet has its own depth, and Euclid's nearest boundary is the wrong "
+    "one",
+    "[property]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> share(0.01, 0.99), radius(1.2, 2.8), height(0.1, 1.9);
   int misled = 0;
   for (int n = 0; n < 20; ++n) {
-    const double overlap = ring_cells - ring_turn, cell = n % 2 == 0 ? overlap * share(random) : overlap - 0.5 * share(random);  // half of them near an end
+    // half of them near an end
+    const double overlap = ring_cells - ring_turn,
+                 cell = n % 2 == 0 ? overlap * share(random) : overlap - 0.5 * share(random);
     const double angle = 2 * std::numbers::pi * cell / ring_turn, rho = radius(random);
-    const Vec3f x{static_cast<float>(rho * std::cos(angle)), static_cast<float>(rho * std::sin(angle)), static_cast<float>(height(random))};
+    const Vec3f x{static_cast<float>(rho * std::cos(angle)), static_cast<float>(rho * std::sin(angle)),
+                  static_cast<float>(height(random))};
     const auto sheets = volume.sheets(x);
     REQUIRE(sheets.size() == 2);
     for (const auto& sheet : sheets) {
-      // The bar near the sheet, up to a quarter turn away, does not overlap itself: there the nearest boundary is the answer.
+      // The bar near the sheet, up to a quarter turn away, does not overlap itself: there the nearest boundary is the
+      // answer.
       double expected = 1e9;
       for (const auto& side : volume.boundary())
-        if (std::abs(ring_cell(side.tetrahedron) - ring_cell(sheet[0])) < ring_turn / 4) expected = std::min(expected, triangle_distance(body, side, x));
+        if (std::abs(ring_cell(side.tetrahedron) - ring_cell(sheet[0])) < ring_turn / 4)
+          expected = std::min(expected, triangle_distance(body, side, x));
       const BoundaryDepth depth = volume.shortest_path_to_boundary(x, sheet[0]);
       CHECK(depth.path.length == Approx(expected).epsilon(1e-15));
       CHECK(euclidean(x, depth.path.end) == Approx(depth.path.length));
@@ -139,7 +156,10 @@ TEST_CASE("tet volume: where a bar overlaps itself each sheet has its own depth,
   CHECK(misled > 10);
 }
 
-TEST_CASE("tet volume: just inside the first end of the overlapping bar the other end is far by Euclid's measure and near by a valid path", "[unit]") {
+TEST_CASE(
+    "tet volume: just inside the first end of the overlapping bar the other end is far by Euclid's measure and near by "
+    "a valid path",
+    "[unit]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
   // 0.02 of a cell before the last end: there the bar's second sheet ends, and its first one goes on for half a turn.
@@ -155,7 +175,8 @@ TEST_CASE("tet volume: just inside the first end of the overlapping bar the othe
   CHECK(refused.refused >= 2);  // the end's triangles belong to the other sheet
 }
 
-TEST_CASE("tet volume: the candidates of all boundary triangles give the depth, and a valid one is never from outside", "[property]") {
+TEST_CASE("tet volume: the candidates of all boundary triangles give the depth, and a valid one is never from outside",
+          "[property]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
   const Vec3f x{2.25f, 0.5f, 0.75f};
@@ -172,7 +193,9 @@ TEST_CASE("tet volume: the candidates of all boundary triangles give the depth, 
   }
 }
 
-TEST_CASE("tet volume: outside there is no sheet, on the boundary the depth is zero, and a wrong tetrahedron is refused", "[unit]") {
+TEST_CASE(
+    "tet volume: outside there is no sheet, on the boundary the depth is zero, and a wrong tetrahedron is refused",
+    "[unit]") {
   const Body body = box(1);
   const TetVolume volume(body.positions, body.tetrahedra);
   CHECK(volume.boundary().size() == 12);
@@ -202,7 +225,8 @@ TEST_CASE("tet volume: inverted, flat, folded, crowded and wound tetrahedra are 
   CHECK(contains(refusal(wrong), "tetrahedron 2 names vertex 8"));
   const Body folded{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}}, {{0, 1, 2, 3}, {0, 1, 2, 4}}};
   CHECK(contains(refusal(folded), "0 and 1 lie on the same side"));
-  const Body crowded{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, -1}}, {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}}};
+  const Body crowded{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, -1}},
+                     {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}}};
   CHECK(contains(refusal(crowded), "belongs to 3 tetrahedra"));
   // Two turns of six tetrahedra around the edge of vertices 0 and 1, each with vertices of its own on the rim.
   Body wound{{{0, 0, 0}, {0, 0, 1}}, {}};
@@ -227,7 +251,10 @@ TEST_CASE("tet volume: two bodies that share one inner vertex only are refused",
   CHECK(contains(refusal(two), "inner vertex 13 alone"));
 }
 
-TEST_CASE("volumetric contact: the depth is r on the surface from either side, d + r inside, r - d outside, one contact for each sheet", "[unit]") {
+TEST_CASE(
+    "volumetric contact: the depth is r on the surface from either side, d + r inside, r - d outside, one contact for "
+    "each sheet",
+    "[unit]") {
   const Body body = box(2);
   const TetVolume volume(body.positions, body.tetrahedra);
   const compare::Topology topology = reference::surface_topology(volume, static_cast<Index>(body.positions.size()));
@@ -244,7 +271,8 @@ TEST_CASE("volumetric contact: the depth is r on the surface from either side, d
   CHECK(depths({2.25f, 2, 1}).size() == 1);  // beside the middle of a ridge
   // A vertex of the body itself is in no contact with its own sheet and its own faces.
   const Vec3f corner = body.positions.back();
-  CHECK(reference::volumetric_contacts(volume, surface, corner, 0.5f, static_cast<Index>(body.positions.size()) - 1).empty());
+  CHECK(reference::volumetric_contacts(volume, surface, corner, 0.5f, static_cast<Index>(body.positions.size()) - 1)
+            .empty());
   CHECK_FALSE(reference::volumetric_contacts(volume, surface, corner, 0.5f).empty());
   const Body ring = overlapping_ring();
   const TetVolume bar(ring.positions, ring.tetrahedra);
@@ -255,7 +283,8 @@ TEST_CASE("volumetric contact: the depth is r on the surface from either side, d
   CHECK(skin.locate(x).winding == 2);
 }
 
-TEST_CASE("closed surface and tet volume agree: the winding number of a body's surface is its number of sheets", "[property]") {
+TEST_CASE("closed surface and tet volume agree: the winding number of a body's surface is its number of sheets",
+          "[property]") {
   const Body ring = overlapping_ring();
   const TetVolume bar(ring.positions, ring.tetrahedra);
   const compare::Topology topology = reference::surface_topology(bar, static_cast<Index>(ring.positions.size()));

@@ -1,5 +1,5 @@
-// What the paper says of blocks and contact sets (§3.3, §4.1), on the whole zoo. Where a sentence holds on some classes of meshes only, the rest is in
-// counterexamples.cpp.
+// What the paper says of blocks and contact sets (§3.3, §4.1), on the whole zoo. Where a sentence holds on some classes
+// of meshes only, the rest is in counterexamples.cpp.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -28,7 +28,7 @@ namespace {
 std::array<Face, 7> faces_of(const Complex& mesh, Index t) {
   const auto [a, b, c] = mesh.triangle(t);
   const auto [ab, bc, ca] = mesh.topology.triangle_edges[static_cast<std::size_t>(t)];
-  return {reference::vertex_face(a), reference::vertex_face(b), reference::vertex_face(c), reference::edge_face(ab),
+  return {reference::vertex_face(a), reference::vertex_face(b), reference::vertex_face(c),  reference::edge_face(ab),
           reference::edge_face(bc),  reference::edge_face(ca),  reference::triangle_face(t)};
 }
 
@@ -41,18 +41,22 @@ reference::Corners corners_of(const Complex& mesh, Index t) {
 Face closest_on_edge(const Complex& mesh, Index e, const Vec3f& x) {
   const auto [a, b] = mesh.edge(e);
   const auto feature = reference::closest_features({{mesh.at(a), mesh.at(b)}, {x, x}}).first;
-  return feature == compare::EdgeFeature::interior ? reference::edge_face(e) : reference::vertex_face(mesh.edge(e)[static_cast<std::size_t>(feature)]);
+  return feature == compare::EdgeFeature::interior
+             ? reference::edge_face(e)
+             : reference::vertex_face(mesh.edge(e)[static_cast<std::size_t>(feature)]);
 }
 
 bool near_edge(const Complex& mesh, Index e, const Vec3f& x, float r) {
   const auto [a, b] = mesh.edge(e);
   const reference::EdgePair pair{{mesh.at(a), mesh.at(b)}, {x, x}};
-  return reference::sign(reference::with_radius(reference::feature_gap(pair, reference::closest_features(pair)), r)) <= 0;
+  return reference::sign(reference::with_radius(reference::feature_gap(pair, reference::closest_features(pair)), r)) <=
+         0;
 }
 
 bool near_triangle(const Complex& mesh, Index t, const Vec3f& x, float r) {
   const auto corners = corners_of(mesh, t);
-  return reference::sign(reference::with_radius(reference::feature_gap(corners, reference::closest_feature(corners, x), x), r)) <= 0;
+  return reference::sign(reference::with_radius(
+             reference::feature_gap(corners, reference::closest_feature(corners, x), x), r)) <= 0;
 }
 
 /// dis(x, M) ≤ r, over vertices, edges and triangles.
@@ -91,7 +95,8 @@ struct Findings {
 void examine_edges(const Complex& mesh, const std::set<Face>& blocks, const Vec3f& x, Findings& findings) {
   for (std::size_t i = 0; i < mesh.topology.edges.size(); ++i) {
     const auto e = static_cast<Index>(i);
-    for (const Face a : {reference::edge_face(e), reference::vertex_face(mesh.edge(e)[0]), reference::vertex_face(mesh.edge(e)[1])}) {
+    for (const Face a :
+         {reference::edge_face(e), reference::vertex_face(mesh.edge(e)[0]), reference::vertex_face(mesh.edge(e)[1])}) {
       if (!blocks.contains(a)) continue;
       if (a.kind == FaceKind::vertex) findings.shared += blocks.contains(reference::edge_face(e));
       findings.not_closest += closest_on_edge(mesh, e, x) != a;
@@ -142,7 +147,9 @@ Answer answer(const Surface& surface, float r) {
   const auto in = question(surface, topology, r, 1.25f * r);
   const auto facets = reference::detect_vertex_facet(in).exact;
   const auto edges = reference::detect_edge_edge(in).exact;
-  return {facets.contacts, edges.contacts, reference::bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, 0.5f}).exact.bound};
+  return {
+      facets.contacts, edges.contacts,
+      reference::bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, 0.5f}).exact.bound};
 }
 
 /// Contacts by the vertices of their faces, so that numbers of edges and triangles do not matter.
@@ -159,7 +166,8 @@ Named named(const Surface& surface, const Answer& given, const std::vector<Index
     return list;
   };
   Named result;
-  for (const auto& c : given.facets) result.insert({{name[static_cast<std::size_t>(c.vertex)]}, {-1}, vertices(c.face)});
+  for (const auto& c : given.facets)
+    result.insert({{name[static_cast<std::size_t>(c.vertex)]}, {-1}, vertices(c.face)});
   for (const auto& c : given.edges) {
     const auto p = vertices(c.first), q = vertices(c.second);
     result.insert({std::min(p, q), std::max(p, q)});
@@ -177,9 +185,12 @@ std::vector<Index> shuffled(std::size_t n, std::mt19937& random) {
 /// Vertex v becomes name[v]; triangles in another order, each from another corner on, every other one turned over.
 Surface renumbered(const Surface& surface, const std::vector<Index>& name, std::mt19937& random) {
   Surface result = surface;
-  for (std::size_t v = 0; v < name.size(); ++v) result.positions[static_cast<std::size_t>(name[v])] = surface.positions[v];
+  for (std::size_t v = 0; v < name.size(); ++v)
+    result.positions[static_cast<std::size_t>(name[v])] = surface.positions[v];
   const auto of = [&](Index v) { return name[static_cast<std::size_t>(v)]; };
-  for (auto& t : result.triangles) t = random() % 2 == 0 ? compare::Triangle{of(t[1]), of(t[2]), of(t[0])} : compare::Triangle{of(t[1]), of(t[0]), of(t[2])};
+  for (auto& t : result.triangles)
+    t = random() % 2 == 0 ? compare::Triangle{of(t[1]), of(t[2]), of(t[0])}
+                          : compare::Triangle{of(t[1]), of(t[0]), of(t[2])};
   for (auto& e : result.loose_edges) e = {of(e[0]), of(e[1])};
   std::shuffle(result.triangles.begin(), result.triangles.end(), random);
   return result;
@@ -198,7 +209,10 @@ bool is_exact(const Surface& surface, Map map, Map back) {
 
 }  // namespace
 
-TEST_CASE("theorems: covering, local exclusiveness, local closest-ness, one face of each triangle at most, on every mesh of the zoo", "[property]") {
+TEST_CASE(
+    "theorems: covering, local exclusiveness, local closest-ness, one face of each triangle at most, on every mesh of "
+    "the zoo",
+    "[property]") {
   std::size_t covered = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -213,7 +227,8 @@ TEST_CASE("theorems: covering, local exclusiveness, local closest-ness, one face
   CHECK(covered > 3000);
 }
 
-TEST_CASE("theorems: the block of a vertex without normals is the vertex itself, and these are the saddle vertices", "[property]") {
+TEST_CASE("theorems: the block of a vertex without normals is the vertex itself, and these are the saddle vertices",
+          "[property]") {
   std::size_t saddles = 0;
   for (const Specimen& specimen : mesh_zoo()) {
     CAPTURE(specimen.name);
@@ -236,7 +251,8 @@ TEST_CASE("theorems: the block of a vertex without normals is the vertex itself,
   CHECK(saddles > 100);
 }
 
-TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it", "[property]") {
+TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it",
+          "[property]") {
   // Decided without rounding: the closest points of the edges of a, and of a, lie in the interior of a alone.
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
@@ -247,7 +263,8 @@ TEST_CASE("theorems: orthogonality, the connection of a point in a block with th
     for (const Vec3f& x : specimen.points) {
       for (const Face a : blocks_at(mesh, x, specimen.radius)) {
         if (a.kind == FaceKind::edge) slanted += closest_on_edge(mesh, a.index, x) != a;
-        if (a.kind == FaceKind::triangle) slanted += reference::closest_feature(corners_of(mesh, a.index), x) != TriangleFeature::interior;
+        if (a.kind == FaceKind::triangle)
+          slanted += reference::closest_feature(corners_of(mesh, a.index), x) != TriangleFeature::interior;
       }
     }
     CHECK(slanted == 0);
@@ -267,23 +284,43 @@ TEST_CASE("theorems: renumbered, reordered and turned-over meshes give the renum
     const bool equal = named(specimen.surface, before, name) == named(other, after, same);
     CHECK(equal);
     std::size_t different = 0;
-    for (std::size_t v = 0; v < name.size(); ++v) different += before.bounds[v] != after.bounds[static_cast<std::size_t>(name[v])];
+    for (std::size_t v = 0; v < name.size(); ++v)
+      different += before.bounds[v] != after.bounds[static_cast<std::size_t>(name[v])];
     CHECK(different == 0);
   }
 }
 
-TEST_CASE("theorems: mirrors, powers of two and dyadic translations that lose no digit leave the sets as they are", "[property]") {
+TEST_CASE("theorems: mirrors, powers of two and dyadic translations that lose no digit leave the sets as they are",
+          "[property]") {
   using Map = Vec3f (*)(Vec3f);
   struct Change {
     Map map, back;
     float scale;
   };
   const Change changes[] = {
-      {[](Vec3f x) { return Vec3f{-x.x, x.y, x.z}; }, [](Vec3f x) { return Vec3f{-x.x, x.y, x.z}; }, 1},
-      {[](Vec3f x) { return Vec3f{x.y, x.z, x.x}; }, [](Vec3f x) { return Vec3f{x.z, x.x, x.y}; }, 1},
+      {[](Vec3f x) {
+         return Vec3f{-x.x, x.y, x.z};
+       },
+       [](Vec3f x) {
+         return Vec3f{-x.x, x.y, x.z};
+       },
+       1},
+      {[](Vec3f x) {
+         return Vec3f{x.y, x.z, x.x};
+       },
+       [](Vec3f x) {
+         return Vec3f{x.z, x.x, x.y};
+       },
+       1},
       {[](Vec3f x) { return scaled(x, 0x1p10f); }, [](Vec3f x) { return scaled(x, 0x1p-10f); }, 0x1p10f},
       {[](Vec3f x) { return scaled(x, 0x1p-13f); }, [](Vec3f x) { return scaled(x, 0x1p13f); }, 0x1p-13f},
-      {[](Vec3f x) { return Vec3f{x.x + 8, x.y - 16, x.z + 4}; }, [](Vec3f x) { return Vec3f{x.x - 8, x.y + 16, x.z - 4}; }, 1},
+      {[](Vec3f x) {
+         return Vec3f{x.x + 8, x.y - 16, x.z + 4};
+       },
+       [](Vec3f x) {
+         return Vec3f{x.x - 8, x.y + 16, x.z - 4};
+       },
+       1},
   };
   std::array<std::size_t, std::size(changes)> used{};
   for (const Specimen& specimen : mesh_zoo()) {

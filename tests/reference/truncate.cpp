@@ -31,7 +31,8 @@ TEST_CASE("truncate: truncated positions keep direction and have the bound's len
   for (int i = 0; i < 2000; ++i) {
     const float scale = std::exp2(exponent(random));
     in.previous.push_back({coordinate(random), coordinate(random), coordinate(random)});
-    in.position.push_back({in.previous.back().x + scale * coordinate(random), in.previous.back().y + scale * coordinate(random), in.previous.back().z});
+    in.position.push_back({in.previous.back().x + scale * coordinate(random),
+                           in.previous.back().y + scale * coordinate(random), in.previous.back().z});
     in.bound.push_back(scale * 0.4f);
   }
   const auto truth = reference::truncate(in);

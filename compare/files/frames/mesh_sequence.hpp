@@ -18,7 +18,8 @@ class MeshSequence {
   /// Of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
   virtual std::string name(std::size_t i) const = 0;
   /// The next frame; the first call reads frame 0, at most size() calls are allowed. Every index names a vertex, every
-  /// coordinate is finite. An array's frame has no source: its elements are counted from 0. Throws InputError that names file, frame, and byte or element.
+  /// coordinate is finite. An array's frame has no source: its elements are counted from 0. Throws InputError that
+  /// names file, frame, and byte or element.
   virtual LoadedMesh next() = 0;
 };
 

@@ -55,8 +55,8 @@ void ZipFile::read(std::span<char> bytes, const std::string& what) {
                      " on were announced; it is truncated");
   while (!bytes.empty()) {
     constexpr std::size_t most = 1 << 30;  // minizip counts in int
-    const int got =
-        unzReadCurrentFile(handle_->file, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), most)));
+    const int got = unzReadCurrentFile(handle_->file, bytes.data(),
+                                       static_cast<unsigned>(std::min(bytes.size(), most)));
     if (got <= 0)
       throw InputError(name_ + ": '" + member_ + "', " + what + ": can't be unpacked from byte " +
                        std::to_string(position_) + " on; it is damaged");

@@ -179,34 +179,23 @@ class BothSides {
         return plain(points_question({&test_, 1}), contestant_.closest_points, authority_.closest_points);
       case Stage::activation:
         return plain(activation_question({&test_, 1}), contestant_.activation, authority_.activation);
-      case Stage::truncate:
-        return plain(truncate_question({&test_, 1}), contestant_.truncate, authority_.truncate);
+      case Stage::truncate: return plain(truncate_question({&test_, 1}), contestant_.truncate, authority_.truncate);
       case Stage::contact_force:
         return force(&ContactForceIn::cases, contestant_.contact_force, authority_.contact_force);
       case Stage::friction_force:
         return force(&FrictionForceIn::cases, contestant_.friction_force, authority_.friction_force);
-      case Stage::membrane:
-        return force(&MembraneIn::cases, contestant_.membrane, authority_.membrane);
-      case Stage::bending:
-        return force(&BendingIn::cases, contestant_.bending, authority_.bending);
-      case Stage::spring:
-        return force(&SpringIn::cases, contestant_.spring, authority_.spring);
-      case Stage::bound:
-        return plain(bound_question(test_), contestant_.bound, authority_.bound);
-      case Stage::rest_state:
-        return plain(rest_question(test_), contestant_.rest_state, authority_.rest_state);
-      case Stage::block:
-        return block();
-      case Stage::initial_guess:
-        return guess();
+      case Stage::membrane: return force(&MembraneIn::cases, contestant_.membrane, authority_.membrane);
+      case Stage::bending: return force(&BendingIn::cases, contestant_.bending, authority_.bending);
+      case Stage::spring: return force(&SpringIn::cases, contestant_.spring, authority_.spring);
+      case Stage::bound: return plain(bound_question(test_), contestant_.bound, authority_.bound);
+      case Stage::rest_state: return plain(rest_question(test_), contestant_.rest_state, authority_.rest_state);
+      case Stage::block: return block();
+      case Stage::initial_guess: return guess();
       case Stage::detect_vertex_facet:
         return detection(contestant_.detect_vertex_facet, authority_.detect_vertex_facet);
-      case Stage::detect_edge_edge:
-        return detection(contestant_.detect_edge_edge, authority_.detect_edge_edge);
-      case Stage::sweep:
-        return sweep();
-      case Stage::step:
-        return step();
+      case Stage::detect_edge_edge: return detection(contestant_.detect_edge_edge, authority_.detect_edge_edge);
+      case Stage::sweep: return sweep();
+      case Stage::step: return step();
     }
     return {};
   }

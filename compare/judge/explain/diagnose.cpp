@@ -114,8 +114,10 @@ class Diagnosing {
     std::map<std::string, std::string> words;
     for (const Quantity& quantity : inputs_of(test.data)) {
       if (quantity.is_list || quantity.entries() != 1) continue;
-      if (!quantity.words.empty()) words[quantity.name] = quantity.words[0];
-      else if (quantity.width == 1) words[quantity.name] = quantity.numbers[0] == 0 ? "0" : "not 0";
+      if (!quantity.words.empty())
+        words[quantity.name] = quantity.words[0];
+      else if (quantity.width == 1)
+        words[quantity.name] = quantity.numbers[0] == 0 ? "0" : "not 0";
     }
     return words;
   }

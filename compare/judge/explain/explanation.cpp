@@ -111,8 +111,10 @@ std::string pair_text(const AnswerPair& pair) {
 Json value_json(const Quantity& quantity) {
   Json all = Json::array();
   for (std::size_t i = 0; i < quantity.entries(); ++i) {
-    if (!quantity.words.empty()) all.push_back(quantity.words[i]);
-    else if (quantity.width == 1) all.push_back(quantity.numbers[i]);
+    if (!quantity.words.empty())
+      all.push_back(quantity.words[i]);
+    else if (quantity.width == 1)
+      all.push_back(quantity.numbers[i]);
     else
       all.push_back(
           std::vector<double>(quantity.numbers.begin() + static_cast<std::ptrdiff_t>(i * quantity.width),

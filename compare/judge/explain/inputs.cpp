@@ -15,10 +15,8 @@ const std::vector<std::string> edge_ends{"end 0", "end 1"}, triangle_corners{"ve
 /// What the vertices of a contact are.
 std::vector<std::string> roles(ContactSides sides) {
   switch (sides) {
-    case ContactSides::point_point:
-      return {"vertex 0, the first point", "vertex 1, the second point"};
-    case ContactSides::point_edge:
-      return {"vertex 0, the point", "vertex 1, of the edge", "vertex 2, of the edge"};
+    case ContactSides::point_point: return {"vertex 0, the first point", "vertex 1, the second point"};
+    case ContactSides::point_edge: return {"vertex 0, the point", "vertex 1, of the edge", "vertex 2, of the edge"};
     case ContactSides::edge_edge:
       return {"vertex 0, of the first edge", "vertex 1, of the first edge", "vertex 2, of the second edge",
               "vertex 3, of the second edge"};

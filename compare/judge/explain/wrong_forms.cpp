@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "compare/judge/ask.hpp"
-#include "compare/judge/explain/form_tools.hpp"
 #include "compare/judge/contestant_stages.hpp"
+#include "compare/judge/explain/form_tools.hpp"
 
 namespace ogc::compare {
 
@@ -45,40 +45,23 @@ WrongForm form_of(std::string name, std::string meaning, std::function<Authority
 
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence) {
   switch (stage) {
-    case Stage::activation:
-      return activation_forms();
-    case Stage::truncate:
-      return truncate_forms();
-    case Stage::initial_guess:
-      return initial_guess_forms();
-    case Stage::bound:
-      return bound_forms();
-    case Stage::contact_force:
-      return contact_force_forms();
-    case Stage::friction_force:
-      return friction_force_forms();
-    case Stage::membrane:
-      return membrane_forms();
-    case Stage::bending:
-      return bending_forms();
-    case Stage::spring:
-      return spring_forms();
-    case Stage::closest_face:
-      return closest_face_forms();
-    case Stage::closest_points:
-      return closest_points_forms();
-    case Stage::block:
-      return block_forms();
-    case Stage::detect_vertex_facet:
-      return detect_vertex_facet_forms(evidence);
-    case Stage::detect_edge_edge:
-      return detect_edge_edge_forms(evidence);
-    case Stage::rest_state:
-      return rest_state_forms();
-    case Stage::sweep:
-      return sweep_forms();
-    case Stage::step:
-      return {};  // its events are judged as the stages that they are, and named
+    case Stage::activation: return activation_forms();
+    case Stage::truncate: return truncate_forms();
+    case Stage::initial_guess: return initial_guess_forms();
+    case Stage::bound: return bound_forms();
+    case Stage::contact_force: return contact_force_forms();
+    case Stage::friction_force: return friction_force_forms();
+    case Stage::membrane: return membrane_forms();
+    case Stage::bending: return bending_forms();
+    case Stage::spring: return spring_forms();
+    case Stage::closest_face: return closest_face_forms();
+    case Stage::closest_points: return closest_points_forms();
+    case Stage::block: return block_forms();
+    case Stage::detect_vertex_facet: return detect_vertex_facet_forms(evidence);
+    case Stage::detect_edge_edge: return detect_edge_edge_forms(evidence);
+    case Stage::rest_state: return rest_state_forms();
+    case Stage::sweep: return sweep_forms();
+    case Stage::step: return {};  // its events are judged as the stages that they are, and named
   }
   return {};
 }

@@ -1,4 +1,5 @@
-// Contact sets and conservative bounds for your own solver: two triangles, one 3 mm above the other, positions in, everything for one step out.
+// Contact sets and conservative bounds for your own solver: two triangles, one 3 mm above the other, positions in,
+// everything for one step out.
 #include <cstdio>
 #include <vector>
 
@@ -6,8 +7,9 @@
 
 int main() {
   const std::vector<ogc::compare::Triangle> triangles{{0, 1, 2}, {3, 4, 5}};
-  const std::vector<ogc::compare::Vec3f> positions{{0.0f, 0.0f, 0.0f},     {0.1f, 0.0f, 0.0f},     {0.0f, 0.1f, 0.0f},
-                                                   {0.02f, 0.02f, 0.003f}, {0.12f, 0.02f, 0.003f}, {0.02f, 0.12f, 0.003f}};
+  const std::vector<ogc::compare::Vec3f> positions{{0.0f, 0.0f, 0.0f},     {0.1f, 0.0f, 0.0f},
+                                                   {0.0f, 0.1f, 0.0f},     {0.02f, 0.02f, 0.003f},
+                                                   {0.12f, 0.02f, 0.003f}, {0.02f, 0.12f, 0.003f}};
   const auto vertex_count = static_cast<ogc::compare::Index>(positions.size());
 
   // For device memory: Backend::cuda here, and find_resident(device_pointer, query) below.
@@ -16,7 +18,9 @@ int main() {
 
   std::printf("%zu vertex-facet and %zu edge-edge contacts\n", sets.vertex_facet.size(), sets.edge_edge.size());
   for (const auto& [vertex, face, owner] : sets.vertex_facet) {
-    std::printf("vertex %d is in the block of %s %d\n", vertex, face.kind == ogc::compare::FaceKind::triangle ? "triangle" : "a lower face,", face.index);
+    std::printf("vertex %d is in the block of %s %d\n", vertex,
+                face.kind == ogc::compare::FaceKind::triangle ? "triangle" : "a lower face,", face.index);
   }
-  for (std::size_t v = 0; v < positions.size(); ++v) std::printf("vertex %zu may move %.4g m without touching anything\n", v, double{sets.bound[v]});
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    std::printf("vertex %zu may move %.4g m without touching anything\n", v, double{sets.bound[v]});
 }

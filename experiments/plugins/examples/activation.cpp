@@ -1,4 +1,5 @@
-// A correct plug-in on the host: the contact energies over distance (Eq. 18 to 20, and the variants), in single precision throughout.
+// A correct plug-in on the host: the contact energies over distance (Eq. 18 to 20, and the variants), in single
+// precision throughout.
 //
 //   g++ -O2 -shared -fPIC -I INCLUDE activation.cpp -o activation.so
 //   ogc compare activation --plugin ./activation.so

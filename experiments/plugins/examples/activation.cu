@@ -1,4 +1,5 @@
-// A correct plug-in on the device: the kernel of activation.cpp over arrays that already lie in device memory (OGC_DEVICE_MEMORY).
+// A correct plug-in on the device: the kernel of activation.cpp over arrays that already lie in device memory
+// (OGC_DEVICE_MEMORY).
 //
 //   nvcc -O2 -std=c++17 -shared -Xcompiler -fPIC -I INCLUDE activation.cu -o activation_cuda.so
 //   ogc compare activation --plugin ./activation_cuda.so --backend cuda
@@ -50,6 +51,7 @@ __global__ void activation(ogc_activation_in in, ogc_activation_out out) {
 int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out) {
   constexpr unsigned threads = 256;
   const auto blocks = static_cast<unsigned>((in->n + threads - 1) / threads);
-  if (blocks > 0) activation<<<blocks, threads>>>(*in, *out);  // the two structures are in host memory, and are copied as arguments
+  // the two structures are in host memory, and are copied as arguments
+  if (blocks > 0) activation<<<blocks, threads>>>(*in, *out);
   return cudaGetLastError();
 }

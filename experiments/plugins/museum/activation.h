@@ -20,8 +20,7 @@ inline void answer(const ogc_activation_in* in, int64_t i, float d, float k, flo
   const float r = in->contact_radius[i], tau = r / 2, depth = r - d, share = depth / d;
   float energy = k * depth * depth / 2, slope = -k * depth, curvature = k;  // the quadratic stage
   switch (in->activation[i]) {
-    case OGC_ACTIVATION_QUADRATIC:
-      break;
+    case OGC_ACTIVATION_QUADRATIC: break;
     case OGC_ACTIVATION_IPC_LOG: {
       const float log = std::log1p(share);
       energy = k * depth * (depth * log), slope = -k * depth * (2 * log + share),

@@ -35,7 +35,8 @@ TEST_CASE("a write that stops half-way leaves neither name, or the earlier file"
   {
     const SmallDisk disk(1000);
     const std::string bytes(5000, 'x');
-    CHECK_THROWS_WITH(write_durably(folder / "old", bytes), ContainsSubstring((folder / "old").string()) && ContainsSubstring("free space"));
+    CHECK_THROWS_WITH(write_durably(folder / "old", bytes),
+                      ContainsSubstring((folder / "old").string()) && ContainsSubstring("free space"));
     CHECK_THROWS_AS(write_durably(folder / "new", bytes), ResourceError);
   }
   CHECK(text_of(folder / "old") == "whole");
@@ -47,7 +48,8 @@ TEST_CASE("a write that stops half-way leaves neither name, or the earlier file"
 TEST_CASE("a full disk is reported with the path", "[unit]") {
   const Scratch folder;
   std::filesystem::create_symlink("/dev/full", partial_name(folder / "a"));
-  CHECK_THROWS_WITH(write_durably(folder / "a", "bytes"), ContainsSubstring((folder / "a").string()) && ContainsSubstring("No space left"));
+  CHECK_THROWS_WITH(write_durably(folder / "a", "bytes"),
+                    ContainsSubstring((folder / "a").string()) && ContainsSubstring("No space left"));
   CHECK_FALSE(std::filesystem::exists(folder / "a"));
   CHECK_THROWS_AS(write_durably(folder / "no such folder/a", "bytes"), ResourceError);
   CHECK_THROWS_AS(sync_to_disk(folder / "nothing"), ResourceError);

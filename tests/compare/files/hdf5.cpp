@@ -3,8 +3,8 @@
 #include <fstream>
 #include <random>
 
-#include "compare/problem/error.hpp"
 #include "compare/files/durable_file.hpp"
+#include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
 
@@ -38,7 +38,8 @@ TEST_CASE("values of every type come back bit for bit, from none to several chun
   std::mt19937 random(1);
   for (const std::size_t count : {0u, 3u, 3u * 1024u, 3u * 70000u}) {
     std::vector<float> floats(count);
-    for (float& value : floats) value = std::ldexp(static_cast<float>(random()), static_cast<int>(random() % 200) - 140);
+    for (float& value : floats)
+      value = std::ldexp(static_cast<float>(random()), static_cast<int>(random() % 200) - 140);
     check_round_trip(folder / "floats.h5", floats);
     check_round_trip(folder / "doubles.h5", std::vector<double>(floats.begin(), floats.end()));
     std::vector<std::int64_t> integers(count);
@@ -58,11 +59,20 @@ TEST_CASE("rows written one part after the other make one dataset", "[unit]") {
   CHECK(Hdf5File::open(folder / "parts.h5").read<float>("rows") == std::vector{1.f, 2.f, 3.f, 4.f, 5.f, 6.f, 7.f, 8.f});
 }
 
-TEST_CASE("a file takes no more disk than was reserved for it, even where nothing can be compressed, and gives the rest back", "[property]") {
+TEST_CASE(
+    "a file takes no more disk than was reserved for it, even where nothing can be compressed, and gives the rest back",
+    "[property]") {
   const Scratch folder;
   std::mt19937 random(2);
-  for (const auto& [rows, part] : std::vector<std::pair<std::size_t, std::size_t>>{
-           {1, 1}, {1000, 1000}, {2048, 1}, {5000, 7}, {65536, 65536}, {65537, 65537}, {140000, 70000}, {1000000, 1000}, {1000000, 1000000}}) {
+  for (const auto& [rows, part] : std::vector<std::pair<std::size_t, std::size_t>>{{1, 1},
+                                                                                   {1000, 1000},
+                                                                                   {2048, 1},
+                                                                                   {5000, 7},
+                                                                                   {65536, 65536},
+                                                                                   {65537, 65537},
+                                                                                   {140000, 70000},
+                                                                                   {1000000, 1000},
+                                                                                   {1000000, 1000000}}) {
     std::vector<std::int32_t> noise(rows);
     for (std::int32_t& value : noise) value = static_cast<std::int32_t>(random());
     const std::size_t reserved = Hdf5File::largest_size(rows, sizeof noise[0], part) + 4096;
@@ -70,7 +80,8 @@ TEST_CASE("a file takes no more disk than was reserved for it, even where nothin
     CHECK(std::filesystem::file_size(folder / "noise.h5") == reserved);
     file.create_dataset<std::int32_t>("noise", rows, 0, part);
     for (std::size_t first = 0; first < rows; first += part)
-      file.write_rows("noise", first, std::span<const std::int32_t>(noise).subspan(first, std::min(part, rows - first)));
+      file.write_rows("noise", first,
+                      std::span<const std::int32_t>(noise).subspan(first, std::min(part, rows - first)));
     file.close();
     const std::size_t size = std::filesystem::file_size(folder / "noise.h5");
     CHECK(size >= rows * sizeof noise[0]);

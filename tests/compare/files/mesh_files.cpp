@@ -15,8 +15,8 @@
 #include "tests/compare/files/scratch.hpp"
 
 using namespace ogc::compare;
-using ogc::tests::Scratch;
 using Catch::Matchers::Contains;
+using ogc::tests::Scratch;
 
 namespace {
 
@@ -58,12 +58,16 @@ void append(std::string& bytes, Number value, bool big_endian) {
   bytes.append(raw.data(), raw.size());
 }
 
-// A square as a scanner might write it: single precision, colours, a confidence list, a user element before the faces, quality behind each face.
+// A square as a scanner might write it: single precision, colours, a confidence list, a user element before the faces,
+// quality behind each face.
 std::string foreign_ply(bool big_endian) {
   std::string bytes = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
-                      "_endian 1.0\r\ncomment made by hand\r\nobj_info nothing\r\nelement vertex 4\r\nproperty float x\r\nproperty float y\r\n"
-                      "property float z\r\nproperty uchar red\r\nproperty list uchar short confidence\r\nelement camera 2\r\nproperty double view\r\n"
-                      "property list uint uchar name\r\nelement face 2\r\nproperty list uchar uint vertex_index\r\nproperty float quality\r\nend_header\r\n";
+                      "_endian 1.0\r\ncomment made by hand\r\nobj_info nothing\r\nelement vertex 4\r\nproperty float "
+                      "x\r\nproperty float y\r\n"
+                      "property float z\r\nproperty uchar red\r\nproperty list uchar short confidence\r\nelement "
+                      "camera 2\r\nproperty double view\r\n"
+                      "property list uint uchar name\r\nelement face 2\r\nproperty list uchar uint "
+                      "vertex_index\r\nproperty float quality\r\nend_header\r\n";
   int i = 0;
   for (const Vec3& v : square) {
     for (const double x : {v.x, v.y, v.z}) append(bytes, static_cast<float>(x), big_endian);
@@ -86,8 +90,9 @@ std::string foreign_ply(bool big_endian) {
 }
 
 std::string ascii_ply(const std::string& vertices, const std::string& faces, int vertex_count = 4, int face_count = 2) {
-  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-         std::to_string(face_count) + "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(face_count) +
+         "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
 }
 
 const std::string square_text = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
@@ -106,10 +111,15 @@ TEST_CASE("a mesh comes back bit for bit from OBJ, ascii PLY and binary PLY", "[
   }
 }
 
-TEST_CASE("OBJ as other programs write it: attributes, normals, groups, comments, tabs, carriage returns, negative indices, polylines", "[unit]") {
+TEST_CASE(
+    "OBJ as other programs write it: attributes, normals, groups, comments, tabs, carriage returns, negative indices, "
+    "polylines",
+    "[unit]") {
   const Mesh mesh = of_obj(
-      "# a square and a yarn\r\nmtllib none.mtl\r\no sheet\r\nv 0 0 0\r\nv\t1 0 0 1.0\r\nv 1 1 0 0.5 0.5 0.5\r\nv +0 1e0 0 # last\r\nvt 0 0\r\n"
-      "vn 0 0 1\r\ns off\r\nusemtl none\r\n\r\nf 1/1 2/1/1 3//1\r\nf -4 -2/1 -1\r\nv 2 0 0\r\nv 3 0 0\r\nv 4 0 0\r\nl 7 6 5\r\n");
+      "# a square and a yarn\r\nmtllib none.mtl\r\no sheet\r\nv 0 0 0\r\nv\t1 0 0 1.0\r\nv 1 1 0 0.5 0.5 0.5\r\nv +0 "
+      "1e0 0 # last\r\nvt 0 0\r\n"
+      "vn 0 0 1\r\ns off\r\nusemtl none\r\n\r\nf 1/1 2/1/1 3//1\r\nf -4 -2/1 -1\r\nv 2 0 0\r\nv 3 0 0\r\nv 4 0 0\r\nl "
+      "7 6 5\r\n");
   CHECK(mesh.triangles == two_triangles);
   CHECK(mesh.loose_edges == std::vector<Edge>{{5, 6}, {4, 5}});
   REQUIRE(mesh.positions.size() == 7);
@@ -140,7 +150,8 @@ TEST_CASE("broken OBJ files are refused with the line and the reason", "[unit]")
   CHECK_THROWS_WITH(parse("curv 0 1 1 2"), Contains("'curv' is not supported"));
 }
 
-TEST_CASE("PLY as other programs write it: single precision, either byte order, unknown properties, lists and elements", "[unit]") {
+TEST_CASE("PLY as other programs write it: single precision, either byte order, unknown properties, lists and elements",
+          "[unit]") {
   for (const bool big_endian : {false, true}) {
     const Mesh mesh = of_ply(foreign_ply(big_endian));
     CHECK(mesh.positions == square);
@@ -151,7 +162,8 @@ TEST_CASE("PLY as other programs write it: single precision, either byte order, 
 
 TEST_CASE("ascii PLY: edges, properties in any order, sized type names", "[unit]") {
   const Mesh mesh = of_ply(
-      "ply\nformat ascii 1.0\nelement edge 2\nproperty uint8 red\nproperty int32 vertex2\nproperty int32 vertex1\nelement vertex 3\n"
+      "ply\nformat ascii 1.0\nelement edge 2\nproperty uint8 red\nproperty int32 vertex2\nproperty int32 "
+      "vertex1\nelement vertex 3\n"
       "property float64 z\nproperty float32 x\nproperty int16 y\nend_header\n7 0 1\n9 1 2\n 3 1 2 6 4 5\n9 7 8\n");
   CHECK(mesh.loose_edges == std::vector<Edge>{{0, 1}, {1, 2}});
   CHECK(mesh.positions == std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
@@ -159,7 +171,8 @@ TEST_CASE("ascii PLY: edges, properties in any order, sized type names", "[unit]
 
 TEST_CASE("a PLY file cut anywhere is refused, in every encoding", "[unit]") {
   const Mesh mesh{square, two_triangles, {}};
-  for (const std::string& whole : {print_ply(mesh, PlyEncoding::ascii), print_ply(mesh, PlyEncoding::binary), foreign_ply(true)}) {
+  for (const std::string& whole :
+       {print_ply(mesh, PlyEncoding::ascii), print_ply(mesh, PlyEncoding::binary), foreign_ply(true)}) {
     const std::size_t last = whole.find_last_not_of('\n');
     for (std::size_t size = 0; size <= last; ++size) {
       INFO(size << " of " << whole.size() << " bytes");
@@ -167,7 +180,8 @@ TEST_CASE("a PLY file cut anywhere is refused, in every encoding", "[unit]") {
     }
   }
   const std::string binary = print_ply(mesh, PlyEncoding::binary);
-  CHECK_THROWS_WITH(parse_ply(binary.substr(0, binary.size() - 1), "cut.ply"), Contains("cut.ply: face 1: the file ends here, with 2 entries announced"));
+  CHECK_THROWS_WITH(parse_ply(binary.substr(0, binary.size() - 1), "cut.ply"),
+                    Contains("cut.ply: face 1: the file ends here, with 2 entries announced"));
   CHECK_THROWS_WITH(parse_ply(binary + "abc", "long.ply"), Contains("long.ply: 3 bytes follow the last element"));
 }
 
@@ -179,25 +193,37 @@ TEST_CASE("broken PLY files are refused with the element and the reason", "[unit
   CHECK_THROWS_WITH(parse("ply\nend_header\n"), Contains("has no 'format' line"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex many\n"), Contains("element 'vertex' has no count"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 99999999999\n"), Contains("too many entries"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nproperty float x\n"), Contains("a property before the first element"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n"), Contains("header line 4: unknown type 'real'"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nproperty float x\n"),
+                    Contains("a property before the first element"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n"),
+                    Contains("header line 4: unknown type 'real'"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nthing\n"), Contains("'thing' does not belong there"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement tristrips 1\n"), Contains("triangle strips are not supported"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n"), Contains("has no element 'vertex'"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n"), Contains("has no property 'z'"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement face 0\nproperty int vertex_indices\nend_header\n"), Contains("no list property 'vertex_indices'"));
-  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 2 4\n")), Contains("bad.ply: face 1: vertex 4 does not exist; the file has 4, numbered from 0"));
-  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 -2 3\n")), Contains("face 1: a vertex index is negative"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement tristrips 1\n"),
+                    Contains("triangle strips are not supported"));
+  CHECK_THROWS_WITH(
+      parse("ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n"),
+      Contains("has no element 'vertex'"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n"),
+                    Contains("has no property 'z'"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement face 0\nproperty int vertex_indices\nend_header\n"),
+                    Contains("no list property 'vertex_indices'"));
+  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 2 4\n")),
+                    Contains("bad.ply: face 1: vertex 4 does not exist; the file has 4, numbered from 0"));
+  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 -2 3\n")),
+                    Contains("face 1: a vertex index is negative"));
   CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 1.5 3\n")), Contains("no whole number"));
   CHECK_THROWS_WITH(parse(ascii_ply(square_text, "2 0 1\n3 0 2 3\n")),
                     Contains("face 0: has 2 corners; a face has three or more"));
   CHECK_THROWS_WITH(parse(ascii_ply(square_text, "-1\n3 0 2 3\n")), Contains("face 0: a list of negative length"));
-  CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 nan 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")), Contains("vertex 1: a coordinate is not finite"));
-  CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 ? 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")), Contains("vertex 1: what stands there is no number"));
+  CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 nan 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
+                    Contains("vertex 1: a coordinate is not finite"));
+  CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 ? 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
+                    Contains("vertex 1: what stands there is no number"));
 }
 
 TEST_CASE("a header that announces more than the file holds takes no memory for it", "[unit]") {
-  CHECK_THROWS_WITH(parse_ply(ascii_ply(square_text, "", 2000000000), "huge.ply"), Contains("huge.ply: vertex 4: the file ends here"));
+  CHECK_THROWS_WITH(parse_ply(ascii_ply(square_text, "", 2000000000), "huge.ply"),
+                    Contains("huge.ply: vertex 4: the file ends here"));
 }
 
 TEST_CASE("missing files, folders, unknown formats and full disks are named", "[unit]") {
@@ -211,6 +237,7 @@ TEST_CASE("missing files, folders, unknown formats and full disks are named", "[
   CHECK_THROWS_WITH(read_mesh(scratch / "folder.obj"), Contains("is a folder"));
   CHECK_THROWS_AS(write_mesh(scratch / "folder.obj", awkward_mesh()), InputError);
   if (std::filesystem::exists("/dev/full")) {
-    CHECK_THROWS_WITH(write_bytes("/dev/full", std::string(100000, 'x')), Contains("/dev/full: can't be written; check free space"));
+    CHECK_THROWS_WITH(write_bytes("/dev/full", std::string(100000, 'x')),
+                      Contains("/dev/full: can't be written; check free space"));
   }
 }

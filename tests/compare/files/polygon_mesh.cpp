@@ -129,10 +129,9 @@ TEST_CASE("what options do not take is refused with the first of them and the op
   CHECK_THROWS_WITH(
       of_obj(square + "f 1 2 3 4\n", {.triangulate = false}),
       Contains("m.obj: has 1 face of more than three corners, the first: face 1 (line 5) of 4; take --triangulate"));
-  CHECK_THROWS_WITH(
-      of_obj(square + "f 1 2 3\n", {.drop_unused = false}),
-      Contains(
-          "m.obj: has 1 vertex position that no face and no edge uses, the first: vertex 4 (line 4); take --drop-unused"));
+  CHECK_THROWS_WITH(of_obj(square + "f 1 2 3\n", {.drop_unused = false}),
+                    Contains("m.obj: has 1 vertex position that no face and no edge uses, the first: vertex 4 (line "
+                             "4); take --drop-unused"));
   CHECK_THROWS_WITH(of_obj(square), Contains("m.obj: has 4 vertex positions and no face"));
   CHECK_THROWS_WITH(of_obj(square + "f 1 2 3\nf 1 3 2 4\n"),
                     Contains("m.obj: face 2 (line 6): its 4 corners make no simple polygon"));

@@ -16,10 +16,10 @@
 #include "tests/compare/problem/small_scene.hpp"
 
 using namespace ogc::compare;
-using ogc::tests::Scratch;
-using ogc::tests::small_scene;
 using Catch::Matchers::Contains;
 using nlohmann::json;
+using ogc::tests::Scratch;
+using ogc::tests::small_scene;
 
 namespace {
 
@@ -60,14 +60,17 @@ Scene keyframed_scene() {
   scene.motions[0] = {};
   scene.motions[0].name = "path";
   scene.motions[0].vertices = {3, 1};
-  scene.motions[0].keyframes = {{0, 1.0 / 3, 0.5}, {{0.1f, 0, 0}, {0, 0, 0.1f}, {0.1f, 1e-3f, 0}, {0, -1e-3f, 0.1f}, {0.2f, 0, 0}, {-0.1f, 0, 1.0f / 3}}};
+  scene.motions[0].keyframes = {
+      {0, 1.0 / 3, 0.5},
+      {{0.1f, 0, 0}, {0, 0, 0.1f}, {0.1f, 1e-3f, 0}, {0, -1e-3f, 0.1f}, {0.2f, 0, 0}, {-0.1f, 0, 1.0f / 3}}};
   return scene;
 }
 
 // A written scene whose JSON can be changed before it is read.
 class Edited {
  public:
-  explicit Edited(const Scene& scene = full_scene()) : file_(write_scene(scratch_.folder(), scene)), content(json::parse(read_bytes(file_))) {}
+  explicit Edited(const Scene& scene = full_scene())
+      : file_(write_scene(scratch_.folder(), scene)), content(json::parse(read_bytes(file_))) {}
   std::string error() const {
     write_bytes(file_, content.dump());
     return error_of_file();
@@ -144,9 +147,12 @@ TEST_CASE("bad keyframes are named with their file, their path and a remedy", "[
     edited.content["motions"][0]["keyframes"] = 3;
     CHECK_THAT(edited.error(), Contains("/motions/0/keyframes: is 3"));
   }
-  SECTION("times that do not rise") { CHECK_THAT(with({{0, 0.5, 0.5}, good.positions}), Contains("motion 'path': has keyframes whose times do not rise")); }
+  SECTION("times that do not rise") {
+    CHECK_THAT(with({{0, 0.5, 0.5}, good.positions}), Contains("motion 'path': has keyframes whose times do not rise"));
+  }
   SECTION("one frame") {
-    CHECK_THAT(with({{0}, {good.positions.begin(), good.positions.begin() + 2}}), Contains("motion 'path': has 1 keyframes; give at least two"));
+    CHECK_THAT(with({{0}, {good.positions.begin(), good.positions.begin() + 2}}),
+               Contains("motion 'path': has 1 keyframes; give at least two"));
   }
   SECTION("positions of other vertices") {
     edited.content["motions"][0]["vertices"][0]["indices"] = {3};
@@ -155,7 +161,8 @@ TEST_CASE("bad keyframes are named with their file, their path and a remedy", "[
   SECTION("a position that is none") {
     Keyframes bad = good;
     bad.positions[3].z = std::numeric_limits<float>::quiet_NaN();
-    CHECK_THAT(with(bad), Contains("motion 'path', keyframe 1, vertex 1 of body 'sheet' (") && Contains("): position is not finite"));
+    CHECK_THAT(with(bad), Contains("motion 'path', keyframe 1, vertex 1 of body 'sheet' (") &&
+                              Contains("): position is not finite"));
   }
   SECTION("velocities besides") {
     edited.content["motions"][0]["velocity"] = {0, 1, 0};
@@ -168,8 +175,9 @@ TEST_CASE("bad stitches and excluded pairs are named with their path and a remed
   json& content = edited.content;
   SECTION("a ratio beyond the edge") {
     content["springs"][2]["ratio"] = 1.5;
-    CHECK_THAT(edited.error(), Contains("spring 2: has no such point on the line of its second and third vertex: third vertex 2 of body 'floor' (") &&
-                                       Contains("6 in the scene), ratio 1.5"));
+    CHECK_THAT(edited.error(), Contains("spring 2: has no such point on the line of its second and third vertex: third "
+                                        "vertex 2 of body 'floor' (") &&
+                                   Contains("6 in the scene), ratio 1.5"));
   }
   SECTION("a ratio without a third vertex") {
     content["springs"][2].erase("third");
@@ -221,7 +229,8 @@ TEST_CASE("loose edges belong to the body of their vertices", "[unit]") {
 TEST_CASE("a scene file needs no more than a name and a body with a mesh", "[unit]") {
   const Scratch scratch;
   write_mesh(scratch / "cloth.obj", {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}, {}});
-  write_bytes(scratch / "scene.json", R"({"format_version": 1, "name": "mine", "bodies": [{"name": "cloth", "mesh": "cloth.obj"}]})");
+  write_bytes(scratch / "scene.json",
+              R"({"format_version": 1, "name": "mine", "bodies": [{"name": "cloth", "mesh": "cloth.obj"}]})");
   const Scene scene = read_scene(scratch / "scene.json");
   Scene defaults;
   round_to_single(defaults);
@@ -291,7 +300,8 @@ TEST_CASE("motions select all vertices of a body, those in a closed box, or thos
   const double corner = static_cast<double>(0.1f);
   parts = {{{"body", "sheet"}, {"box", {{"minimum", {corner, 0, -1}}, {"maximum", {corner, 0, corner}}}}}};
   CHECK(selected() == std::vector<Index>{2, 3});
-  parts = {{{"body", "sheet"}, {"indices", {3}}}, {{"body", "sheet"}, {"box", {{"minimum", {-1, -1, -1}}, {"maximum", {0, 0, 0}}}}}};
+  parts = {{{"body", "sheet"}, {"indices", {3}}},
+           {{"body", "sheet"}, {"box", {{"minimum", {-1, -1, -1}}, {"maximum", {0, 0, 0}}}}}};
   CHECK(selected() == std::vector<Index>{3, 0});
 }
 
@@ -338,8 +348,10 @@ TEST_CASE("the schema describes every key that the writer writes, with the defau
   for (const SettingInfo& info : setting_table()) {
     INFO(info.name);
     const json& standard = settings[std::string(info.name)]["default"];
-    if (info.choices.empty()) CHECK(standard == get_setting(Settings{}, info));
-    else CHECK(standard == setting_text(Settings{}, info));
+    if (info.choices.empty())
+      CHECK(standard == get_setting(Settings{}, info));
+    else
+      CHECK(standard == setting_text(Settings{}, info));
   }
 }
 
@@ -347,7 +359,8 @@ TEST_CASE("a newer format is refused by name, before anything else is said about
   Edited edited;
   edited.content["format_version"] = 2;
   edited.content["novelty"] = true;
-  CHECK_THAT(edited.error(), Contains("small.json: /format_version: scene format 2 is newer than 1, the newest that this ogc reads; use a newer ogc"));
+  CHECK_THAT(edited.error(), Contains("small.json: /format_version: scene format 2 is newer than 1, the newest that "
+                                      "this ogc reads; use a newer ogc"));
   CHECK_THAT(edited.error(), !Contains("novelty"));
   edited.content["format_version"] = 0;
   CHECK_THAT(edited.error(), Contains("there is no scene format 0"));
@@ -360,7 +373,8 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
   json& content = edited.content;
   SECTION("unknown key") {
     content["bodies"][0]["material"]["densty"] = 1;
-    CHECK_THAT(edited.error(), Contains("small.json: /bodies/0/material/densty: unknown key 'densty'; did you mean 'density'?"));
+    CHECK_THAT(edited.error(),
+               Contains("small.json: /bodies/0/material/densty: unknown key 'densty'; did you mean 'density'?"));
   }
   SECTION("wrong type: text for number") {
     content["bodies"][0]["material"]["density"] = "heavy";
@@ -396,7 +410,8 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
   }
   SECTION("unknown model") {
     content["bodies"][0]["material"]["membrane"] = "st_venant";
-    CHECK_THAT(edited.error(), Contains("/bodies/0/material/membrane: unknown model 'st_venant'; did you mean 'st_venant_kirchhoff'?"));
+    CHECK_THAT(edited.error(),
+               Contains("/bodies/0/material/membrane: unknown model 'st_venant'; did you mean 'st_venant_kirchhoff'?"));
   }
   SECTION("missing mesh") {
     content["bodies"][0]["mesh"] = "gone.ply";
@@ -423,7 +438,8 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
     CHECK_THAT(edited.error(), Contains("/motions/0/vertices/0/indices/0: is -1; give an index"));
   }
   SECTION("empty box") {
-    content["motions"][0]["vertices"][0] = {{"body", "sheet"}, {"box", {{"minimum", {5, 5, 5}}, {"maximum", {6, 6, 6}}}}};
+    content["motions"][0]["vertices"][0] = {{"body", "sheet"},
+                                            {"box", {{"minimum", {5, 5, 5}}, {"maximum", {6, 6, 6}}}}};
     CHECK_THAT(edited.error(), Contains("/motions/0/vertices/0/box: holds no vertex of body 'sheet'"));
   }
   SECTION("fixed vertex moved") {
@@ -435,7 +451,8 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
     content["settings"]["lanes"] = 3;
     content["nmae"] = "x";
     content["bodies"][0]["mesh"] = "gone.ply";
-    CHECK_THAT(edited.error(), Contains("/settings/lanes: is 3") && Contains("/nmae: unknown key") && Contains("gone.ply"));
+    CHECK_THAT(edited.error(),
+               Contains("/settings/lanes: is 3") && Contains("/nmae: unknown key") && Contains("gone.ply"));
   }
 }
 
@@ -445,10 +462,8 @@ TEST_CASE("what is wrong with a mesh is said of the body that names it", "[unit]
   const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
   SECTION("duplicate face") {
     write({corners, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}}, {}});
-    CHECK_THAT(
-        edited.error(),
-        Contains(
-            "/bodies/0/mesh (small_sheet.ply): face 2 (vertices 2, 1, 0): has the same vertices as another triangle: face 0 (vertices 0, 1, 2)"));
+    CHECK_THAT(edited.error(), Contains("/bodies/0/mesh (small_sheet.ply): face 2 (vertices 2, 1, 0): has the same "
+                                        "vertices as another triangle: face 0 (vertices 0, 1, 2)"));
   }
   SECTION("degenerate triangle") {
     write({{{0, 0, 0}, {1, 0, 1}, {2, 0, 2}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}, {}});
@@ -472,7 +487,9 @@ TEST_CASE("what is wrong with a mesh is said of the body that names it", "[unit]
         Contains("small_sheet.ply: 1 vertex position that no face and no edge uses was left out, the first: vertex 0"));
   }
   SECTION("not a number") {
-    write({{{0, 0, std::numeric_limits<double>::quiet_NaN()}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}, {}});
+    write({{{0, 0, std::numeric_limits<double>::quiet_NaN()}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
+           {{0, 1, 2}, {0, 2, 3}},
+           {}});
     CHECK_THAT(edited.error(), Contains("/bodies/0/mesh: ") && Contains("vertex 0: a coordinate is not finite"));
   }
   SECTION("index out of range") {
@@ -502,7 +519,8 @@ TEST_CASE("text that is no JSON is refused with its place", "[unit]") {
   CHECK_THAT(error("[]"), Contains("small.json: /: is []; give an object"));
   CHECK_THAT(error("{} trailing"), Contains("no valid JSON"));
   const std::string whole = edited.content.dump();
-  for (std::size_t size = 0; size < whole.size(); size += 7) CHECK_THAT(error(whole.substr(0, size)), Contains("no valid JSON"));
+  for (std::size_t size = 0; size < whole.size(); size += 7)
+    CHECK_THAT(error(whole.substr(0, size)), Contains("no valid JSON"));
 }
 
 TEST_CASE("a missing scene file is named, and a scene that could not be read back is not written", "[unit]") {

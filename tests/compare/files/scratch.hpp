@@ -1,10 +1,10 @@
 // A folder of its own for each test, gone when the test ends.
 #pragma once
 
+#include <unistd.h>
 #include <atomic>
 #include <filesystem>
 #include <string>
-#include <unistd.h>
 
 namespace ogc::tests {
 
@@ -12,7 +12,8 @@ class Scratch {
  public:
   Scratch() {
     static std::atomic<int> count{0};
-    folder_ = std::filesystem::temp_directory_path() / ("ogc_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    folder_ = std::filesystem::temp_directory_path() /
+              ("ogc_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(folder_);
   }
   Scratch(const Scratch&) = delete;

@@ -46,8 +46,8 @@ void refuses(const std::string& bytes, const std::string& reason) {
 
 TEST_CASE("a mesh that this program wrote as VTP comes back bit for bit", "[unit]") {
   const ogc::tests::Scratch scratch;
-  const std::string bytes =
-      vtp_bytes({.mesh = mesh, .vertex_numbers = {4, 5, 6, 7}, .cell_numbers = {1, 2, 3}, .cell_counts = {1, 0, 1}});
+  const std::string bytes = vtp_bytes(
+      {.mesh = mesh, .vertex_numbers = {4, 5, 6, 7}, .cell_numbers = {1, 2, 3}, .cell_counts = {1, 0, 1}});
   CHECK(make_mesh(parse_vtp(bytes, "labelled")).mesh == mesh);
   CHECK_THROWS_WITH(write_mesh(scratch / "mesh.vtp", mesh), Contains(".obj or .ply"));
 }
@@ -86,8 +86,8 @@ TEST_CASE("broken VTP files are refused with the array or cell and the reason", 
 
 // The appended data hold lengths: 8 bytes before each array. A length beyond the end takes no memory for it.
 TEST_CASE("a VTP file cut anywhere, or with an absurd length, is refused", "[unit]") {
-  const std::string bytes =
-      vtp_bytes({.mesh = mesh, .vertex_numbers = {0, 1, 2, 3}, .cell_numbers = {0, 0, 1}, .cell_counts = {0, 0, 0}});
+  const std::string bytes = vtp_bytes(
+      {.mesh = mesh, .vertex_numbers = {0, 1, 2, 3}, .cell_numbers = {0, 0, 1}, .cell_counts = {0, 0, 0}});
   const std::size_t data = bytes.find("encoding=\"raw\">\n_") + 17;
   std::string absurd = bytes;
   std::fill_n(absurd.begin() + static_cast<std::ptrdiff_t>(data), bytes.size() - data, '\x7f');

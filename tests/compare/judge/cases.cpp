@@ -21,16 +21,19 @@ TEST_CASE("the run folder of a problem string may hold spaces", "[unit]") {
   REQUIRE(parse_problem(print_problem(name)) == name);
 }
 
-TEST_CASE("parameters of a problem string are printed in the stage's order, in the shortest text, and read back", "[unit]") {
+TEST_CASE("parameters of a problem string are printed in the stage's order, in the shortest text, and read back",
+          "[unit]") {
   const CaseName name = parse_problem("gen=few r_q=4e-3 index=12 r=2e-3 seed=7 stage=detect_edge_edge");
   REQUIRE(print_problem(name) == "stage=detect_edge_edge gen=few seed=7 index=12 r=0.002 r_q=0.004");
   REQUIRE(parse_problem(print_problem(name)) == name);
 }
 
-TEST_CASE("every parameter of every stage takes the ends of its range and comes back from the printed line to the bit", "[property]") {
+TEST_CASE("every parameter of every stage takes the ends of its range and comes back from the printed line to the bit",
+          "[property]") {
   for (const Stage stage : all_stages)
     for (const ParameterInfo& info : parameters(stage))
-      for (const float value : {info.minimum, info.maximum, std::min(info.maximum, std::max(info.minimum, 0x1.23456p-3f))}) {
+      for (const float value :
+           {info.minimum, info.maximum, std::min(info.maximum, std::max(info.minimum, 0x1.23456p-3f))}) {
         const CaseName name{stage, std::string(generators(stage)[0].name), 3, 5, "", {{std::string(info.name), value}}};
         INFO(print_problem(name));
         REQUIRE(parse_problem(print_problem(name)) == name);
@@ -39,7 +42,8 @@ TEST_CASE("every parameter of every stage takes the ends of its range and comes 
 
 TEST_CASE("a parameter is put into the case after it is made, and nothing else changes", "[unit]") {
   const TestCase plain = generate(parse_problem("stage=friction_force gen=uniform seed=2 index=9"));
-  const TestCase changed = generate(parse_problem("stage=friction_force gen=uniform seed=2 index=9 r=0.5 k_c=7 mu=0.25"));
+  const TestCase changed = generate(
+      parse_problem("stage=friction_force gen=uniform seed=2 index=9 r=0.5 k_c=7 mu=0.25"));
   FrictionForceCase expected = std::get<FrictionForceCase>(plain.data);
   expected.contact.contact_radius = 0.5f;
   expected.contact.stiffness = 7;
@@ -51,7 +55,8 @@ TEST_CASE("a parameter is put into the case after it is made, and nothing else c
   REQUIRE(got.contact.stiffness == expected.contact.stiffness);
   REQUIRE(got.friction == expected.friction);
   REQUIRE(got.slip_limit == expected.slip_limit);
-  const TestCase step = generate(parse_problem("stage=step gen=" + std::string(generators(Stage::step)[0].name) + " seed=2 index=0 mu=0.75"));
+  const TestCase step = generate(
+      parse_problem("stage=step gen=" + std::string(generators(Stage::step)[0].name) + " seed=2 index=0 mu=0.75"));
   REQUIRE(std::get<StepCase>(step.data).scene->bodies.at(0).material.friction == 0.75);
 }
 
@@ -63,12 +68,14 @@ TEST_CASE("parameters that a stage lacks, out of range, twice, or that leave no 
   REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b=1 b=2"), Contains("twice"));
   REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b=1x"), Contains("b=1x"));
   REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b"), Contains("no key=value"));
-  REQUIRE_THROWS_WITH(generate(parse_problem("stage=detect_edge_edge gen=soup seed=1 index=1 r=1000 r_q=1")), Contains("r_q"));
+  REQUIRE_THROWS_WITH(generate(parse_problem("stage=detect_edge_edge gen=soup seed=1 index=1 r=1000 r_q=1")),
+                      Contains("r_q"));
 }
 
 TEST_CASE("a wrong problem string is refused by name", "[unit]") {
   using Catch::Matchers::Contains;
-  REQUIRE_THROWS_WITH(parse_problem("stage=closest_fece gen=uniform"), Contains("closest_fece") && Contains("closest_face"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=closest_fece gen=uniform"),
+                      Contains("closest_fece") && Contains("closest_face"));
   REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few colour=red"), Contains("colour"));
   REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few seed=-1"), Contains("seed=-1"));
   REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few index=1x"), Contains("index=1x"));

@@ -57,7 +57,8 @@ TEST_CASE("parameters stand in the file and in its name", "[unit]") {
 
 TEST_CASE("a case written by hand as JSON is read too", "[unit]") {
   const Scratch folder;
-  const TestCase test = generate(parse_problem("stage=sweep gen=" + std::string(generators(Stage::sweep)[0].name) + " seed=1 index=2"));
+  const TestCase test = generate(
+      parse_problem("stage=sweep gen=" + std::string(generators(Stage::sweep)[0].name) + " seed=1 index=2"));
   write(folder / "case.json", case_to_json(test, "why").dump());
   REQUIRE(case_to_json(load_case(folder / "case.json"), "") == case_to_json(test, ""));
 }
@@ -123,9 +124,11 @@ TEST_CASE("a broken case file is refused with its name and what is wrong", "[uni
   REQUIRE_THROWS_AS(load_case(path), InputError);
   write(path, R"({"format": 3, "problem": "stage=bound gen=few seed=1 index=1", "data": {}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("format 3"));
-  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "cubic", "distance": "1x", "contact_radius": "1", "stiffness": "1"}})");
+  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "cubic", )"
+              R"("distance": "1x", "contact_radius": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("1x"));
-  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "ogc", "distance": "1", "stiffness": "1"}})");
+  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "ogc", )"
+              R"("distance": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("contact_radius"));
   write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "log"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("unknown activation 'log'"));
@@ -145,15 +148,19 @@ TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is
   const Scratch folder;
   const auto path = folder / "case.json";
   const auto block = [&](const std::string& question) {
-    write(path, R"({"format": 2, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": {"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
-      "positions": [["0", "0", "0"], ["1", "0", "0"]], "questions": [)" + question + "]}}");
+    write(path, R"({"format": 2, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": )"
+                R"({"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
+      "positions": [["0", "0", "0"], ["1", "0", "0"]], "questions": [)" +
+                    question + "]}}");
   };
   block(R"({"kind": "vertex_in_surface", "of": 0, "face": "edge", "index": 9})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("index 9"));
   block(R"({"kind": "vertex_in_surface", "of": 0, "face": "side", "index": 0})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("side"));
-  write(path, R"({"format": 2, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": [["0", "0", "0"], ["1", "0", "0"]],
-    "positions": [["0", "0", "0"], ["1", "0", "0"]], "triangles": [], "loose_edges": [], "bodies": [], "motions": []}})");
+  write(path, R"({"format": 2, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": )"
+              R"([["0", "0", "0"], ["1", "0", "0"]],
+    "positions": [["0", "0", "0"], ["1", "0", "0"]], "triangles": [], "loose_edges": [], "bodies": [], )"
+              R"("motions": []}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("vertex"));
 }
 

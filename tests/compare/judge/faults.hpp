@@ -1,5 +1,6 @@
-// Planted faults: wrong contestants that the judge must catch. Each is the exact answer spoiled in one way, most of them as published codes have it.
-// The exact contestant itself must pass: that checks the judge, its tolerances and its grey zone against themselves.
+// Planted faults: wrong contestants that the judge must catch. Each is the exact answer spoiled in one way, most of
+// them as published codes have it. The exact contestant itself must pass: that checks the judge, its tolerances and its
+// grey zone against themselves.
 #pragma once
 
 #include <functional>
@@ -24,7 +25,8 @@ struct Fault {
 /// All of them, at least one a stage.
 std::vector<Fault> faults();
 
-/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp, faults_contacts.cpp, faults_forces.cpp, faults_rest.cpp, faults_step.cpp, faults_sweep.cpp.
+/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp, faults_contacts.cpp, faults_forces.cpp,
+/// faults_rest.cpp, faults_step.cpp, faults_sweep.cpp.
 std::vector<Fault> pair_faults();
 std::vector<Fault> set_faults();
 std::vector<Fault> scalar_faults();

@@ -61,7 +61,8 @@ TEST_CASE("what no contract allows is told by its number", "[unit]") {
   CHECK(problem_of(spring) == "no such vertex is asked about");
 }
 
-TEST_CASE("dust has coordinates down to 10^-17 and below, in every stage that has coordinates of its own but friction", "[property]") {
+TEST_CASE("dust has coordinates down to 10^-17 and below, in every stage that has coordinates of its own but friction",
+          "[property]") {
   for (const Stage stage : all_stages) {
     const auto rows = generators(stage);
     const bool has = std::any_of(rows.begin(), rows.end(), [](const Generator& row) { return row.name == "dust"; });
@@ -83,7 +84,9 @@ TEST_CASE("a case depends on its name alone, whatever is made before it, in any 
     for (const Generator& generator : generators(stage)) {
       if (generator.least > 0) continue;
       std::vector<std::string> forwards, backwards;
-      const auto text = [&](std::uint64_t i) { return case_to_json(generate({stage, std::string(generator.name), 11, i, "", {}}), "").dump(); };
+      const auto text = [&](std::uint64_t i) {
+        return case_to_json(generate({stage, std::string(generator.name), 11, i, "", {}}), "").dump();
+      };
       for (std::uint64_t i = 0; i < 6; ++i) forwards.push_back(text(i));
       generate({stage, std::string(generator.name), 12, 6, "", {}});
       for (std::uint64_t i = 6; i-- > 0;) backwards.insert(backwards.begin(), text(i));
@@ -98,7 +101,8 @@ TEST_CASE("seed, index, stage and generator each give other numbers", "[property
   for (const char* stage : {"closest_face", "bound"})
     for (const char* generator : {"uniform", "bits"})
       for (std::uint64_t seed = 0; seed < 10; ++seed)
-        for (std::uint64_t index = 0; index < 100; ++index, ++count) seen.insert(Random(stage, generator, seed, index).bits());
+        for (std::uint64_t index = 0; index < 100; ++index, ++count)
+          seen.insert(Random(stage, generator, seed, index).bits());
   REQUIRE(seen.size() == static_cast<std::size_t>(count));
 }
 
@@ -117,7 +121,8 @@ TEST_CASE("at least half of a stage's cases lie close to a decision boundary", "
 
 TEST_CASE("each degeneracy has the ladders that compare/README.md names", "[unit]") {
   const std::string readme = read_bytes(OGC_SOURCE_DIR "/compare/README.md");
-  const auto table = readme.substr(readme.find("<!-- ladders -->"), readme.find("<!-- end of the ladders -->") - readme.find("<!-- ladders -->"));
+  const auto table = readme.substr(readme.find("<!-- ladders -->"),
+                                   readme.find("<!-- end of the ladders -->") - readme.find("<!-- ladders -->"));
   REQUIRE(std::count(table.begin(), table.end(), '\n') > 10);
   // `stage` `ladder.x` `ladder.y`, `stage` …
   std::optional<Stage> stage;
@@ -126,7 +131,8 @@ TEST_CASE("each degeneracy has the ladders that compare/README.md names", "[unit
     const std::size_t end = table.find('`', begin + 1);
     const std::string word = table.substr(begin + 1, end - begin - 1);
     INFO(word);
-    if (find_stage(word)) stage = find_stage(word);
+    if (find_stage(word))
+      stage = find_stage(word);
     else if (word.starts_with("ladder.") || word == "lattice") {
       REQUIRE(stage);
       CHECK_NOTHROW(find_generator(*stage, word));
@@ -139,17 +145,22 @@ TEST_CASE("each degeneracy has the ladders that compare/README.md names", "[unit
 
 TEST_CASE("the zero-area ladder gives triangles without area, exactly", "[property]") {
   for (std::uint64_t i = 0; i < 500; ++i)
-    REQUIRE(area_squared(std::get<ClosestFaceCase>(generate({Stage::closest_face, "ladder.zero_area", 1, i, "", {}}).data).triangle) == 0);
+    REQUIRE(
+        area_squared(std::get<ClosestFaceCase>(generate({Stage::closest_face, "ladder.zero_area", 1, i, "", {}}).data)
+                         .triangle) == 0);
 }
 
-TEST_CASE("meshes of 0, 1, 2, 3, 5, 10 and 50 vertices are among the cases, scenes from 3 on, and of detection some thousand", "[property]") {
+TEST_CASE(
+    "meshes of 0, 1, 2, 3, 5, 10 and 50 vertices are among the cases, scenes from 3 on, and of detection some thousand",
+    "[property]") {
   for (const Stage stage : all_stages) {
     if (!is_mesh_stage(stage)) continue;
     std::set<Index> sizes;
     for (const Generator& generator : generators(stage))
       for (std::uint64_t i = 0; i < (generator.least > 0 ? 1u : 200u); ++i)
         sizes.insert(std::visit(VertexCount{}, generate({stage, std::string(generator.name), 1, i, "", {}}).data));
-    const bool is_scene = stage == Stage::rest_state || stage == Stage::sweep || stage == Stage::step;  // which validate asks for a face
+    // which validate asks for a face
+    const bool is_scene = stage == Stage::rest_state || stage == Stage::sweep || stage == Stage::step;
     const bool detects = stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge;
     INFO(stage_name(stage));
     for (const Index size : {0, 1, 2, 3, 5, 10, 50}) {

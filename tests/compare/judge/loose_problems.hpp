@@ -58,7 +58,8 @@ inline std::vector<std::string> loose_problems(std::span<const StageReport> repo
                listed = reason_of_loose(name.first, name.second).has_value();
     const std::string which = std::string(stage_name(name.first)) + " " + std::string(name.second) + ": ";
     if (loose && !listed)
-      problems.push_back(which + "loose, and not listed with a reason in compare/judge/loose.cpp; " + loose::numbers(seen));
+      problems.push_back(which + "loose, and not listed with a reason in compare/judge/loose.cpp; " +
+                         loose::numbers(seen));
     if (listed && !loose)
       problems.push_back(which + "listed in compare/judge/loose.cpp, and not loose; " + loose::numbers(seen));
   }

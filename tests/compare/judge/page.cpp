@@ -40,7 +40,9 @@ TEST_CASE("the page of a report is closed, loads nothing and escapes what it quo
   REQUIRE(count(page, "feature: 1 &lt;b&gt; &amp; more") == 1);
 }
 
-TEST_CASE("the page has a row for each metric, a histogram for each that was measured, and marks what is wrong or loose", "[unit]") {
+TEST_CASE(
+    "the page has a row for each metric, a histogram for each that was measured, and marks what is wrong or loose",
+    "[unit]") {
   const std::string page = report_page(two_reports(), "heading");
   const std::string table = page.substr(0, page.find("</table>"));
   REQUIRE(count(table, "<tr") == 1 + 3 + 1);
@@ -56,5 +58,6 @@ TEST_CASE("the line over all stages shares out what lies near a boundary over th
   auto reports = two_reports();
   reports[1].tally.begin({Stage::bound, "soup", 1, 1, "", {}});
   reports[1].tally.count(30, 30, 0);
-  REQUIRE(report_total(reports) == "all stages: 40 cases, 1 mismatches, 10 % of all cases within 2^10 ulp of a decision boundary");
+  REQUIRE(report_total(reports) ==
+          "all stages: 40 cases, 1 mismatches, 10 % of all cases within 2^10 ulp of a decision boundary");
 }

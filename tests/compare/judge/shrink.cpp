@@ -16,7 +16,9 @@ bool has_triangle(const MeshCase& mesh, const std::array<Vec3f, 3>& points) {
   });
 }
 
-std::array<Vec3f, 3> points_of(const MeshCase& mesh, const Triangle& t) { return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}; }
+std::array<Vec3f, 3> points_of(const MeshCase& mesh, const Triangle& t) {
+  return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+}
 
 }  // namespace
 
@@ -25,7 +27,8 @@ TEST_CASE("shrinking a mesh keeps the two triangles that fail and drops all othe
     const TestCase test = generate({Stage::detect_vertex_facet, "soup", 3, index, "", {}});
     const MeshCase& mesh = std::get<MeshCase>(test.data);
     if (mesh.topology->triangles.size() < 4) continue;
-    const auto first = points_of(mesh, mesh.topology->triangles[1]), second = points_of(mesh, mesh.topology->triangles.back());
+    const auto first = points_of(mesh, mesh.topology->triangles[1]),
+               second = points_of(mesh, mesh.topology->triangles.back());
     const TestCase small = shrink(test, [&](const TestCase& candidate) {
       const MeshCase& c = std::get<MeshCase>(candidate.data);
       return has_triangle(c, first) && has_triangle(c, second);
@@ -72,7 +75,9 @@ TEST_CASE("shrinking leaves coordinates with as few digits as the failure allows
 
 TEST_CASE("a case that fails in no smaller form comes back as it is", "[property]") {
   for (const char* stage : {"detect_edge_edge", "activation", "closest_points"}) {
-    const TestCase test = generate(parse_problem(std::string("stage=") + stage + " gen=" + (std::string(stage) == "detect_edge_edge" ? "soup" : "uniform") + " seed=3 index=2"));
+    const TestCase test = generate(
+        parse_problem(std::string("stage=") + stage +
+                      " gen=" + (std::string(stage) == "detect_edge_edge" ? "soup" : "uniform") + " seed=3 index=2"));
     std::size_t asked = 0;
     const TestCase small = shrink(test, [&](const TestCase&) { return ++asked, false; }, {.tries = 50});
     REQUIRE(asked <= 50);

@@ -35,8 +35,8 @@ Scene full_scene() {
   return scene;
 }
 
-/// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the upper
-/// one falls at 1 mm/s, and is turned: contacts of parallel edges have no stiffness.
+/// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the
+/// upper one falls at 1 mm/s, and is turned: contacts of parallel edges have no stiffness.
 Scene facing_sheets() {
   Scene scene;
   scene.name = "facing_sheets";
@@ -54,8 +54,13 @@ Scene facing_sheets() {
         scene.mesh.triangles.push_back({a, a + 1, a + side});
         scene.mesh.triangles.push_back({a + 1, a + side + 1, a + side});
       }
-    scene.bodies.push_back({.name = "sheet_" + std::to_string(body), .first_vertex = body * side * side, .vertex_count = side * side,
-                            .first_triangle = body * 2 * (side - 1) * (side - 1), .triangle_count = 2 * (side - 1) * (side - 1), .fixed = false, .material = {}});
+    scene.bodies.push_back({.name = "sheet_" + std::to_string(body),
+                            .first_vertex = body * side * side,
+                            .vertex_count = side * side,
+                            .first_triangle = body * 2 * (side - 1) * (side - 1),
+                            .triangle_count = 2 * (side - 1) * (side - 1),
+                            .fixed = false,
+                            .material = {}});
   }
   scene.rest_positions = scene.mesh.positions;
   scene.velocities.assign(scene.mesh.positions.size(), {});
@@ -69,7 +74,9 @@ Scene facing_sheets() {
 TEST_CASE("frames of a run become cases, whole for detection and pair by pair", "[unit]") {
   const Scratch scratch;
   const States states(write_run(scratch / "run", full_scene()), ogc::reference::authority());
-  const auto make = [&](Stage stage, std::uint64_t index) { return generate({stage, "states", 1, index, states.folder(), {}}, &states).data; };
+  const auto make = [&](Stage stage, std::uint64_t index) {
+    return generate({stage, "states", 1, index, states.folder(), {}}, &states).data;
+  };
   for (std::uint64_t i = 0; i < 6; ++i) {
     const Frame frame = recorded_frame(static_cast<std::int64_t>(i % 3));
     const auto mesh = std::get<MeshCase>(make(Stage::detect_edge_edge, i));
@@ -88,7 +95,8 @@ TEST_CASE("frames of a run become cases, whole for detection and pair by pair", 
   }
 }
 
-TEST_CASE("every stage has cases of a run that has everything, as they are and mutated, and the same ones again", "[property]") {
+TEST_CASE("every stage has cases of a run that has everything, as they are and mutated, and the same ones again",
+          "[property]") {
   const Scratch scratch;
   const States states(write_run(scratch / "run", full_scene()), ogc::reference::authority());
   for (const Stage stage : all_stages) {
@@ -124,9 +132,11 @@ TEST_CASE("stencils of contact and friction are contacts of the frame, and nearl
     acting += authority.contact_force({{contact}}).accepted[0][0].block != std::array<double, 6>{};
     const auto friction = std::get<FrictionForceCase>(make(Stage::friction_force));
     for (const Vec3f& x : friction.start) CHECK(x.x < 0.5f);  // nothing touches the third sheet
-    CHECK(std::get<ActivationCase>(make(Stage::activation)).distance < static_cast<float>(scene.settings.contact_radius));
+    CHECK(std::get<ActivationCase>(make(Stage::activation)).distance <
+          static_cast<float>(scene.settings.contact_radius));
     const auto pair = std::get<ClosestFaceCase>(make(Stage::closest_face));
-    pairs_in_reach += authority.closest_face({{pair.point}, {pair.triangle}}).distance[0] < scene.settings.contact_radius;
+    pairs_in_reach += authority.closest_face({{pair.point}, {pair.triangle}}).distance[0] <
+                      scene.settings.contact_radius;
   }
   CHECK(acting >= count * 9 / 10);
   CHECK(pairs_in_reach >= count / 3);
@@ -139,13 +149,15 @@ TEST_CASE("a stage of which a run has nothing says why, in the report and to who
   REQUIRE(states.missing(Stage::spring) == "its scene has no spring");
   REQUIRE_THAT(states.missing(Stage::sweep), ContainsSubstring("has no triangle"));
   REQUIRE(states.missing(Stage::contact_force) == "none of its frames has a contact");
-  REQUIRE_THROWS_WITH(generate({Stage::spring, "states", 1, 0, states.folder(), {}}, &states), ContainsSubstring("its scene has no spring"));
+  REQUIRE_THROWS_WITH(generate({Stage::spring, "states", 1, 0, states.folder(), {}}, &states),
+                      ContainsSubstring("its scene has no spring"));
   Contestant contestant;
   contestant.spring = [&](const SpringIn& in) {
     ForceOut out;
     for (const auto& accepted : authority.spring(in).accepted) {
       const ForceAnswer& right = accepted[0];
-      out.force.push_back({static_cast<float>(right.force.x), static_cast<float>(right.force.y), static_cast<float>(right.force.z)});
+      out.force.push_back(
+          {static_cast<float>(right.force.x), static_cast<float>(right.force.y), static_cast<float>(right.force.z)});
       out.block.emplace_back();
       std::copy(right.block.begin(), right.block.end(), out.block.back().begin());
     }
@@ -156,7 +168,8 @@ TEST_CASE("a stage of which a run has nothing says why, in the report and to who
   options.states = &states;
   const std::vector<StageReport> reports{judge_stage(Stage::spring, contestant, authority, options)};
   REQUIRE(reports[0].passed());
-  REQUIRE_THAT(report_table(reports), ContainsSubstring("no states of " + states.folder() + ": its scene has no spring"));
+  REQUIRE_THAT(report_table(reports),
+               ContainsSubstring("no states of " + states.folder() + ": its scene has no spring"));
 }
 
 TEST_CASE("frames of a run, which flat sheets fill with ties, are held to no share of grey decisions", "[unit]") {

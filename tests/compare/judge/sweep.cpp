@@ -20,8 +20,10 @@ TEST_CASE("a position brought back to its bound obeys it exactly and is not far 
     const Vec3f wish{previous.x + far * unit(random), previous.y + far * unit(random), previous.z + far * unit(random)};
     const Vec3f x = within_bound(wish, previous, bound);
     REQUIRE(obeys_bound(x, previous, bound));
-    if (obeys_bound(wish, previous, bound)) REQUIRE(x == wish);
-    else REQUIRE(std::hypot(x.x - previous.x, x.y - previous.y, x.z - previous.z) >= 0.99 * bound - 1e-6);
+    if (obeys_bound(wish, previous, bound))
+      REQUIRE(x == wish);
+    else
+      REQUIRE(std::hypot(x.x - previous.x, x.y - previous.y, x.z - previous.z) >= 0.99 * bound - 1e-6);
   }
 }
 
@@ -49,7 +51,8 @@ struct Judged {
 
 }  // namespace
 
-TEST_CASE("a right sweep passes; one beyond a bound, off its truth, miscounted, unfinished or not finite does not", "[unit]") {
+TEST_CASE("a right sweep passes; one beyond a bound, off its truth, miscounted, unfinished or not finite does not",
+          "[unit]") {
   Judged judged;
   REQUIRE(judged.mismatches() == 0);
   judged.out.position[1].x = std::nextafter(1.0f, 2.0f);

@@ -71,7 +71,8 @@ TEST_CASE("a generator that fails everywhere hides no other", "[unit]") {
   REQUIRE(a.mismatches.size() == 2 * Tally::listed);
 }
 
-TEST_CASE("a tolerance that no error comes within a factor of 50 of is loose, and one that errors come near is not", "[unit]") {
+TEST_CASE("a tolerance that no error comes within a factor of 50 of is loose, and one that errors come near is not",
+          "[unit]") {
   const MetricInfo info{"bound", "u b", 4};
   MetricTally metric;
   REQUIRE_FALSE(metric.is_loose(info));  // nothing was measured

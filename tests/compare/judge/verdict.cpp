@@ -14,7 +14,8 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 std::string first_message(const Tally& tally) { return tally.mismatches.empty() ? "" : tally.mismatches[0].message; }
 
-/// A point 1 above the corner (0, 0, 0) of a right triangle, which is on both of its edges' planes: the exact answer is the corner.
+/// A point 1 above the corner (0, 0, 0) of a right triangle, which is on both of its edges' planes: the exact answer is
+/// the corner.
 struct FaceFixture {
   std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
   ClosestFaceIn in{{{0, 0, 1}}, {{Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}}}};
@@ -33,7 +34,8 @@ struct SetFixture {
   MeshCase mesh;
   DetectVertexFacetTruth truth;
   DetectVertexFacetOut out;
-  VertexFacetContact face{3, {FaceKind::triangle, 0}, 0}, edge{3, {FaceKind::edge, 0}, 0}, corner{3, {FaceKind::vertex, 0}, 0};
+  VertexFacetContact face{3, {FaceKind::triangle, 0}, 0}, edge{3, {FaceKind::edge, 0}, 0},
+      corner{3, {FaceKind::vertex, 0}, 0};
 
   SetFixture() {
     const std::vector<Triangle> triangles{{0, 1, 2}};
@@ -150,7 +152,8 @@ TEST_CASE("grey decisions that are answered otherwise than exactly are counted, 
   CHECK(set.tally().total().not_exact == 2);
 }
 
-TEST_CASE("of forces next to a jump those of the other side are counted, unless they fit the exact side as well", "[unit]") {
+TEST_CASE("of forces next to a jump those of the other side are counted, unless they fit the exact side as well",
+          "[unit]") {
   const std::vector<TestCase> cases{{{Stage::contact_force, "ladder.radius", 0, 0, "", {}}, ContactForceCase{}}};
   const auto answer = [](double force) { return ForceAnswer{{force, 0, 0}, {force, 0, 0, 0, 0, 0}, 1, 1}; };
   const auto tally_of = [&](double exact, double other, float given) {

@@ -51,7 +51,8 @@ struct RestFixture {
 
 std::string block_verdict(std::vector<std::uint8_t> answer) {
   BlockCase c{std::make_shared<Topology>(), {}, {}};
-  c.questions = {{BlockQuestion::Kind::vertex_in_surface, 0, {FaceKind::edge, 7}}, {BlockQuestion::Kind::edge_in_edges, 3, {FaceKind::vertex, 1}}};
+  c.questions = {{BlockQuestion::Kind::vertex_in_surface, 0, {FaceKind::edge, 7}},
+                 {BlockQuestion::Kind::edge_in_edges, 3, {FaceKind::vertex, 1}}};
   Tally tally(Stage::block);
   judge_block({{Stage::block, "soup", 0, 0, "", {}}, c}, {{1, 0}, {0, 1}, {0, 1}}, {std::move(answer)}, tally);
   return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
@@ -78,7 +79,9 @@ TEST_CASE("rest_state: stencils by name, numbers within one rounding of their un
   CHECK(RestFixture().verdict().empty());
   CHECK(RestFixture::after([](RestStateOut& out) { out.mass[0] = std::nextafter(1.0f, 0.0f); }).empty());
   CHECK(RestFixture::after([](RestStateOut& out) { out.mass[0] = 1 - 0x1.8p-23f; }).starts_with("mass"));
-  CHECK(RestFixture::after([](RestStateOut& out) { out.mass[0] = std::numeric_limits<float>::quiet_NaN(); }).starts_with("mass"));
+  CHECK(RestFixture::after([](RestStateOut& out) {
+          out.mass[0] = std::numeric_limits<float>::quiet_NaN();
+        }).starts_with("mass"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.mass.clear(); }).starts_with("mass"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.triangles[0].area = 0.5001f; }).starts_with("area"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.triangles[0].corner = {1, 2, 0}; }).starts_with("triangle 0"));
@@ -86,12 +89,15 @@ TEST_CASE("rest_state: stencils by name, numbers within one rounding of their un
   CHECK(RestFixture::after([](RestStateOut& out) { out.hinges[0].body = 1; }).starts_with("hinge 0"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.hinges[0].stiffness = 2.001f; }).starts_with("stiffness"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.hinges[0].rest_angle = -0.25f; }).starts_with("rest_angle"));
-  CHECK(RestFixture::after([](RestStateOut& out) { out.edge_length_squared[0] = 1.001f; }).starts_with("edge_length_squared"));
+  CHECK(RestFixture::after([](RestStateOut& out) {
+          out.edge_length_squared[0] = 1.001f;
+        }).starts_with("edge_length_squared"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.meetings[0].stiffness = 4.001f; }).starts_with("meeting"));
   CHECK(RestFixture::after([](RestStateOut& out) { out.meetings[0].friction = 0; }).starts_with("meeting"));
 }
 
-TEST_CASE("rest_state: an angle that cannot be told from a half turn may have either sign, any other may not", "[unit]") {
+TEST_CASE("rest_state: an angle that cannot be told from a half turn may have either sign, any other may not",
+          "[unit]") {
   RestFixture test;
   test.truth.rest_angle = {std::numbers::pi - 1e-7};
   test.out.hinges[0].rest_angle = std::numbers::pi_v<float>;
@@ -141,7 +147,8 @@ TEST_CASE("initial_guess: what is held stays bit for bit and is not cut", "[unit
   CHECK(test.verdict().empty());
 }
 
-TEST_CASE("initial_guess: truncation is asked about the stored target, or about nothing where that is no point", "[unit]") {
+TEST_CASE("initial_guess: truncation is asked about the stored target, or about nothing where that is no point",
+          "[unit]") {
   GuessFixture test;
   CHECK(cut_question(test.in, test.out).position[0] == Vec3f{4, 4, 0});
   test.out.target[0].y = std::numeric_limits<float>::quiet_NaN();

@@ -24,10 +24,14 @@ struct TwoTriangles {
   std::vector<Vec3> positions;
   Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
   explicit TwoTriangles(Vec3 tip) : positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, tip, {1, 1, 5}, {2, 1, 5}} {}
-  AuditResult audit(std::span<const Index> groups = {}) const { return ogc::compare::audit(topology, positions, groups); }
+  AuditResult audit(std::span<const Index> groups = {}) const {
+    return ogc::compare::audit(topology, positions, groups);
+  }
 };
 
-Intersection edge_meets(const Topology& topology, Index a, Index b, Index triangle) { return {Kind::edge_triangle, find_edge(topology, a, b), triangle}; }
+Intersection edge_meets(const Topology& topology, Index a, Index b, Index triangle) {
+  return {Kind::edge_triangle, find_edge(topology, a, b), triangle};
+}
 
 /// Every pair, by rational brute force; isolated vertices are no part of a surface.
 std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<Vec3>& positions) {
@@ -37,16 +41,19 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
     for (std::size_t i = 0; i < topology.triangles.size(); ++i) {
       const Triangle& t = topology.triangles[i];
       const bool adjacent = std::any_of(t.begin(), t.end(), [&](Index v) { return v == e[0] || v == e[1]; });
-      if (!adjacent && ogc::tests::hulls_meet({at(e[0]), at(e[1])}, {at(t[0]), at(t[1]), at(t[2])})) found.push_back({kind, name, static_cast<Index>(i)});
+      if (!adjacent && ogc::tests::hulls_meet({at(e[0]), at(e[1])}, {at(t[0]), at(t[1]), at(t[2])}))
+        found.push_back({kind, name, static_cast<Index>(i)});
     }
   };
-  for (std::size_t e = 0; e < topology.edges.size(); ++e) test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+    test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
   for (Index v = 0; v < topology.vertex_count; ++v)
     if (topology.vertex_edges[static_cast<std::size_t>(v)].size() > 0) test(Kind::vertex_triangle, v, {v, v});
   return found;
 }
 
-/// An n × n grid on the unit square, rolled up as a spiral whose layers do not touch; `shear` turns it out of the coordinate planes.
+/// An n × n grid on the unit square, rolled up as a spiral whose layers do not touch; `shear` turns it out of the
+/// coordinate planes.
 struct RolledSheet {
   std::vector<Vec3> positions;
   Topology topology;
@@ -54,10 +61,12 @@ struct RolledSheet {
     std::vector<Triangle> triangles;
     for (Index i = 0; i < n; ++i) {
       for (Index j = 0; j < n; ++j) {
-        const double angle = 6 * double(i) / double(n - 1) * 3.141592653589793, radius = 0.1 + 0.02 * angle, z = double(j) / double(n - 1);
+        const double angle = 6 * double(i) / double(n - 1) * 3.141592653589793, radius = 0.1 + 0.02 * angle,
+                     z = double(j) / double(n - 1);
         positions.push_back({radius * std::cos(angle) + shear * z, radius * std::sin(angle), z});
         const Index v = i * n + j;
-        if (i + 1 < n && j + 1 < n) triangles.insert(triangles.end(), {Triangle{v, v + n, v + n + 1}, Triangle{v, v + n + 1, v + 1}});
+        if (i + 1 < n && j + 1 < n)
+          triangles.insert(triangles.end(), {Triangle{v, v + n, v + n + 1}, Triangle{v, v + n + 1, v + 1}});
       }
     }
     topology = build_topology(n * n, triangles);
@@ -90,22 +99,25 @@ TEST_CASE("a vertex that lies on a triangle is listed, and so are its edges, whi
   for (const Vec3 tip : {Vec3{1, 1, 0}, Vec3{0.5, 0.25, 0}}) {
     const TwoTriangles mesh(tip);
     const AuditResult result = mesh.audit();
-    CHECK(result.intersections ==
-          std::vector{edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0), Intersection{Kind::vertex_triangle, 3, 0}});
+    CHECK(result.intersections == std::vector{edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0),
+                                              Intersection{Kind::vertex_triangle, 3, 0}});
   }
 }
 
-TEST_CASE("a vertex on an edge of another component touches the triangle, and that edge touches the vertex's triangle", "[unit]") {
+TEST_CASE("a vertex on an edge of another component touches the triangle, and that edge touches the vertex's triangle",
+          "[unit]") {
   const TwoTriangles mesh({2, 0, 0});
-  CHECK(mesh.audit().intersections == std::vector{edge_meets(mesh.topology, 0, 1, 1), edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0),
-                                                  Intersection{Kind::vertex_triangle, 3, 0}});
+  CHECK(mesh.audit().intersections ==
+        std::vector{edge_meets(mesh.topology, 0, 1, 1), edge_meets(mesh.topology, 3, 4, 0),
+                    edge_meets(mesh.topology, 3, 5, 0), Intersection{Kind::vertex_triangle, 3, 0}});
 }
 
 TEST_CASE("two components that meet in a corner each lie on the other", "[unit]") {
   const TwoTriangles mesh({0, 0, 0});
-  CHECK(mesh.audit().intersections == std::vector{edge_meets(mesh.topology, 0, 1, 1), edge_meets(mesh.topology, 0, 2, 1), edge_meets(mesh.topology, 3, 4, 0),
-                                                  edge_meets(mesh.topology, 3, 5, 0), Intersection{Kind::vertex_triangle, 0, 1},
-                                                  Intersection{Kind::vertex_triangle, 3, 0}});
+  CHECK(mesh.audit().intersections ==
+        std::vector{edge_meets(mesh.topology, 0, 1, 1), edge_meets(mesh.topology, 0, 2, 1),
+                    edge_meets(mesh.topology, 3, 4, 0), edge_meets(mesh.topology, 3, 5, 0),
+                    Intersection{Kind::vertex_triangle, 0, 1}, Intersection{Kind::vertex_triangle, 3, 0}});
 }
 
 TEST_CASE("coplanar triangles that overlap are found even where no vertex lies on the other", "[unit]") {
@@ -114,14 +126,18 @@ TEST_CASE("coplanar triangles that overlap are found even where no vertex lies o
   const Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
   const AuditResult result = audit(topology, positions);
   CHECK(result.count == 6);
-  CHECK(std::none_of(result.intersections.begin(), result.intersections.end(), [](const Intersection& i) { return i.kind == Kind::vertex_triangle; }));
+  CHECK(std::none_of(result.intersections.begin(), result.intersections.end(),
+                     [](const Intersection& i) { return i.kind == Kind::vertex_triangle; }));
 }
 
 TEST_CASE("primitives that share a vertex are no finding, whatever their positions", "[unit]") {
-  const std::vector<Vec3> folded{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};  // two triangles on one edge, folded onto each other
+  // two triangles on one edge, folded onto each other
+  const std::vector<Vec3> folded{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
   const AuditResult result = audit(build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}}), folded);
-  // Vertex 2 lies on triangle 1, which does not contain it, and the other way round; each edge shares a vertex with either triangle.
-  CHECK(result.intersections == std::vector{Intersection{Kind::vertex_triangle, 2, 1}, Intersection{Kind::vertex_triangle, 3, 0}});
+  // Vertex 2 lies on triangle 1, which does not contain it, and the other way round; each edge shares a vertex with
+  // either triangle.
+  CHECK(result.intersections ==
+        std::vector{Intersection{Kind::vertex_triangle, 2, 1}, Intersection{Kind::vertex_triangle, 3, 0}});
 }
 
 TEST_CASE("a pair inside one rigid group is left out, a pair of two groups is not", "[unit]") {
@@ -143,7 +159,7 @@ TEST_CASE("a pair beside an excluded pair of vertices is left out, either way ro
   CHECK(count({{5, 0}}) == 1);  // edge 3–5
   CHECK(count({{0, 5}}) == 1);
   CHECK(count({{4, 1}, {2, 5}}) == 0);
-  CHECK(count({{2, 3}}) == 0);  // of both edges
+  CHECK(count({{2, 3}}) == 0);          // of both edges
   CHECK(count({{4, 5}, {0, 1}}) == 2);  // within a side
 }
 
@@ -151,7 +167,8 @@ TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[uni
   const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});
   CHECK(audit(topology, positions).intersections == std::vector{edge_meets(topology, 3, 4, 0)});
-  CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 5);  // everything in one point: two edges and three vertices on the triangle
+  // everything in one point: two edges and three vertices on the triangle
+  CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 5);
   CHECK(audit(build_topology(0, {}), {}).count == 0);
 }
 
@@ -209,7 +226,9 @@ TEST_CASE("a description names kinds, numbers, vertices, bodies, files and lines
   CHECK(describe(AuditResult{}, mesh.topology).empty());
 }
 
-TEST_CASE("the audit finds what brute force over all pairs finds in rational numbers, and a power of two changes nothing", "[property]") {
+TEST_CASE(
+    "the audit finds what brute force over all pairs finds in rational numbers, and a power of two changes nothing",
+    "[property]") {
   std::mt19937 random(5);
   std::size_t findings = 0;
   for (const int size : {2, 3, 6, 1 << 20}) {
@@ -249,7 +268,8 @@ TEST_CASE("the answer does not depend on the number of threads", "[property]") {
   CHECK(parallel.pairs_tested == serial.pairs_tested);
 }
 
-TEST_CASE("a rolled sheet of ten thousand vertices is clean, and one vertex pushed through a layer is found", "[property]") {
+TEST_CASE("a rolled sheet of ten thousand vertices is clean, and one vertex pushed through a layer is found",
+          "[property]") {
   for (const double shear : {0.0, 0.3}) {
     RolledSheet sheet(100, shear);
     const auto begin = std::chrono::steady_clock::now();

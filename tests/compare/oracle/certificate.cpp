@@ -20,7 +20,8 @@ MotionCertificate of_one(Vec3f position, Vec3f previous, float bound) {
 
 bool exceeds_in_rationals(const Vec3f& x, const Vec3f& p, float b) {
   using Rational = boost::multiprecision::cpp_rational;
-  const Rational dx = Rational(x.x) - Rational(p.x), dy = Rational(x.y) - Rational(p.y), dz = Rational(x.z) - Rational(p.z);
+  const Rational dx = Rational(x.x) - Rational(p.x), dy = Rational(x.y) - Rational(p.y),
+                 dz = Rational(x.z) - Rational(p.z);
   return dx * dx + dy * dy + dz * dz > Rational(b) * Rational(b);
 }
 
@@ -53,7 +54,8 @@ TEST_CASE("vertices that rest, with bound zero, without a number", "[unit]") {
   CHECK_FALSE(of_one({0, 0, 0}, {0, 0, 0}, nan).kept());
   CHECK_FALSE(of_one({0, 0, 0}, {0, 0, 0}, -1).kept());
   CHECK(motion_certificate({}, {}, {}).kept());
-  CHECK_THROWS_AS(motion_certificate(std::array<Vec3f, 2>{}, std::array<Vec3f, 1>{}, std::array<float, 2>{}), InputError);
+  CHECK_THROWS_AS(motion_certificate(std::array<Vec3f, 2>{}, std::array<Vec3f, 1>{}, std::array<float, 2>{}),
+                  InputError);
 }
 
 TEST_CASE("the certificate counts, and names the vertex of the largest ratio", "[unit]") {

@@ -17,7 +17,8 @@ using Corners = std::array<Vec3, 3>;
 /// The answer, which every order of the points and every order of the axes must give, and brute force too.
 bool answer(const Segment& s, const Corners& t) {
   const bool expected = hulls_meet(s, t);
-  constexpr std::array<std::array<std::size_t, 3>, 6> orders{{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  constexpr std::array<std::array<std::size_t, 3>, 6> orders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   for (const auto& axes : orders) {
     const auto turned = [&](const Vec3& v) {
       const std::array<double, 3> c{v.x, v.y, v.z};
@@ -38,12 +39,12 @@ constexpr Corners right_triangle{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
 
 TEST_CASE("a segment across the plane meets a triangle in its interior, on its edges and in its corners", "[unit]") {
   CHECK(answer({Vec3{1, 1, -1}, Vec3{1, 1, 1}}, right_triangle));
-  CHECK(answer({Vec3{2, 0, -1}, Vec3{2, 0, 1}}, right_triangle));     // edge
-  CHECK(answer({Vec3{2, 2, -1}, Vec3{2, 2, 1}}, right_triangle));     // hypotenuse
-  CHECK(answer({Vec3{4, 0, -1}, Vec3{4, 0, 1}}, right_triangle));     // corner
-  CHECK(answer({Vec3{1, 1, 0}, Vec3{1, 1, 5}}, right_triangle));      // begins in the interior
-  CHECK(answer({Vec3{2, 0, 0}, Vec3{2, -1, 5}}, right_triangle));     // begins on an edge
-  CHECK(answer({Vec3{0, 4, 0}, Vec3{0, 5, 5}}, right_triangle));      // begins in a corner
+  CHECK(answer({Vec3{2, 0, -1}, Vec3{2, 0, 1}}, right_triangle));  // edge
+  CHECK(answer({Vec3{2, 2, -1}, Vec3{2, 2, 1}}, right_triangle));  // hypotenuse
+  CHECK(answer({Vec3{4, 0, -1}, Vec3{4, 0, 1}}, right_triangle));  // corner
+  CHECK(answer({Vec3{1, 1, 0}, Vec3{1, 1, 5}}, right_triangle));   // begins in the interior
+  CHECK(answer({Vec3{2, 0, 0}, Vec3{2, -1, 5}}, right_triangle));  // begins on an edge
+  CHECK(answer({Vec3{0, 4, 0}, Vec3{0, 5, 5}}, right_triangle));   // begins in a corner
   CHECK_FALSE(answer({Vec3{1, 1, 1}, Vec3{1, 1, 2}}, right_triangle));
   CHECK_FALSE(answer({Vec3{2, 2.5, -1}, Vec3{2, 2.5, 1}}, right_triangle));
   CHECK_FALSE(answer({Vec3{-1, 1, 0}, Vec3{-1, 1, 5}}, right_triangle));  // ends on the plane, outside
@@ -64,13 +65,13 @@ TEST_CASE("a segment in the plane of a triangle meets it where they overlap or t
 
 TEST_CASE("a collapsed triangle is the segment or point that it covers", "[unit]") {
   const Corners needle{Vec3{0, 0, 0}, Vec3{4, 4, 4}, Vec3{1, 1, 1}}, point{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}};
-  CHECK(answer({Vec3{2, 2, 0}, Vec3{2, 2, 3}}, needle));            // crosses it
-  CHECK(answer({Vec3{3, 3, 3}, Vec3{9, 0, 0}}, needle));            // begins on it
-  CHECK(answer({Vec3{2, 2, 2}, Vec3{3, 3, 3}}, needle));            // lies in it
-  CHECK(answer({Vec3{-1, -1, -1}, Vec3{0, 0, 0}}, needle));         // touches its end, collinear
-  CHECK_FALSE(answer({Vec3{5, 5, 5}, Vec3{6, 6, 6}}, needle));      // collinear, apart
-  CHECK_FALSE(answer({Vec3{2, 2, 0}, Vec3{3, 2, 0}}, needle));      // skew
-  CHECK_FALSE(answer({Vec3{5, 5, 6}, Vec3{5, 5, 4}}, needle));      // in one plane, apart
+  CHECK(answer({Vec3{2, 2, 0}, Vec3{2, 2, 3}}, needle));        // crosses it
+  CHECK(answer({Vec3{3, 3, 3}, Vec3{9, 0, 0}}, needle));        // begins on it
+  CHECK(answer({Vec3{2, 2, 2}, Vec3{3, 3, 3}}, needle));        // lies in it
+  CHECK(answer({Vec3{-1, -1, -1}, Vec3{0, 0, 0}}, needle));     // touches its end, collinear
+  CHECK_FALSE(answer({Vec3{5, 5, 5}, Vec3{6, 6, 6}}, needle));  // collinear, apart
+  CHECK_FALSE(answer({Vec3{2, 2, 0}, Vec3{3, 2, 0}}, needle));  // skew
+  CHECK_FALSE(answer({Vec3{5, 5, 6}, Vec3{5, 5, 4}}, needle));  // in one plane, apart
   CHECK(answer({Vec3{0, 2, 3}, Vec3{2, 2, 3}}, point));
   CHECK(answer({Vec3{1, 2, 3}, Vec3{1, 2, 3}}, point));
   CHECK_FALSE(answer({Vec3{0, 2, 3}, Vec3{0.5, 2, 3}}, point));
@@ -87,7 +88,8 @@ TEST_CASE("a segment of length zero is a point", "[unit]") {
 }
 
 TEST_CASE("one unit in the last place decides, where a computation in double does not see it", "[unit]") {
-  // In the plane x = y; a point (1/2 + i 2⁻⁵³, 1/2 + j 2⁻⁵³, 0) lies on it only where i = j, but subtracting a corner rounds i and j away.
+  // In the plane x = y; a point (1/2 + i 2⁻⁵³, 1/2 + j 2⁻⁵³, 0) lies on it only where i = j, but subtracting a corner
+  // rounds i and j away.
   const Corners plane{Vec3{-24, -24, -8}, Vec3{24, 24, -8}, Vec3{1, 1, 40}};
   int wrong_in_double = 0;
   for (int i = 0; i < 8; ++i) {
@@ -112,13 +114,17 @@ TEST_CASE("one unit in the last place beside an edge decides in the plane too", 
   }
 }
 
-TEST_CASE("the exact answer is that of brute force in rational numbers, on lattices full of degenerate cases and off them", "[property]") {
+TEST_CASE(
+    "the exact answer is that of brute force in rational numbers, on lattices full of degenerate cases and off them",
+    "[property]") {
   std::mt19937 random(7);
   std::array<int, 2> seen{};
   for (const int size : {1, 2, 3, 1 << 20}) {
     const double scale = size > 3 ? 0.1 : 1;  // 0.1 is no binary fraction: full mantissas
     std::uniform_int_distribution<int> coordinate(0, size);
-    const auto point = [&] { return Vec3{scale * coordinate(random), scale * coordinate(random), scale * coordinate(random)}; };
+    const auto point = [&] {
+      return Vec3{scale * coordinate(random), scale * coordinate(random), scale * coordinate(random)};
+    };
     for (int trial = 0; trial < 500; ++trial) {
       const Segment s{point(), point()};
       const Corners t{point(), point(), point()};

@@ -1,6 +1,7 @@
-// Brute force for the oracle, with another idea and another number type: points of segment and triangle are convex combinations, so they meet exactly
-// where the linear system Σλ = 1, Σμ = 1, Σλᵢ sᵢ = Σμⱼ tⱼ has a solution λ, μ ≥ 0, and then one of its basic solutions is non-negative. All 31 sets of
-// columns are tried in rational arithmetic; no orientation, no case distinction, nothing that a degenerate configuration could upset.
+// Brute force for the oracle, with another idea and another number type: points of segment and triangle are convex
+// combinations, so they meet exactly where the linear system Σλ = 1, Σμ = 1, Σλᵢ sᵢ = Σμⱼ tⱼ has a solution λ, μ ≥ 0,
+// and then one of its basic solutions is non-negative. All 31 sets of columns are tried in rational arithmetic; no
+// orientation, no case distinction, nothing that a degenerate configuration could upset.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -15,7 +16,8 @@ namespace ogc::tests {
 using Rational = boost::multiprecision::cpp_rational;
 using Row = std::vector<Rational>;
 
-/// The system of five equations in as many unknowns as there are columns has one solution, and it is non-negative. Last entry of a row: right side.
+/// The system of five equations in as many unknowns as there are columns has one solution, and it is non-negative. Last
+/// entry of a row: right side.
 inline bool solved_by_non_negative(std::vector<Row> rows, std::size_t unknowns) {
   for (std::size_t pivot = 0; pivot < unknowns; ++pivot) {
     std::size_t row = pivot;
@@ -41,7 +43,8 @@ inline bool hulls_meet(const std::array<compare::Vec3, 2>& segment, const std::a
   for (std::size_t i = 0; i < 5; ++i) {
     const compare::Vec3& point = i < 2 ? segment[i] : triangle[i - 2];
     const int sign = i < 2 ? 1 : -1;
-    columns[i] = {i < 2 ? 1 : 0, i < 2 ? 0 : 1, sign * Rational(point.x), sign * Rational(point.y), sign * Rational(point.z)};
+    columns[i] = {i < 2 ? 1 : 0, i < 2 ? 0 : 1, sign * Rational(point.x), sign * Rational(point.y),
+                  sign * Rational(point.z)};
   }
   for (unsigned set = 1; set < 32; ++set) {
     std::vector<Row> rows(5);

@@ -20,9 +20,11 @@ using Point = std::array<Rational, 3>;
 Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Squared distance of the point of span(directions) + offset nearest to the origin, where its coefficients are ≥ 0 and those of each of the two groups
-/// of directions add up to no more than 1; none where they do not, or where the directions are dependent.
-std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group, const Point& offset) {
+/// Squared distance of the point of span(directions) + offset nearest to the origin, where its coefficients are ≥ 0 and
+/// those of each of the two groups of directions add up to no more than 1; none where they do not, or where the
+/// directions are dependent.
+std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group,
+                                       const Point& offset) {
   const std::size_t n = directions.size();
   std::vector<std::vector<Rational>> rows(n, std::vector<Rational>(n + 1));
   for (std::size_t i = 0; i < n; ++i) {
@@ -74,7 +76,8 @@ struct Nearest {
 };
 
 template <class First, class Second>
-Nearest all_pairs(const std::vector<Vec3>& positions, const std::vector<First>& firsts, const std::vector<Second>& seconds, bool ordered) {
+Nearest all_pairs(const std::vector<Vec3>& positions, const std::vector<First>& firsts,
+                  const std::vector<Second>& seconds, bool ordered) {
   const auto points = [&](const auto& vertices) {
     std::vector<Point> result;
     for (const Index v : vertices) {
@@ -100,7 +103,8 @@ Nearest all_pairs(const std::vector<Vec3>& positions, const std::vector<First>& 
 /// `distance` is the largest double that is not above the root of `square`.
 bool is_root_rounded_down(double distance, const Rational& square) {
   const double next = std::nextafter(distance, 1e300);
-  return Rational(distance) * Rational(distance) <= square && (square == 0 ? distance == 0 : Rational(next) * Rational(next) > square);
+  return Rational(distance) * Rational(distance) <= square &&
+         (square == 0 ? distance == 0 : Rational(next) * Rational(next) > square);
 }
 
 }  // namespace
@@ -122,12 +126,15 @@ TEST_CASE("smallest distances of a triangle above a triangle, by hand", "[unit]"
   CHECK(smallest_distances(topology, positions).vertex_triangle == 0);
 }
 
-TEST_CASE("left out are pairs inside a rigid group and pairs that share a vertex; without a pair the distance is infinite", "[unit]") {
+TEST_CASE(
+    "left out are pairs inside a rigid group and pairs that share a vertex; without a pair the distance is infinite",
+    "[unit]") {
   const std::vector<Vec3> positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {9, 9, 9}, {9, 8, 9}};
   const Topology two = build_topology(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
   CHECK(smallest_distances(two, positions, std::vector<Index>(6, 1)).vertex == -1);
   CHECK(smallest_distances(two, positions, std::vector<Index>(6, -1)).vertex_triangle == 3);
-  const SmallestDistances one = smallest_distances(build_topology(3, std::vector<Triangle>{{0, 1, 2}}), std::span(positions).first(3));
+  const SmallestDistances one = smallest_distances(build_topology(3, std::vector<Triangle>{{0, 1, 2}}),
+                                                   std::span(positions).first(3));
   CHECK(std::isinf(one.vertex_triangle));
   CHECK(std::isinf(one.edge_edge));
   CHECK(one.edge == -1);
@@ -141,14 +148,17 @@ TEST_CASE("the nearest pairs and their distances are those of brute force in rat
     for (int trial = 0; trial < 4; ++trial) {
       std::vector<Vec3> positions(10);
       for (Vec3& p : positions) p = {0.1 * coordinate(random), 0.1 * coordinate(random), 0.1 * coordinate(random)};
-      const Topology topology = build_topology(10, std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 5, 0}}, std::vector<Edge>{{7, 8}, {8, 9}});
+      const Topology topology = build_topology(10, std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 5, 0}},
+                                               std::vector<Edge>{{7, 8}, {8, 9}});
       std::vector<std::array<Index, 1>> vertices;
       for (Index v = 0; v < 10; ++v) vertices.push_back({v});
-      const Nearest facet = all_pairs(positions, vertices, topology.triangles, false), edges = all_pairs(positions, topology.edges, topology.edges, true);
+      const Nearest facet = all_pairs(positions, vertices, topology.triangles, false),
+                    edges = all_pairs(positions, topology.edges, topology.edges, true);
       const SmallestDistances found = smallest_distances(topology, positions);
       REQUIRE(is_root_rounded_down(found.vertex_triangle, *facet.square));
       REQUIRE(is_root_rounded_down(found.edge_edge, *edges.square));
-      REQUIRE(std::array{found.vertex, found.triangle, found.edge, found.other_edge} == std::array{facet.first, facet.second, edges.first, edges.second});
+      REQUIRE(std::array{found.vertex, found.triangle, found.edge, found.other_edge} ==
+              std::array{facet.first, facet.second, edges.first, edges.second});
     }
   }
 }
@@ -156,7 +166,8 @@ TEST_CASE("the nearest pairs and their distances are those of brute force in rat
 TEST_CASE("nearly parallel edges have the distance of rational arithmetic, down to an angle of 1e-12", "[property]") {
   const Topology topology = build_topology(4, {}, std::vector<Edge>{{0, 1}, {2, 3}});
   for (double angle = 0.1; angle > 5e-13; angle /= 10) {
-    const std::vector<Vec3> positions{{-1, 0, 0}, {1, 0, 0}, {-1, -angle, 0.25}, {1, angle, 0.25}};  // crossing above the origin
+    // crossing above the origin
+    const std::vector<Vec3> positions{{-1, 0, 0}, {1, 0, 0}, {-1, -angle, 0.25}, {1, angle, 0.25}};
     CHECK(smallest_distances(topology, positions).edge_edge == 0.25);
   }
 }
@@ -171,14 +182,17 @@ TEST_CASE("two equal layers 5 mm apart are nowhere further apart than that", "[p
         const double x = double(float(i) / float(n - 1)), z = double(float(j) / float(n - 1));
         positions.push_back({x, double(layer ? 0.005f : 0) + 0.1 * std::sin(7 * x), z});
         const Index v = (layer * n + i) * n + j;
-        if (i + 1 < n && j + 1 < n) triangles.insert(triangles.end(), {Triangle{v, v + n, v + n + 1}, Triangle{v, v + n + 1, v + 1}});
+        if (i + 1 < n && j + 1 < n)
+          triangles.insert(triangles.end(), {Triangle{v, v + n, v + n + 1}, Triangle{v, v + n + 1, v + 1}});
       }
     }
   }
   const Topology topology = build_topology(2 * n * n, triangles);
   const auto begin = std::chrono::steady_clock::now();
   const SmallestDistances found = smallest_distances(topology, positions);
-  WARN("smallest distances of " << positions.size() << " vertices: " << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() << " s");
+  WARN("smallest distances of " << positions.size() << " vertices: "
+                                << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()
+                                << " s");
   CHECK(found.vertex_triangle > 0.003);
   CHECK(found.vertex_triangle <= 0.005);
   CHECK(found.edge_edge >= 0.003);

@@ -1,4 +1,5 @@
-// Edge numbers are names that both contestants share, so the whole topology is checked against definitions, by brute force.
+// Edge numbers are names that both contestants share, so the whole topology is checked against definitions, by brute
+// force.
 #include "compare/problem/mesh.hpp"
 
 #include <algorithm>
@@ -61,7 +62,8 @@ std::vector<Complex> complexes() {
       {"edges alone", 4, {}, {{2, 1}, {1, 0}, {3, 2}}},
       {"a loose edge given twice and on a triangle", 4, {{0, 1, 2}}, {{1, 0}, {2, 3}, {3, 2}}},
   };
-  for (unsigned seed = 1; seed <= 20; ++seed) all.push_back(random_complex(seed, 12 + static_cast<Index>(seed), 10 + 3 * static_cast<int>(seed), 6));
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    all.push_back(random_complex(seed, 12 + static_cast<Index>(seed), 10 + 3 * static_cast<int>(seed), 6));
   return all;
 }
 
@@ -82,7 +84,8 @@ std::vector<Edge> brute_force_edges(const Complex& complex) {
 
 // Row i: all j for which `belongs(i, j)`.
 template <class Belongs>
-std::vector<std::vector<Index>> brute_force_rows(std::size_t row_count, std::size_t item_count, const Belongs& belongs) {
+std::vector<std::vector<Index>> brute_force_rows(std::size_t row_count, std::size_t item_count,
+                                                 const Belongs& belongs) {
   std::vector<std::vector<Index>> result(row_count);
   for (std::size_t i = 0; i < row_count; ++i) {
     for (std::size_t j = 0; j < item_count; ++j) {
@@ -134,15 +137,21 @@ TEST_CASE("adjacency around vertices and edges is what the definitions say", "[u
     const auto& triangles = complex.triangles;
     const auto& edges = topology.edges;
     const std::size_t vertices = at(complex.vertex_count);
-    const auto holds = [&](std::size_t t, std::size_t e) { return contains(triangles[t], edges[e][0]) && contains(triangles[t], edges[e][1]); };
+    const auto holds = [&](std::size_t t, std::size_t e) {
+      return contains(triangles[t], edges[e][0]) && contains(triangles[t], edges[e][1]);
+    };
     const auto is_end = [&](std::size_t v, std::size_t e) { return contains(edges[e], static_cast<Index>(v)); };
     CHECK(rows(topology.vertex_triangles) ==
-          brute_force_rows(vertices, triangles.size(), [&](std::size_t v, std::size_t t) { return contains(triangles[t], static_cast<Index>(v)); }));
+          brute_force_rows(vertices, triangles.size(), [&](std::size_t v, std::size_t t) {
+            return contains(triangles[t], static_cast<Index>(v));
+          }));
     CHECK(rows(topology.vertex_edges) == brute_force_rows(vertices, edges.size(), is_end));
     CHECK(rows(topology.vertex_neighbours) == brute_force_rows(vertices, vertices, [&](std::size_t v, std::size_t u) {
-            return std::binary_search(edges.begin(), edges.end(), ordered(static_cast<Index>(v), static_cast<Index>(u)));
+            return std::binary_search(edges.begin(), edges.end(),
+                                      ordered(static_cast<Index>(v), static_cast<Index>(u)));
           }));
-    CHECK(rows(topology.edge_triangles) == brute_force_rows(edges.size(), triangles.size(), [&](std::size_t e, std::size_t t) { return holds(t, e); }));
+    CHECK(rows(topology.edge_triangles) ==
+          brute_force_rows(edges.size(), triangles.size(), [&](std::size_t e, std::size_t t) { return holds(t, e); }));
     CHECK(rows(topology.edge_opposite) == brute_force_rows(edges.size(), vertices, [&](std::size_t e, std::size_t v) {
             if (is_end(v, e)) return false;
             for (std::size_t t = 0; t < triangles.size(); ++t) {

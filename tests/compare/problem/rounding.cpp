@@ -1,5 +1,6 @@
-// The compiler's own rounding. g++ 12.2 at -O2 takes neighbouring conversions to single precision and back for the identity (its vectoriser of straight-line
-// code); every comparison "as single precision stores it" would then be vacuous. The build switches that pass off, and this test says whether it did.
+// The compiler's own rounding. g++ 12.2 at -O2 takes neighbouring conversions to single precision and back for the
+// identity (its vectoriser of straight-line code); every comparison "as single precision stores it" would then be
+// vacuous. The build switches that pass off, and this test says whether it did.
 #include "tests/catch.hpp"
 
 #include "compare/problem/vector.hpp"
@@ -7,7 +8,8 @@
 namespace {
 
 [[gnu::noinline]] ogc::compare::Vec3 through_single(const ogc::compare::Vec3& v) {
-  return {static_cast<double>(static_cast<float>(v.x)), static_cast<double>(static_cast<float>(v.y)), static_cast<double>(static_cast<float>(v.z))};
+  return {static_cast<double>(static_cast<float>(v.x)), static_cast<double>(static_cast<float>(v.y)),
+          static_cast<double>(static_cast<float>(v.z))};
 }
 
 }  // namespace

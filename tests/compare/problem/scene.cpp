@@ -60,12 +60,14 @@ TEST_CASE("partners stand in the rows of both, once, ascending", "[unit]") {
   const CompressedRows rows = partner_rows(5, pairs);
   const std::vector<std::vector<Index>> expected{{3}, {2, 3}, {1}, {0, 1}, {}};
   REQUIRE(rows.rows() == 5);
-  for (std::size_t v = 0; v < 5; ++v) CHECK(std::equal(rows[v].begin(), rows[v].end(), expected[v].begin(), expected[v].end()));
+  for (std::size_t v = 0; v < 5; ++v)
+    CHECK(std::equal(rows[v].begin(), rows[v].end(), expected[v].begin(), expected[v].end()));
   CHECK(pairs_of(rows) == std::vector<std::array<Index, 2>>{{0, 3}, {1, 2}, {1, 3}});
   CHECK(partner_rows(5, {}).rows() == 0);
 }
 
-TEST_CASE("a stitch to an end of the edge is a spring between two vertices; the pairs beside every stitch are excluded", "[unit]") {
+TEST_CASE("a stitch to an end of the edge is a spring between two vertices; the pairs beside every stitch are excluded",
+          "[unit]") {
   Scene scene = small_scene();
   scene.springs.clear();
   add_stitch(scene, 0, 1, 2, 0.25, 9);
@@ -76,7 +78,9 @@ TEST_CASE("a stitch to an end of the edge is a spring between two vertices; the 
   CHECK(validate(scene).empty());
 }
 
-TEST_CASE("keyframes: each comes back bit for bit, straight lines lead from one to the next, and it rests before and after", "[unit]") {
+TEST_CASE(
+    "keyframes: each comes back bit for bit, straight lines lead from one to the next, and it rests before and after",
+    "[unit]") {
   Scene scene = small_scene();
   PrescribedMotion motion;
   motion.vertices = {0, 2};

@@ -84,8 +84,10 @@ TEST_CASE("values out of range, of the wrong type or not numbers are refused and
 
 TEST_CASE("messages name the setting, its unit, its range and the nearest name", "[unit]") {
   Settings settings;
-  CHECK_THROWS_WITH(set_setting(settings, "contact_radius", "-1"), Contains("contact_radius") && Contains(" m ") && Contains("1048576") && Contains("-1"));
-  CHECK_THROWS_WITH(set_setting(settings, "contactradius", "1"), Contains("'contactradius'") && Contains("'contact_radius'"));
+  CHECK_THROWS_WITH(set_setting(settings, "contact_radius", "-1"),
+                    Contains("contact_radius") && Contains(" m ") && Contains("1048576") && Contains("-1"));
+  CHECK_THROWS_WITH(set_setting(settings, "contactradius", "1"),
+                    Contains("'contactradius'") && Contains("'contact_radius'"));
   CHECK_THROWS_WITH(set_setting(settings, "iteration", "1"), Contains("did you mean 'iterations'?"));
   CHECK_THROWS_WITH(get_setting(settings, "gamma"), Contains("unknown setting 'gamma'"));
 }
@@ -124,7 +126,8 @@ TEST_CASE("lanes is 0 or a power of two up to 32", "[unit]") {
 TEST_CASE("a choice is set and printed by its name; any other name is refused with the list", "[unit]") {
   for (const SettingInfo& info : setting_table()) {
     INFO(info.name);
-    const bool is_number = std::holds_alternative<double Settings::*>(info.field) || std::holds_alternative<std::int64_t Settings::*>(info.field);
+    const bool is_number = std::holds_alternative<double Settings::*>(info.field) ||
+                           std::holds_alternative<std::int64_t Settings::*>(info.field);
     CHECK(info.choices.empty() == is_number);
     for (const std::string_view name : info.choices) {
       Settings settings;
@@ -135,7 +138,8 @@ TEST_CASE("a choice is set and printed by its name; any other name is refused wi
     if (info.choices.empty()) continue;
     CHECK(info.maximum == static_cast<double>(info.choices.size() - 1));
     Settings settings;
-    for (const char* name : {"", "0", "ogcc"}) CHECK_THROWS_WITH(set_setting(settings, info.name, name), Contains(std::string(info.choices.back())));
+    for (const char* name : {"", "0", "ogcc"})
+      CHECK_THROWS_WITH(set_setting(settings, info.name, name), Contains(std::string(info.choices.back())));
     CHECK(settings == Settings{});
   }
 }

@@ -5,7 +5,8 @@
 
 namespace ogc::tests {
 
-/// Body "sheet": a square of two triangles with vertex 0 in motion "left" and vertex 2 in motion "right"; body "floor": one fixed triangle below.
+/// Body "sheet": a square of two triangles with vertex 0 in motion "left" and vertex 2 in motion "right"; body "floor":
+/// one fixed triangle below.
 inline compare::Scene small_scene() {
   compare::Scene scene;
   scene.name = "small";

@@ -7,8 +7,8 @@
 #include "tests/compare/problem/small_scene.hpp"
 
 using namespace ogc::compare;
-using ogc::tests::small_scene;
 using Catch::Matchers::Contains;
+using ogc::tests::small_scene;
 
 namespace {
 
@@ -262,7 +262,8 @@ TEST_CASE("validate names an excluded pair that is none, and keyframes that tell
   }
   SECTION("not a number") {
     motion.keyframes.positions.back().z = std::numeric_limits<float>::quiet_NaN();
-    check_only(validate(scene), "motion 'left', keyframe 1, vertex " + std::to_string(motion.vertices.back()), "not finite");
+    check_only(validate(scene), "motion 'left', keyframe 1, vertex " + std::to_string(motion.vertices.back()),
+               "not finite");
   }
   SECTION("two motions in one") {
     motion.velocity = {1, 0, 0};
@@ -275,7 +276,8 @@ TEST_CASE("validate names a spring that joins no two vertices, or has a number o
   scene.springs = {{1, 5, 10, 0.2, 0}};
   CHECK(validate(scene).empty());
   SECTION("a point on no line") {
-    for (const auto& [third, ratio] : std::vector<std::pair<Index, double>>{{-1, 0.5}, {5, 0.5}, {1, 0.5}, {7, 0.5}, {2, 1.5}, {2, -0.5}, {-2, 0}}) {
+    for (const auto& [third, ratio] :
+         std::vector<std::pair<Index, double>>{{-1, 0.5}, {5, 0.5}, {1, 0.5}, {7, 0.5}, {2, 1.5}, {2, -0.5}, {-2, 0}}) {
       scene.springs[0].third = third;
       scene.springs[0].ratio = ratio;
       check_only(validate(scene), "spring 0", "has no such point");

@@ -11,11 +11,14 @@ using namespace ogc::compare;
 namespace {
 
 // A multiple of 2⁻²⁰ below 1 in modulus: sums and products by small integers are exact.
-double dyadic(std::mt19937& random) { return std::uniform_int_distribution<int>(-(1 << 19), 1 << 19)(random) * 0x1p-20; }
+double dyadic(std::mt19937& random) {
+  return std::uniform_int_distribution<int>(-(1 << 19), 1 << 19)(random) * 0x1p-20;
+}
 
 }  // namespace
 
-TEST_CASE("points on a line have zero area however they are placed, and one ulp beside it they have not", "[property]") {
+TEST_CASE("points on a line have zero area however they are placed, and one ulp beside it they have not",
+          "[property]") {
   std::mt19937 random(11);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 a{dyadic(random), dyadic(random), dyadic(random)}, d{dyadic(random), dyadic(random), dyadic(random)};

@@ -30,7 +30,8 @@ std::string text_of(const std::filesystem::path& path) {
 template <class T>
 std::vector<T> appended_array(const std::string& vtp, const std::string& name) {
   const std::size_t tag = vtp.find("Name=\"" + name + "\""), key = vtp.find("offset=\"", tag) + 8;
-  const char* const begin = vtp.data() + vtp.find("<AppendedData encoding=\"raw\">\n_") + 31 + std::stoul(vtp.substr(key));
+  const char* const begin = vtp.data() + vtp.find("<AppendedData encoding=\"raw\">\n_") + 31 +
+                            std::stoul(vtp.substr(key));
   std::uint64_t size = 0;
   std::memcpy(&size, begin, sizeof size);
   std::vector<T> values(size / sizeof(T));
@@ -45,7 +46,8 @@ TEST_CASE("OBJ and PLY sequences hold each frame's mesh without loss", "[unit]")
   write_run(folder / "run");
   for (const std::string extension : {"obj", "ply"}) {
     const auto files = export_run(folder / "run", parse_export_format(extension), folder / extension);
-    REQUIRE(files == std::vector{folder / extension / ("frame_000000." + extension), folder / extension / ("frame_000025." + extension)});
+    REQUIRE(files == std::vector{folder / extension / ("frame_000000." + extension),
+                                 folder / extension / ("frame_000025." + extension)});
     const Mesh mesh = read_mesh(files[1]);
     CHECK(mesh.positions == to_double(recorded_frame(25).positions));
     CHECK(mesh.triangles == recorded_scene().mesh.triangles);
@@ -62,7 +64,8 @@ TEST_CASE("a VTP sequence holds the arrays bit for bit, and its index the times"
   CHECK_THAT(text_of(files[2]), ContainsSubstring("timestep=\"0.25\" part=\"0\" file=\"frame_000025.vtp\""));
   const std::string vtp = text_of(files[1]);
   const Frame frame = recorded_frame(25);
-  CHECK_THAT(vtp, ContainsSubstring("NumberOfPoints=\"10\"") && ContainsSubstring("NumberOfLines=\"2\"") && ContainsSubstring("NumberOfPolys=\"3\""));
+  CHECK_THAT(vtp, ContainsSubstring("NumberOfPoints=\"10\"") && ContainsSubstring("NumberOfLines=\"2\"") &&
+                      ContainsSubstring("NumberOfPolys=\"3\""));
   CHECK(std::ranges::equal(appended_array<float>(vtp, "Points"), as_floats(frame.positions)));
   CHECK(std::ranges::equal(appended_array<float>(vtp, "velocity"), as_floats(frame.velocities)));
   CHECK(appended_array<float>(vtp, "bound") == frame.bounds);
@@ -72,7 +75,8 @@ TEST_CASE("a VTP sequence holds the arrays bit for bit, and its index the times"
   CHECK(appended_array<Index>(polygons, "offsets") == std::vector<Index>{3, 6, 9});
 }
 
-TEST_CASE("what can't be exported is said: unknown formats, runs without a frame, no run, a folder that can't be made", "[unit]") {
+TEST_CASE("what can't be exported is said: unknown formats, runs without a frame, no run, a folder that can't be made",
+          "[unit]") {
   const Scratch folder;
   CHECK_THROWS_WITH(parse_export_format("vtk"), ContainsSubstring("'vtk'") && ContainsSubstring("obj, ply, vtp"));
   { RunWriter run(folder / "empty", recorded_scene(), recorded_provenance(), {}); }

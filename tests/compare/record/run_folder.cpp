@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "compare/problem/error.hpp"
 #include "compare/files/hdf5.hpp"
+#include "compare/problem/error.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/record/small_run.hpp"
@@ -69,9 +69,9 @@ TEST_CASE("run.json says what plots need: sizes, bodies, settings with units, ex
   run.set_extra("guarantee_kept", "no");
   run.finish("failed: audit");
   const std::string text = text_of(folder / "run/run.json");
-  for (const char* part : {"\n  \"status\": \"failed: audit\"", "\n  \"guarantee_kept\": false", "\n  \"seed\": 42", "\"vertices\": 10",
-                           "\"first_triangle\": 2",
-                           "\"unit\": \"kg/m²\"", "\"contact_radius\": {", "\"meaning\"", "\"file\": \"scene/small.json\""})
+  for (const char* part : {"\n  \"status\": \"failed: audit\"", "\n  \"guarantee_kept\": false", "\n  \"seed\": 42",
+                           "\"vertices\": 10", "\"first_triangle\": 2", "\"unit\": \"kg/m²\"", "\"contact_radius\": {",
+                           "\"meaning\"", "\"file\": \"scene/small.json\""})
     CHECK_THAT(text, ContainsSubstring(part));
   run.set_extra("status", "wonderful");
   CHECK_THROWS_AS(run.finish("finished"), std::invalid_argument);
@@ -120,7 +120,8 @@ TEST_CASE("a folder that holds a run, or a part of one, is not touched; another 
   const Scratch folder;
   start(folder / "run").finish("finished");
   const std::string before = text_of(folder / "run/run.json");
-  CHECK_THROWS_WITH(start(folder / "run"), ContainsSubstring((folder / "run").string()) && ContainsSubstring("run.json"));
+  CHECK_THROWS_WITH(start(folder / "run"),
+                    ContainsSubstring((folder / "run").string()) && ContainsSubstring("run.json"));
   CHECK(text_of(folder / "run/run.json") == before);
   std::filesystem::create_directories(folder / "mine/scene");
   CHECK_THROWS_AS(start(folder / "mine"), InputError);
@@ -140,7 +141,8 @@ TEST_CASE("a run of a newer format is refused by name, a damaged one with its fi
     run.finish("finished");
   }
   replace_in(manifest, "\"format_version\": 1", "\"format_version\": 2");
-  CHECK_THROWS_WITH(RunReader(folder / "run"), ContainsSubstring("run.json") && ContainsSubstring("run format 2") && ContainsSubstring("newer"));
+  CHECK_THROWS_WITH(RunReader(folder / "run"),
+                    ContainsSubstring("run.json") && ContainsSubstring("run format 2") && ContainsSubstring("newer"));
   replace_in(manifest, "\"format_version\": 2", "\"format_version\": 1");
   CHECK_NOTHROW(RunReader(folder / "run"));
   replace_in(manifest, "\"ogc run\"", "\"ogc walk\"");
@@ -159,7 +161,8 @@ TEST_CASE("frames that do not fit the scene are refused, when written and when r
   other.write("positions", as_floats(frame.positions), 3);
   other.write("velocities", as_floats(frame.velocities), 3);
   write_durably(folder / "run/frames/frame_000001.h5", other.image());
-  CHECK_THROWS_WITH(RunReader(folder / "run").frame(0), ContainsSubstring("frame_000001.h5") && ContainsSubstring("'bounds'"));
+  CHECK_THROWS_WITH(RunReader(folder / "run").frame(0),
+                    ContainsSubstring("frame_000001.h5") && ContainsSubstring("'bounds'"));
   other.write("bounds", std::span<const float>(frame.bounds));
   other.set_attribute("/", "step", std::array<std::int64_t, 1>{1});
   other.set_attribute("/", "time", 0.0);
@@ -229,7 +232,8 @@ TEST_CASE("a trajectory holds the frames one behind the other and the cells once
   CHECK(file.read<std::int64_t>("VTKHDF/Vertices/NumberOfCells") == Integers{0});
   CHECK(file.read<std::int32_t>("VTKHDF/PointData/body") == std::vector<std::int32_t>{0, 0, 0, 0, 1, 1, 1, 2, 2, 2});
   REQUIRE(file.shape("VTKHDF/Points") == std::vector<std::size_t>{30, 3});
-  const std::vector<float> points = file.read<float>("VTKHDF/Points"), bounds = file.read<float>("VTKHDF/PointData/bound");
+  const std::vector<float> points = file.read<float>("VTKHDF/Points"),
+                           bounds = file.read<float>("VTKHDF/PointData/bound");
   const Frame last = recorded_frame(10);
   CHECK(std::equal(points.begin() + 60, points.end(), as_floats(last.positions).begin()));
   CHECK(std::equal(bounds.begin() + 20, bounds.end(), last.bounds.begin()));

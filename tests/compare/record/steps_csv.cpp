@@ -24,7 +24,8 @@ StepMetrics distinct_metrics() {
   StepMetrics row;
   int k = 1;
   for (const StepColumn& column : step_columns())
-    std::visit([&](auto field) { row.*field = static_cast<std::remove_reference_t<decltype(row.*field)>>(k++); }, column.field);
+    std::visit([&](auto field) { row.*field = static_cast<std::remove_reference_t<decltype(row.*field)>>(k++); },
+               column.field);
   return row;
 }
 

@@ -180,8 +180,10 @@ TEST_CASE("a greeting of random bytes is refused", "[property]") {
     Stream stream(random() % 400);
     std::generate(stream.begin(), stream.end(), [&] { return static_cast<std::byte>(random()); });
     const bool is_long = stream.size() >= sizeof(BlockHead);
-    if (is_long) CHECK_THROWS_AS(read_stream(stream, read_greeting), MalformedBlock);
-    else CHECK_THROWS_AS(read_stream(stream, read_greeting), NothingCame);
+    if (is_long)
+      CHECK_THROWS_AS(read_stream(stream, read_greeting), MalformedBlock);
+    else
+      CHECK_THROWS_AS(read_stream(stream, read_greeting), NothingCame);
   }
 }
 

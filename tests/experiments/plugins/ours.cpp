@@ -1,5 +1,6 @@
-// Our own kernels behind the C interface, in the stages that are asked about a whole scene: a right plug-in, so that what the structures carry is known to be
-// enough, and wrong where the environment variable OGC_BROKEN says. The step is put together here, from detection, truncation and sweeps.
+// Our own kernels behind the C interface, in the stages that are asked about a whole scene: a right plug-in, so that
+// what the structures carry is known to be enough, and wrong where the environment variable OGC_BROKEN says. The step
+// is put together here, from detection, truncation and sweeps.
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,17 +41,22 @@ Body body_of(const ogc_body& b) {
   Body body{"", b.first_vertex, b.vertex_count, b.first_triangle, b.triangle_count, b.fixed != 0, {}};
   Material& m = body.material;
   m.density = b.density, m.lame_lambda = b.lame_lambda, m.lame_mu = b.lame_mu, m.membrane_damping = b.membrane_damping;
-  m.bending_stiffness = b.bending_stiffness, m.bending_damping = b.bending_damping, m.contact_stiffness = b.contact_stiffness, m.friction = b.friction;
+  m.bending_stiffness = b.bending_stiffness, m.bending_damping = b.bending_damping,
+  m.contact_stiffness = b.contact_stiffness, m.friction = b.friction;
   m.membrane = static_cast<MembraneModel>(b.membrane), m.bending = static_cast<BendingModel>(b.bending);
   return body;
 }
 
 Settings settings_of(const ogc_settings& s) {
   Settings settings;
-  settings.time_step = s.time_step, settings.contact_radius = s.contact_radius, settings.query_radius_cap = s.query_radius_cap;
-  settings.bound_relaxation = s.bound_relaxation, settings.redetect_fraction = s.redetect_fraction, settings.friction_velocity = s.friction_velocity;
-  settings.iterations = s.iterations, settings.redetect_every = s.redetect_every, settings.guess_rounds = s.guess_rounds, settings.lanes = s.lanes;
-  settings.activation = static_cast<ContactActivation>(s.activation), settings.damping = static_cast<DampingForm>(s.damping_form);
+  settings.time_step = s.time_step, settings.contact_radius = s.contact_radius,
+  settings.query_radius_cap = s.query_radius_cap;
+  settings.bound_relaxation = s.bound_relaxation, settings.redetect_fraction = s.redetect_fraction,
+  settings.friction_velocity = s.friction_velocity;
+  settings.iterations = s.iterations, settings.redetect_every = s.redetect_every,
+  settings.guess_rounds = s.guess_rounds, settings.lanes = s.lanes;
+  settings.activation = static_cast<ContactActivation>(s.activation),
+  settings.damping = static_cast<DampingForm>(s.damping_form);
   return settings;
 }
 
@@ -61,9 +67,11 @@ Scene scene_of(const ogc_scene& in) {
   scene.rest_positions = to_double(points(in.rest_positions, static_cast<std::size_t>(t.vertex_count)));
   scene.mesh.positions = scene.rest_positions;
   scene.velocities.resize(scene.rest_positions.size());
-  for (Index k = 0; k < t.triangle_count; ++k) scene.mesh.triangles.push_back({t.triangles[k][0], t.triangles[k][1], t.triangles[k][2]});
+  for (Index k = 0; k < t.triangle_count; ++k)
+    scene.mesh.triangles.push_back({t.triangles[k][0], t.triangles[k][1], t.triangles[k][2]});
   for (Index e = 0; e < t.edge_count; ++e)
-    if (t.edge_triangles.offsets[e] == t.edge_triangles.offsets[e + 1]) scene.mesh.loose_edges.push_back({t.edges[e][0], t.edges[e][1]});
+    if (t.edge_triangles.offsets[e] == t.edge_triangles.offsets[e + 1])
+      scene.mesh.loose_edges.push_back({t.edges[e][0], t.edges[e][1]});
   for (Index k = 0; k < in.body_count; ++k) scene.bodies.push_back(body_of(in.bodies[k]));
   for (Index k = 0; k < in.spring_count; ++k) {
     const ogc_scene_spring& s = in.springs[k];
@@ -111,29 +119,40 @@ RestStateOut rest_of(const ogc_sweep_in& in) {
   RestStateOut rest;
   rest.mass.assign(r.mass, r.mass + in.scene.topology.vertex_count);
   for (Index k = 0; k < r.triangle_count; ++k)
-    rest.triangles.push_back({{r.corner[k][0], r.corner[k][1], r.corner[k][2]}, r.triangle_body[k], r.area[k],
-                              {{{r.gradient[k][0][0], r.gradient[k][0][1]}, {r.gradient[k][1][0], r.gradient[k][1][1]}}}});
+    rest.triangles.push_back(
+        {{r.corner[k][0], r.corner[k][1], r.corner[k][2]},
+         r.triangle_body[k],
+         r.area[k],
+         {{{r.gradient[k][0][0], r.gradient[k][0][1]}, {r.gradient[k][1][0], r.gradient[k][1][1]}}}});
   for (Index k = 0; k < r.hinge_count; ++k)
-    rest.hinges.push_back({{r.hinge_vertex[k][0], r.hinge_vertex[k][1], r.hinge_vertex[k][2], r.hinge_vertex[k][3]}, r.hinge_body[k], r.rest_angle[k],
-                           r.hinge_stiffness[k], {r.weight[k][0], r.weight[k][1], r.weight[k][2]}});
+    rest.hinges.push_back({{r.hinge_vertex[k][0], r.hinge_vertex[k][1], r.hinge_vertex[k][2], r.hinge_vertex[k][3]},
+                           r.hinge_body[k],
+                           r.rest_angle[k],
+                           r.hinge_stiffness[k],
+                           {r.weight[k][0], r.weight[k][1], r.weight[k][2]}});
   rest.edge_length_squared.assign(r.edge_length_squared, r.edge_length_squared + in.scene.topology.edge_count);
-  for (Index k = 0; k < in.scene.body_count * in.scene.body_count; ++k) rest.meetings.push_back({r.meeting_stiffness[k], r.meeting_friction[k]});
+  for (Index k = 0; k < in.scene.body_count * in.scene.body_count; ++k)
+    rest.meetings.push_back({r.meeting_stiffness[k], r.meeting_friction[k]});
   return rest;
 }
 
 /// Any colouring in which the vertices of a stencil differ.
-std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& springs, const std::vector<Index>& groups) {
+std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& springs,
+                           const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> others(groups.size());
   const auto join = [&](const auto& stencil) {
     for (const Index v : stencil) others[v].insert(others[v].end(), stencil.begin(), stencil.end());
   };
   for (const RestTriangle& t : rest.triangles) join(t.corner);
   for (const RestHinge& h : rest.hinges) join(h.vertex);
-  for (const Spring& s : springs) s.third < 0 ? join(std::vector{s.first, s.second}) : join(std::vector{s.first, s.second, s.third});
+  for (const Spring& s : springs)
+    s.third < 0 ? join(std::vector{s.first, s.second}) : join(std::vector{s.first, s.second, s.third});
   std::vector<Index> colour(groups.size(), -1);
   for (std::size_t v = 0; v < groups.size(); ++v) {
     if (groups[v] != -1) continue;
-    const auto is_taken = [&](Index c) { return std::any_of(others[v].begin(), others[v].end(), [&](Index u) { return colour[u] == c; }); };
+    const auto is_taken = [&](Index c) {
+      return std::any_of(others[v].begin(), others[v].end(), [&](Index u) { return colour[u] == c; });
+    };
     Index c = 0;
     while (is_taken(c)) ++c;
     colour[v] = c;
@@ -145,8 +164,14 @@ std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& 
 class Step {
  public:
   explicit Step(const ogc_step_in& in)
-      : count_(static_cast<std::size_t>(in.scene.topology.vertex_count)), scene_(scene_of(in.scene)), topology_(build_topology(scene_)),
-        groups_(rigid_groups(scene_)), left_out_(exclusions(scene_)), start_(points(in.start, count_)), velocity_(points(in.velocity, count_)), x_(start_) {
+      : count_(static_cast<std::size_t>(in.scene.topology.vertex_count)),
+        scene_(scene_of(in.scene)),
+        topology_(build_topology(scene_)),
+        groups_(rigid_groups(scene_)),
+        left_out_(exclusions(scene_)),
+        start_(points(in.start, count_)),
+        velocity_(points(in.velocity, count_)),
+        x_(start_) {
     rest = ours().rest_state({&scene_, &topology_});
     colour = colours(rest, scene_.springs, groups_);
     set_targets(in);
@@ -169,12 +194,14 @@ class Step {
     const Vec3f gravity = point(in.scene.gravity);
     const auto h = static_cast<float>(scene_.settings.time_step);
     InitialGuessIn guess;
-    for (std::size_t v = 0; v < count_; ++v) guess.cases.push_back({start_[v], velocity_[v], gravity, h, start_[v], 0, 0});
+    for (std::size_t v = 0; v < count_; ++v)
+      guess.cases.push_back({start_[v], velocity_[v], gravity, h, start_[v], 0, 0});
     target = ours().initial_guess(guess).target;
     double farthest = 0;
     for (std::size_t v = 0; v < count_; ++v) {
       if (groups_[v] != -1) target[v] = groups_[v] == 0 ? start_[v] : point(in.prescribed[v]);
-      farthest = std::max(farthest, std::hypot(double{target[v].x} - start_[v].x, double{target[v].y} - start_[v].y, double{target[v].z} - start_[v].z));
+      farthest = std::max(farthest, std::hypot(double{target[v].x} - start_[v].x, double{target[v].y} - start_[v].y,
+                                               double{target[v].z} - start_[v].z));
     }
     const double r = scene_.settings.contact_radius;
     query_radius = static_cast<float>(std::min(r + farthest, scene_.settings.query_radius_cap * r));
@@ -182,8 +209,10 @@ class Step {
 
   void run() {
     const Settings& s = scene_.settings;
-    const auto moving = static_cast<double>(std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; }));
-    const double threshold = std::max(1.0, breaks("threshold") ? std::floor(s.redetect_fraction * moving) : std::ceil(s.redetect_fraction * moving));
+    const auto moving = static_cast<double>(
+        std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; }));
+    const double threshold = std::max(
+        1.0, breaks("threshold") ? std::floor(s.redetect_fraction * moving) : std::ceil(s.redetect_fraction * moving));
     for (std::int64_t round = 0;;) {
       detect();
       if (guess(round > 0) < threshold || ++round >= s.guess_rounds) break;
@@ -200,7 +229,8 @@ class Step {
     const DetectIn in{&topology_, left_out_, x_, static_cast<float>(scene_.settings.contact_radius), query_radius};
     detected_ = {StepEventKind::detection, x_, 0, ours().detect_vertex_facet(in), ours().detect_edge_edge(in), {}};
     detected_.bound = ours()
-                          .bound({&topology_, detected_.vertex_facet.d_min_vertex, detected_.edge_edge.d_min_edge, detected_.vertex_facet.d_min_triangle,
+                          .bound({&topology_, detected_.vertex_facet.d_min_vertex, detected_.edge_edge.d_min_edge,
+                                  detected_.vertex_facet.d_min_triangle,
                                   static_cast<float>(scene_.settings.bound_relaxation)})
                           .bound;
     events.push_back(detected_);
@@ -210,8 +240,10 @@ class Step {
     std::vector<bool> touched(count_);
     const auto touch = [&](const Face& face) {
       if (face.kind == FaceKind::vertex) touched[face.index] = true;
-      if (face.kind == FaceKind::edge) for (const Index v : topology_.edges[face.index]) touched[v] = true;
-      if (face.kind == FaceKind::triangle) for (const Index v : topology_.triangles[face.index]) touched[v] = true;
+      if (face.kind == FaceKind::edge)
+        for (const Index v : topology_.edges[face.index]) touched[v] = true;
+      if (face.kind == FaceKind::triangle)
+        for (const Index v : topology_.triangles[face.index]) touched[v] = true;
     };
     for (const VertexFacetContact& c : detected_.vertex_facet.contacts) touched[c.vertex] = true, touch(c.face);
     for (const EdgeEdgeContact& c : detected_.edge_edge.contacts) touch(c.first), touch(c.second);
@@ -232,8 +264,8 @@ class Step {
   }
 
   Index sweep() {
-    const SweepOut out = ours().sweep({&scene_, &topology_, &rest, colour, x_, start_, target, detected_.position, detected_.bound,
-                                       detected_.vertex_facet.contacts, detected_.edge_edge.contacts});
+    const SweepOut out = ours().sweep({&scene_, &topology_, &rest, colour, x_, start_, target, detected_.position,
+                                       detected_.bound, detected_.vertex_facet.contacts, detected_.edge_edge.contacts});
     x_ = out.position;
     events.push_back({StepEventKind::sweep, x_, out.cut, {}, {}, {}});
     return out.cut;
@@ -255,13 +287,14 @@ class Trace {
 
   void write(const std::vector<StepEvent>& events) {
     count(events);
-    if (out_.event_count > out_.event_capacity || out_.detection_count > out_.detection_capacity || out_.vertex_facet_count > out_.vertex_facet_capacity ||
-        out_.edge_edge_count > out_.edge_edge_capacity)
+    if (out_.event_count > out_.event_capacity || out_.detection_count > out_.detection_capacity ||
+        out_.vertex_facet_count > out_.vertex_facet_capacity || out_.edge_edge_count > out_.edge_edge_capacity)
       return;
     for (std::size_t i = 0; i < events.size(); ++i) {
       out_.kind[i] = static_cast<std::int32_t>(events[i].kind);
       out_.cut[i] = events[i].cut;
-      std::transform(events[i].position.begin(), events[i].position.end(), out_.event_position + i * events[i].position.size(), plain);
+      std::transform(events[i].position.begin(), events[i].position.end(),
+                     out_.event_position + i * events[i].position.size(), plain);
       if (events[i].kind == StepEventKind::detection) add(events[i]);
     }
   }
@@ -279,7 +312,9 @@ class Trace {
   }
 
   void add(const StepEvent& event) {
-    const auto copy = [&](const std::vector<float>& from, float* to) { std::copy(from.begin(), from.end(), to + detections_ * from.size()); };
+    const auto copy = [&](const std::vector<float>& from, float* to) {
+      std::copy(from.begin(), from.end(), to + detections_ * from.size());
+    };
     copy(event.vertex_facet.d_min_vertex, out_.d_min_vertex);
     copy(event.vertex_facet.d_min_triangle, out_.d_min_triangle);
     copy(event.edge_edge.d_min_edge, out_.d_min_edge);
@@ -287,8 +322,12 @@ class Trace {
     for (const VertexFacetContact& c : event.vertex_facet.contacts)
       out_.vertex_facet[facets_++] = {c.vertex, static_cast<std::int32_t>(c.face.kind), c.face.index, c.owner};
     for (const EdgeEdgeContact& c : event.edge_edge.contacts)
-      out_.edge_edge[edges_++] = {static_cast<std::int32_t>(c.first.kind), c.first.index, static_cast<std::int32_t>(c.second.kind), c.second.index,
-                                   c.first_edge, c.second_edge};
+      out_.edge_edge[edges_++] = {static_cast<std::int32_t>(c.first.kind),
+                                  c.first.index,
+                                  static_cast<std::int32_t>(c.second.kind),
+                                  c.second.index,
+                                  c.first_edge,
+                                  c.second_edge};
     out_.vertex_facet_end[detections_] = static_cast<std::int32_t>(facets_);
     out_.edge_edge_end[detections_] = breaks("no end") ? -1 : static_cast<std::int32_t>(edges_);
     ++detections_;
@@ -318,16 +357,20 @@ int ogc_sweep(const ogc_sweep_in* in, ogc_sweep_out* out) {
   const Topology topology = build_topology(scene);
   const RestStateOut rest = rest_of(*in);
   const auto n = static_cast<std::size_t>(topology.vertex_count);
-  const std::vector<Vec3f> old = points(in->old, n), start = points(in->start, n), target = points(in->target, n), previous = points(in->previous, n);
+  const std::vector<Vec3f> old = points(in->old, n), start = points(in->start, n), target = points(in->target, n),
+                           previous = points(in->previous, n);
   std::vector<VertexFacetContact> facets;
   std::vector<EdgeEdgeContact> edges;
   for (const ogc_vertex_facet_contact* c = in->vertex_facet; c != in->vertex_facet + in->vertex_facet_count; ++c)
     facets.push_back({c->vertex, {static_cast<FaceKind>(c->kind), c->face}, c->owner});
   for (const ogc_edge_edge_contact* c = in->edge_edge; c != in->edge_edge + in->edge_edge_count; ++c)
-    edges.push_back({{static_cast<FaceKind>(c->first_kind), c->first_face}, {static_cast<FaceKind>(c->second_kind), c->second_face}, c->first_edge,
+    edges.push_back({{static_cast<FaceKind>(c->first_kind), c->first_face},
+                     {static_cast<FaceKind>(c->second_kind), c->second_face},
+                     c->first_edge,
                      c->second_edge});
   if (breaks("one contact dropped") && !facets.empty()) facets.pop_back();
-  const SweepOut sweep = ours().sweep({&scene, &topology, &rest, {in->colour, n}, old, start, target, previous, {in->bound, n}, facets, edges});
+  const SweepOut sweep = ours().sweep(
+      {&scene, &topology, &rest, {in->colour, n}, old, start, target, previous, {in->bound, n}, facets, edges});
   std::transform(sweep.position.begin(), sweep.position.end(), out->position, plain);
   *out->cut = sweep.cut + breaks("cut");
   if (breaks("crash")) std::abort();

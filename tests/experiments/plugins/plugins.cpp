@@ -1,4 +1,5 @@
-// Plug-ins that break, before the judge: each is reported as what it is, the judge goes on or ends cleanly, and standard output holds results alone.
+// Plug-ins that break, before the judge: each is reported as what it is, the judge goes on or ends cleanly, and
+// standard output holds results alone.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -25,14 +26,17 @@ const TemporaryFolder& broken_folder() {
 /// `ogc compare` with the broken plug-in; `how` it breaks.
 ProgramResult compare_broken(const std::string& how, const std::string& arguments) {
   const std::string folder = (broken_folder() / "").string();
-  return run_ogc("compare " + arguments + " --time-limit 3 --plugin " + broken, "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
+  return run_ogc(
+      "compare " + arguments + " --time-limit 3 --plugin " + broken,
+      "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
 /// The same with our own kernels behind the C interface.
 ProgramResult compare_ours(const std::string& how, const std::string& arguments) {
   static const TemporaryFolder scratch;
   return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_ours.so",
-                 "cd '" + (scratch / "").string() + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
+                 "cd '" + (scratch / "").string() +
+                     "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
 /// Whether the process whose number stands in the file ends within a second (but for an entry that nobody has asked
@@ -50,7 +54,8 @@ bool has_ended(const std::filesystem::path& file) {
 }
 
 /// A case with d = r, at which it breaks, and one with d < r.
-const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'", harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
+const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'",
+                  harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
 
 }  // namespace
 
@@ -70,15 +75,16 @@ TEST_CASE("a right plug-in passes, in C, and is timed beside ours", "[agreement]
 }
 
 TEST_CASE("a plug-in that gives no answer is reported as what it did, with exit status 1", "[agreement]") {
-  const auto [how, what] = GENERATE(table<std::string, std::string>({{"crash", "it crashed: signal 11"},
-                                                                     {"hang", "it hangs: no answer within 3 seconds"},
-                                                                     {"exit", "it ended the process, exit status 7"},
-                                                                     {"before", "it wrote out of range: before the beginning of `energy`"},
-                                                                     {"behind", "it wrote out of range: behind the end of `curvature`"},
-                                                                     {"far behind", "it crashed: signal 11"},
-                                                                     {"input", "it crashed: signal 11"},
-                                                                     {"close", "it closed the worker's socket"},
-                                                                     {"status", "ogc_activation returned 5 instead of 0"}}));
+  const auto [how, what] = GENERATE(
+      table<std::string, std::string>({{"crash", "it crashed: signal 11"},
+                                       {"hang", "it hangs: no answer within 3 seconds"},
+                                       {"exit", "it ended the process, exit status 7"},
+                                       {"before", "it wrote out of range: before the beginning of `energy`"},
+                                       {"behind", "it wrote out of range: behind the end of `curvature`"},
+                                       {"far behind", "it crashed: signal 11"},
+                                       {"input", "it crashed: signal 11"},
+                                       {"close", "it closed the worker's socket"},
+                                       {"status", "ogc_activation returned 5 instead of 0"}}));
   INFO(how);
   CHECK(compare_broken(how, harmless).status == 0);
   const ProgramResult result = compare_broken(how, breaking);
@@ -130,7 +136,8 @@ TEST_CASE("a plug-in that forks gets its verdict, and no child of it is left", "
   CHECK(has_ended(broken_folder() / "child"));
 }
 
-TEST_CASE("the case at which a plug-in crashes is found in its batch, and the cases before it are judged", "[agreement]") {
+TEST_CASE("the case at which a plug-in crashes is found in its batch, and the cases before it are judged",
+          "[agreement]") {
   const ProgramResult result = compare_broken("behind", "activation --generator ladder.radius --cases 400 --json");
   INFO(result.out << result.err);
   REQUIRE(result.status == 1);
@@ -153,7 +160,8 @@ TEST_CASE("what a plug-in leaves unwritten or answers with NaN is a mismatch and
 }
 
 TEST_CASE("lists of contacts that a plug-in miscounts or does not write are no answers", "[agreement]") {
-  const std::string facet = "--problem 'stage=detect_vertex_facet gen=lattice seed=3 index=402'", edge = "--problem 'stage=detect_edge_edge gen=ladder.stack seed=3 index=16'";
+  const std::string facet = "--problem 'stage=detect_vertex_facet gen=lattice seed=3 index=402'",
+                    edge = "--problem 'stage=detect_edge_edge gen=ladder.stack seed=3 index=16'";
   CHECK(contains(compare_broken("no count", facet).out, {"no answer: it did not set the count of contacts"}));
   CHECK(contains(compare_broken("growing", facet).out, {"and, given room for as many, "}));
   CHECK(contains(compare_broken("absurd count", facet).out,
@@ -164,7 +172,10 @@ TEST_CASE("lists of contacts that a plug-in miscounts or does not write are no a
   CHECK(contains(compare_broken("", facet).out, {"is missing"}));  // the list is empty, and well formed
 }
 
-TEST_CASE("a library that is no plug-in for this program is refused with exit status 2, and one that breaks while it is loaded with 1", "[agreement]") {
+TEST_CASE(
+    "a library that is no plug-in for this program is refused with exit status 2, and one that breaks while it is "
+    "loaded with 1",
+    "[agreement]") {
   const auto refuses = [](const std::string& library, const std::string& stage, const std::string& what) {
     const ProgramResult result = run_ogc("compare " + stage + " --cases 10 --plugin " + library);
     INFO(library << ": " << result.out << result.err);
@@ -180,7 +191,8 @@ TEST_CASE("a library that is no plug-in for this program is refused with exit st
   refuses(folder + "/libplugin_empty.so", "", "no stage's function");
   refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");
   refuses(broken, "bond", "there is no stage 'bond'");
-  const ProgramResult crash = compare_broken("crash while loading", harmless), hang = compare_broken("hang while loading", harmless);
+  const ProgramResult crash = compare_broken("crash while loading", harmless),
+                      hang = compare_broken("hang while loading", harmless);
   CHECK(crash.status == 1);
   CHECK(contains(crash.err, {"it crashed: signal 6"}));
   CHECK(hang.status == 1);

@@ -1,4 +1,5 @@
-// The dress of Fig. 13: 14 panels that touch each other at their stitches alone, a body that walks; and the data set, as far as it is here.
+// The dress of Fig. 13: 14 panels that touch each other at their stitches alone, a body that walks; and the data set,
+// as far as it is here.
 #include "experiments/scenes/dress.hpp"
 
 #include <algorithm>
@@ -28,10 +29,13 @@ struct SmallData {
   std::string stage =
       "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 0\nvt 5 1\n"
       "g panel0\nf 1/1 2/2 3/3\ng panel1\nf 4/4 6/6 5/5\nseam 0 1\nstitch 3 0 1 0.000000e+000\nstitch 4 0 1 1\n";
-  std::string drape = "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 -1 0\nv 1 -1 0\nv 0 -1 1\nf 1 2 3\nf 4 6 5\nf 7 8 9\n";
-  std::array<std::string, 3> shells{"v 0 -0.25 0\nv 1 -0.25 0\nv 0 -0.25 1\nf 1 2 3\n", "v 0 -0.125 0\nv 1 -0.125 0\nv 0 -0.125 1\n",
-                                    "v 0 0 0\nv 1 0 0\nv 0 0 1\n"};
-  DressCounts counts{.vertices = 6, .triangles = 2, .panels = 2, .stitches = 2, .body_vertices = 3, .body_triangles = 1, .frames = 3};
+  std::string drape =
+      "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 -1 0\nv 1 -1 0\nv 0 -1 1\nf 1 2 3\nf 4 6 5\nf 7 8 "
+      "9\n";
+  std::array<std::string, 3> shells{"v 0 -0.25 0\nv 1 -0.25 0\nv 0 -0.25 1\nf 1 2 3\n",
+                                    "v 0 -0.125 0\nv 1 -0.125 0\nv 0 -0.125 1\n", "v 0 0 0\nv 1 0 0\nv 0 0 1\n"};
+  DressCounts counts{
+      .vertices = 6, .triangles = 2, .panels = 2, .stitches = 2, .body_vertices = 3, .body_triangles = 1, .frames = 3};
 
   DressData read(const TemporaryFolder& folder) const {
     std::filesystem::create_directories(folder / "dress_knife");
@@ -44,7 +48,9 @@ struct SmallData {
   }
 };
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) { return text.replace(text.find(what), what.size(), by); }
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
 
 }  // namespace
 
@@ -67,7 +73,8 @@ TEST_CASE("dress has the paper's numbers, and the stand-in about the data set's 
     CHECK(body.material.friction == 0.5);
     CHECK(body.material.density > 0);
   }
-  // Plane-stress constants of E·t = 76 kPa · 0.328 mm = 24.93 N/m and ν = 0.071, by hand; mass per area 543.29 · 0.328e-3 kg/m².
+  // Plane-stress constants of E·t = 76 kPa · 0.328 mm = 24.93 N/m and ν = 0.071, by hand; mass per area 543.29 ·
+  // 0.328e-3 kg/m².
   const Material& cloth = scene.bodies[0].material;
   CHECK(cloth.lame_mu == Approx(11.638).epsilon(1e-4));
   CHECK(cloth.lame_lambda == Approx(1.7790).epsilon(1e-4));
@@ -97,7 +104,8 @@ TEST_CASE("dress: at one place are stitches between all pairs of vertices", "[un
   for (const auto& [place, vertices] : places) {
     most = std::max(most, vertices.size());
     for (const Index u : vertices) {
-      for (const Index v : vertices) CHECK((u == v || std::ranges::count(left_out.partners[static_cast<std::size_t>(u)], v) == 1));
+      for (const Index v : vertices)
+        CHECK((u == v || std::ranges::count(left_out.partners[static_cast<std::size_t>(u)], v) == 1));
     }
   }
   CHECK(most == 4);  // where seams around and along the body cross
@@ -126,7 +134,9 @@ TEST_CASE("dress: the body stands, then walks slower than 2 m/s", "[unit]") {
   CHECK(speed > 1);
 }
 
-TEST_CASE("a data set becomes a scene: panels are bodies, stitches join them to edges, the character moves as its files say", "[unit]") {
+TEST_CASE(
+    "a data set becomes a scene: panels are bodies, stitches join them to edges, the character moves as its files say",
+    "[unit]") {
   const TemporaryFolder folder;
   const DressData data = SmallData().read(folder);
   const Scene scene = dress(data, 7);
@@ -137,9 +147,11 @@ TEST_CASE("a data set becomes a scene: panels are bodies, stitches join them to 
   REQUIRE(scene.springs.size() == 2);
   CHECK(scene.springs[0] == Spring{3, 0, 1000});
   CHECK(scene.springs[1] == Spring{4, 1, 1000});
-  // Each stitch names an edge, so both of its ends are partners; those of one vertex are no partners of each other unless they lie there together.
+  // Each stitch names an edge, so both of its ends are partners; those of one vertex are no partners of each other
+  // unless they lie there together.
   const Exclusions left_out = exclusions(scene);
-  for (const Index v : {3, 4}) CHECK(std::ranges::equal(left_out.partners[static_cast<std::size_t>(v)], std::array{0, 1}));
+  for (const Index v : {3, 4})
+    CHECK(std::ranges::equal(left_out.partners[static_cast<std::size_t>(v)], std::array{0, 1}));
   CHECK(stitched_start(scene).others == 0);
   // The shells lie 0.75 m above the start's body.
   const PrescribedMotion& motion = scene.motions[0];
@@ -149,7 +161,8 @@ TEST_CASE("a data set becomes a scene: panels are bodies, stitches join them to 
   CHECK(prescribed_targets(scene, motion, 0.02)[1].y == Approx(-0.9375));
 }
 
-TEST_CASE("where seams of data meet, vertices stitched to the same one are no contacts, neighbours in a panel are", "[unit]") {
+TEST_CASE("where seams of data meet, vertices stitched to the same one are no contacts, neighbours in a panel are",
+          "[unit]") {
   SmallData files;
   // A third panel whose corner lies 1 mm from that of the second, which is stitched to the same vertex.
   files.stage = replaced(files.stage, "g panel0", "v 0 0 0\nv 0 1 0\nv -1 0 0\nvt 9 0\nvt 9 1\nvt 8 0\ng panel0");
@@ -160,7 +173,9 @@ TEST_CASE("where seams of data meet, vertices stitched to the same one are no co
   files.counts.triangles = files.counts.panels = files.counts.stitches = 3;
   const TemporaryFolder folder;
   const Exclusions left_out = exclusions(dress(files.read(folder), 1));
-  const auto partners = [&](std::size_t v) { return std::vector<Index>(left_out.partners[v].begin(), left_out.partners[v].end()); };
+  const auto partners = [&](std::size_t v) {
+    return std::vector<Index>(left_out.partners[v].begin(), left_out.partners[v].end());
+  };
   CHECK(partners(3) == std::vector<Index>{0, 1, 6});
   CHECK(partners(6) == std::vector<Index>{0, 1, 3});
   CHECK(partners(0) == std::vector<Index>{3, 4, 6});
@@ -195,7 +210,8 @@ TEST_CASE("bad data are refused by file", "[unit]") {
   }
   SECTION("a stitch to a vertex that does not exist") {
     files.stage = replaced(files.stage, "stitch 4 0 1 1", "stitch 4 0 6 1");
-    CHECK_THAT(error(), Contains("stage.obj: stitch 4 0 6 names a vertex that does not exist; they are numbered from 0 to 5"));
+    CHECK_THAT(error(),
+               Contains("stage.obj: stitch 4 0 6 names a vertex that does not exist; they are numbered from 0 to 5"));
   }
   SECTION("a stitch to itself") {
     files.stage = replaced(files.stage, "stitch 4 0 1 1", "stitch 4 4 1 1");
@@ -232,7 +248,8 @@ TEST_CASE("bad data are refused by file", "[unit]") {
   }
   SECTION("a motion that begins elsewhere") {
     files.shells[0] = replaced(files.shells[0], "v 1 -0.25 0", "v 1 -0.25 0.001");
-    CHECK_THAT(error(), Contains("shell0.obj: vertex 2 is not where the body of drape.obj has it") || Contains("shell0.obj: vertex 1 is not where"));
+    CHECK_THAT(error(), Contains("shell0.obj: vertex 2 is not where the body of drape.obj has it") ||
+                            Contains("shell0.obj: vertex 1 is not where"));
   }
 }
 
@@ -268,7 +285,8 @@ TEST_CASE("the data set as published: counts, intersections at the start, speed"
   CHECK(scene.settings.steps == 968);
   CHECK(largest_gap(scene) < 2.3e-4);
   const StitchedStart start = stitched_start(scene);
-  CHECK(start.between_partners == 531);  // 528 in the decimals of the files, before they are rounded to single precision
+  // 528 in the decimals of the files, before they are rounded to single precision
+  CHECK(start.between_partners == 531);
   CHECK(start.others == 0);
   // The body alone, which is one group and no contact for itself.
   Scene body = scene;

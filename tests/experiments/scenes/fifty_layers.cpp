@@ -13,9 +13,13 @@ using namespace ogc::experiments;
 
 namespace {
 
-const Vec3& first_vertex(const Scene& scene, const Body& body) { return scene.mesh.positions[static_cast<std::size_t>(body.first_vertex)]; }
+const Vec3& first_vertex(const Scene& scene, const Body& body) {
+  return scene.mesh.positions[static_cast<std::size_t>(body.first_vertex)];
+}
 
-const Body& body_named(const Scene& scene, const std::string& name) { return *std::ranges::find(scene.bodies, name, &Body::name); }
+const Body& body_named(const Scene& scene, const std::string& name) {
+  return *std::ranges::find(scene.bodies, name, &Body::name);
+}
 
 }  // namespace
 
@@ -47,7 +51,8 @@ TEST_CASE("fifty_layers has the paper's numbers", "[unit]") {
   CHECK(finer.contact_radius == 2e-3);
 }
 
-TEST_CASE("fifty_layers: layers lie 1.05 r apart from 0.30 m on, each shifted by itself, the same ones for a seed", "[unit]") {
+TEST_CASE("fifty_layers: layers lie 1.05 r apart from 0.30 m on, each shifted by itself, the same ones for a seed",
+          "[unit]") {
   const FiftyLayersSizes sizes{.layers = 50, .vertices_a_side = 3, .cylinder = {6, 3, 1}};
   const Scene scene = fifty_layers(sizes);
   CHECK(fifty_layers(sizes).mesh.positions == scene.mesh.positions);

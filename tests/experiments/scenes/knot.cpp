@@ -22,7 +22,8 @@ const Vec3& rest(const Scene& scene, Index vertex) { return scene.rest_positions
 double largest_stretch(const Scene& scene, const KnotSizes& sizes) {
   double largest = 0;
   for (Index v = 0; v + sizes.columns < sizes.rows * sizes.columns; ++v)
-    largest = std::max(largest, length(start(scene, v), start(scene, v + sizes.columns)) / length(rest(scene, v), rest(scene, v + sizes.columns)));
+    largest = std::max(largest, length(start(scene, v), start(scene, v + sizes.columns)) /
+                                    length(rest(scene, v), rest(scene, v + sizes.columns)));
   return largest;
 }
 
@@ -48,14 +49,19 @@ TEST_CASE("knot has the paper's numbers", "[unit]") {
   CHECK(length(start(scene, 47980), {0.3, -0.3, 0}) < 1e-6);
 }
 
-TEST_CASE("knot: the strip lies straight across its curve, with rows equally far apart on it, stretched at its outer edge alone", "[unit]") {
+TEST_CASE(
+    "knot: the strip lies straight across its curve, with rows equally far apart on it, stretched at its outer edge "
+    "alone",
+    "[unit]") {
   const KnotSizes sizes{.rows = 1200, .columns = 10};
   const Scene scene = knot(sizes);
   const double first = length(start(scene, 0), start(scene, sizes.columns));
   for (Index i = 0; i < sizes.rows; ++i) {
     const Index v = i * sizes.columns;
-    if (i > 0) CHECK(length(start(scene, v - sizes.columns), start(scene, v)) == Approx(first).epsilon(0.02));  // chords of equal arcs
-    for (Index j = 1; j < sizes.columns; ++j) CHECK(length(start(scene, v + j - 1), start(scene, v + j)) == Approx(0.005).margin(2e-6));
+    // chords of equal arcs
+    if (i > 0) CHECK(length(start(scene, v - sizes.columns), start(scene, v)) == Approx(first).epsilon(0.02));
+    for (Index j = 1; j < sizes.columns; ++j)
+      CHECK(length(start(scene, v + j - 1), start(scene, v + j)) == Approx(0.005).margin(2e-6));
   }
   CHECK(largest_stretch(scene, sizes) == Approx(6.49).epsilon(0.01));
   CHECK(largest_stretch(knot(), {}) == Approx(7.49).epsilon(0.01));
@@ -75,7 +81,8 @@ TEST_CASE("knot: end rows rest until the hold is over, then part at 0.2 m/s", "[
   const Scene scene = knot(sizes);
   REQUIRE(scene.motions.size() == 2);
   const auto distance = [&](double t) {
-    const Vec3f a = prescribed_targets(scene, scene.motions[0], t)[0], b = prescribed_targets(scene, scene.motions[1], t)[0];
+    const Vec3f a = prescribed_targets(scene, scene.motions[0], t)[0],
+                b = prescribed_targets(scene, scene.motions[1], t)[0];
     return static_cast<double>(b.x) - a.x;
   };
   CHECK(distance(0.5) == distance(0));

@@ -24,14 +24,17 @@ double shortest_edge(const Scene& scene) {
   double result = std::numeric_limits<double>::infinity();
   for (Index t = 0; t < scene.bodies[0].triangle_count; ++t) {
     const auto& [a, b, c] = scene.mesh.triangles[static_cast<std::size_t>(t)];
-    const Vec3 &p = scene.rest_positions[static_cast<std::size_t>(a)], &q = scene.rest_positions[static_cast<std::size_t>(b)];
+    const Vec3 &p = scene.rest_positions[static_cast<std::size_t>(a)],
+               &q = scene.rest_positions[static_cast<std::size_t>(b)];
     const Vec3& s = scene.rest_positions[static_cast<std::size_t>(c)];
     result = std::min({result, length(p, q), length(q, s), length(s, p)});
   }
   return result;
 }
 
-Vec3f at_vertex(const Scene& scene, const PrescribedMotion& motion, std::size_t i, double t) { return prescribed_targets(scene, motion, t)[i]; }
+Vec3f at_vertex(const Scene& scene, const PrescribedMotion& motion, std::size_t i, double t) {
+  return prescribed_targets(scene, motion, t)[i];
+}
 
 }  // namespace
 
@@ -68,15 +71,16 @@ TEST_CASE("no scene starts with an intersection but between stitched primitives"
 TEST_CASE("scales shrink vertices and steps, and keep the radius in units of the spacing", "[unit]") {
   for (const SceneInfo& info : scenes()) {
     INFO(info.name);
-    const Scene smoke = make_scene(info.name, Scale::smoke), small = make_scene(info.name, Scale::small), paper = make_scene(info.name, Scale::paper);
+    const Scene smoke = make_scene(info.name, Scale::smoke), small = make_scene(info.name, Scale::small),
+                paper = make_scene(info.name, Scale::paper);
     CHECK(smoke.mesh.positions.size() < small.mesh.positions.size());
     CHECK(small.mesh.positions.size() < paper.mesh.positions.size());
     CHECK(smoke.settings.steps < small.settings.steps);
     CHECK(small.settings.steps <= paper.settings.steps);
     const double regime = paper.settings.contact_radius / shortest_edge(paper);
     for (const Scene& scene : {smoke, small}) {
-      // Positions of up to 0.5 m in single precision (layers a little beyond, strips shorter across) against edges of more than 7 mm (2 mm across a strip
-      // of 4.5 cm): half an ulp at each end, twice.
+      // Positions of up to 0.5 m in single precision (layers a little beyond, strips shorter across) against edges of
+      // more than 7 mm (2 mm across a strip of 4.5 cm): half an ulp at each end, twice.
       CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / 0.007));
     }
   }
@@ -98,7 +102,8 @@ TEST_CASE("cloth_on_sphere has the paper's numbers", "[unit]") {
   CHECK(scene.settings.iterations == 40);
   CHECK(scene.settings.steps == 100);
   CHECK(scene.motions.empty());
-  for (const Index v : {0, 4899}) CHECK(scene.mesh.positions[static_cast<std::size_t>(v)].y == static_cast<double>(0.30f));
+  for (const Index v : {0, 4899})
+    CHECK(scene.mesh.positions[static_cast<std::size_t>(v)].y == static_cast<double>(0.30f));
 }
 
 TEST_CASE("twist has the paper's numbers", "[unit]") {
@@ -141,7 +146,8 @@ TEST_CASE("large_radius_twist has the paper's numbers, and a radius of one edge 
   CHECK(scene.settings.ipc_distance == scene.settings.contact_radius);
   // A relative half turn: each handle a quarter in opposite directions.
   const double end = scene.settings.time_step * static_cast<double>(scene.settings.steps);
-  CHECK(std::abs(scene.motions[0].angular_velocity - scene.motions[1].angular_velocity) * end == Approx(std::numbers::pi));
+  CHECK(std::abs(scene.motions[0].angular_velocity - scene.motions[1].angular_velocity) * end ==
+        Approx(std::numbers::pi));
   for (const Scale scale : {Scale::smoke, Scale::small}) {
     const Scene smaller = make_scene("large_radius_twist", scale);
     CHECK(smaller.settings.ipc_distance / shortest_edge(smaller) == Approx(0.995).epsilon(1e-4));
@@ -163,7 +169,8 @@ TEST_CASE("one_iteration_drop has the paper's numbers, and one iteration for eve
 
 TEST_CASE("unknown scenes and scales are refused with the nearest name", "[unit]") {
   CHECK_THROWS_AS(make_scene("twits", Scale::smoke), InputError);
-  CHECK_THROWS_WITH(make_scene("twits", Scale::smoke), Contains("did you mean 'twist'?") && Contains("cloth_on_sphere"));
+  CHECK_THROWS_WITH(make_scene("twits", Scale::smoke),
+                    Contains("did you mean 'twist'?") && Contains("cloth_on_sphere"));
   CHECK_THROWS_WITH(parse_scale("smal"), Contains("did you mean 'small'?"));
   CHECK(parse_scale("smoke") == Scale::smoke);
   CHECK(parse_scale("small") == Scale::small);

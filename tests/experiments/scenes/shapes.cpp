@@ -17,7 +17,9 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vec3 difference(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -29,16 +31,20 @@ Vec3 normal(const Mesh& mesh, const Triangle& t) {
 /// Of a surface that looks outwards [m³].
 double volume_of(const Mesh& mesh) {
   double volume = 0;
-  for (const Triangle& t : mesh.triangles) volume += dot(mesh.positions[at(t[0])], cross(mesh.positions[at(t[1])], mesh.positions[at(t[2])])) / 6;
+  for (const Triangle& t : mesh.triangles)
+    volume += dot(mesh.positions[at(t[0])], cross(mesh.positions[at(t[1])], mesh.positions[at(t[2])])) / 6;
   return volume;
 }
 
-Topology topology_of(const Mesh& mesh) { return build_topology(static_cast<Index>(mesh.positions.size()), mesh.triangles); }
+Topology topology_of(const Mesh& mesh) {
+  return build_topology(static_cast<Index>(mesh.positions.size()), mesh.triangles);
+}
 
 }  // namespace
 
 TEST_CASE("a grid has the paper's numbers of vertices and triangles and is a valid disc", "[unit]") {
-  const auto [count, vertices, triangles] = GENERATE(std::array{2, 4, 2}, std::array{3, 9, 8}, std::array{70, 4900, 9522}, std::array{100, 10000, 19602});
+  const auto [count, vertices, triangles] = GENERATE(std::array{2, 4, 2}, std::array{3, 9, 8},
+                                                     std::array{70, 4900, 9522}, std::array{100, 10000, 19602});
   const Mesh mesh = grid(count, 1, 0.3);
   CHECK(mesh.positions.size() == at(vertices));
   CHECK(mesh.triangles.size() == at(triangles));
@@ -49,7 +55,8 @@ TEST_CASE("a grid has the paper's numbers of vertices and triangles and is a val
   CHECK(vertices - static_cast<int>(topology.edges.size()) + triangles == 1);
 }
 
-TEST_CASE("a grid spans its square, lies in its plane, faces up, and every cell has half of its area in each triangle", "[unit]") {
+TEST_CASE("a grid spans its square, lies in its plane, faces up, and every cell has half of its area in each triangle",
+          "[unit]") {
   constexpr Index count = 5;
   const Mesh mesh = grid(count, 1, 0.25);
   CHECK(mesh.positions.front() == Vec3{-0.5, 0.25, -0.5});
@@ -72,7 +79,8 @@ TEST_CASE("the diagonals of a grid alternate: (i, j) to (i+1, j+1) where i + j i
 }
 
 TEST_CASE("an icosphere has 10 · 4ⁿ + 2 vertices, is closed, and faces outwards", "[unit]") {
-  const auto [subdivisions, vertices] = GENERATE(std::array{0, 12}, std::array{1, 42}, std::array{2, 162}, std::array{3, 642});
+  const auto [subdivisions, vertices] = GENERATE(std::array{0, 12}, std::array{1, 42}, std::array{2, 162},
+                                                 std::array{3, 642});
   const Vec3 centre{-0.15, 0, 0.5};
   const Mesh mesh = icosphere(subdivisions, 0.262, centre);
   CHECK(mesh.positions.size() == at(vertices));
@@ -81,7 +89,8 @@ TEST_CASE("an icosphere has 10 · 4ⁿ + 2 vertices, is closed, and faces outwar
   const Topology topology = topology_of(mesh);
   CHECK(topology.boundary_edges.empty());
   CHECK(topology.hinges.size() == topology.edges.size());
-  for (const Triangle& t : mesh.triangles) CHECK(dot(normal(mesh, t), difference(mesh.positions[at(t[0])], centre)) > 0);
+  for (const Triangle& t : mesh.triangles)
+    CHECK(dot(normal(mesh, t), difference(mesh.positions[at(t[0])], centre)) > 0);
 }
 
 TEST_CASE("all vertices of an icosphere lie on the sphere up to rounding", "[unit]") {
@@ -92,7 +101,8 @@ TEST_CASE("all vertices of an icosphere lie on the sphere up to rounding", "[uni
   }
 }
 
-TEST_CASE("a cylinder is a closed surface of its volume that looks outwards, and never leaves the round one", "[unit]") {
+TEST_CASE("a cylinder is a closed surface of its volume that looks outwards, and never leaves the round one",
+          "[unit]") {
   const CylinderCells cells = GENERATE(CylinderCells{}, CylinderCells{3, 2, 0}, CylinderCells{24, 9, 3});
   const Vec3 centre{-0.25, 0.5, 1};
   const Mesh mesh = cylinder(cells, 0.25, 0.5, centre);
@@ -105,7 +115,9 @@ TEST_CASE("a cylinder is a closed surface of its volume that looks outwards, and
   double volume = 0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 a = difference(mesh.positions[at(t[0])], centre);
-    volume += dot(a, cross(difference(mesh.positions[at(t[1])], centre), difference(mesh.positions[at(t[2])], centre))) / 6;
+    volume += dot(a,
+                  cross(difference(mesh.positions[at(t[1])], centre), difference(mesh.positions[at(t[2])], centre))) /
+              6;
   }
   const double corner = 2 * std::numbers::pi / cells.around;
   CHECK(volume == Approx(0.5 * cells.around * 0.25 * 0.25 * std::sin(corner) / 2));
@@ -123,15 +135,18 @@ TEST_CASE("the paper's cylinder has 1,224 vertices, none of them a hair's breadt
 TEST_CASE("the ground's triangles have at most a hundred times the area of the cloth's", "[unit]") {
   for (const Index count : {14, 28, 70, 141}) {
     const Mesh mesh = ground(count, -0.60);
-    const double cloth_cell = 1.0 / (count - 1), ground_cell = 4.0 / (std::sqrt(static_cast<double>(mesh.positions.size())) - 1);
+    const double cloth_cell = 1.0 / (count - 1),
+                 ground_cell = 4.0 / (std::sqrt(static_cast<double>(mesh.positions.size())) - 1);
     CHECK(ground_cell <= 10 * cloth_cell * (1 + 1e-12));
     CHECK(mesh.positions.front() == Vec3{-2, -0.60, -2});
   }
 }
 
-TEST_CASE("a capsule is a closed surface that looks outwards, with every vertex at its radius from the axis", "[unit]") {
-  const auto [from, to] = GENERATE(std::array<Vec3, 2>{{{0, 0, 0}, {0, 0.5, 0}}}, std::array<Vec3, 2>{{{0.25, -0.125, 0.5}, {-0.25, 0.375, 0.25}}},
-                                   std::array<Vec3, 2>{{{0, 0, 0.5}, {0, 0, 0}}}, std::array<Vec3, 2>{{{1, 0, 0}, {0.5, 0, 0}}});
+TEST_CASE("a capsule is a closed surface that looks outwards, with every vertex at its radius from the axis",
+          "[unit]") {
+  const auto [from, to] = GENERATE(
+      std::array<Vec3, 2>{{{0, 0, 0}, {0, 0.5, 0}}}, std::array<Vec3, 2>{{{0.25, -0.125, 0.5}, {-0.25, 0.375, 0.25}}},
+      std::array<Vec3, 2>{{{0, 0, 0.5}, {0, 0, 0}}}, std::array<Vec3, 2>{{{1, 0, 0}, {0.5, 0, 0}}});
   const CapsuleCells cells{32, 6, 8};
   const Mesh mesh = capsule(cells, 0.125, from, to);
   CHECK(mesh.positions.size() == at(cells.around * (cells.along + 2 * cells.cap - 1) + 2));
@@ -153,7 +168,8 @@ TEST_CASE("a capsule is a closed surface that looks outwards, with every vertex 
 }
 
 TEST_CASE("a box is a closed surface of its volume that looks outwards", "[unit]") {
-  const auto cells = GENERATE(std::array<Index, 3>{1, 1, 1}, std::array<Index, 3>{2, 1, 3}, std::array<Index, 3>{4, 5, 6});
+  const auto cells = GENERATE(std::array<Index, 3>{1, 1, 1}, std::array<Index, 3>{2, 1, 3},
+                              std::array<Index, 3>{4, 5, 6});
   const Mesh mesh = box(cells, {-0.5, 0.25, 1}, {0.5, 0.5, 1.5});
   const auto [a, b, c] = cells;
   CHECK(mesh.positions.size() == at((a + 1) * (b + 1) * (c + 1) - (a - 1) * (b - 1) * (c - 1)));

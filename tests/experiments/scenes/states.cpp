@@ -30,9 +30,9 @@ TEST_CASE("every question that frames of any scene lead to is legal, and the CPU
   for (const experiments::SceneInfo& info : experiments::scenes()) {
     const tests::TemporaryFolder folder;
     const std::string run = (folder / "run").string();
-    const tests::ProgramResult made =
-        tests::run_ogc("run " + std::string(info.name) + " --scale smoke --steps " + std::to_string(frames - 1) +
-                       " --set frame_steps=1 --audit off --out " + run);
+    const tests::ProgramResult made = tests::run_ogc("run " + std::string(info.name) + " --scale smoke --steps " +
+                                                     std::to_string(frames - 1) +
+                                                     " --set frame_steps=1 --audit off --out " + run);
     INFO(info.name << ": " << made.err);
     REQUIRE(made.status == 0);
     const States states(run, authority);

@@ -9,9 +9,13 @@
 
 namespace ogc::tests {
 
-inline const compare::Vec3& start_of(const compare::Scene& scene, compare::Index v) { return scene.mesh.positions[static_cast<std::size_t>(v)]; }
+inline const compare::Vec3& start_of(const compare::Scene& scene, compare::Index v) {
+  return scene.mesh.positions[static_cast<std::size_t>(v)];
+}
 
-inline double distance_of(const compare::Vec3& a, const compare::Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+inline double distance_of(const compare::Vec3& a, const compare::Vec3& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
 
 /// Of a spring from its vertex to its point [m].
 inline double largest_gap(const compare::Scene& scene) {
@@ -19,12 +23,14 @@ inline double largest_gap(const compare::Scene& scene) {
   for (const compare::Spring& s : scene.springs) {
     const compare::Vec3 &a = start_of(scene, s.second), &b = start_of(scene, s.third < 0 ? s.second : s.third);
     const double t = s.ratio;
-    largest = std::max(largest, distance_of(start_of(scene, s.first), {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)}));
+    largest = std::max(largest, distance_of(start_of(scene, s.first),
+                                            {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)}));
   }
   return largest;
 }
 
-/// Intersections at the start outside rigid groups, and those of them that the scene does not exclude, as the oracle counts them.
+/// Intersections at the start outside rigid groups, and those of them that the scene does not exclude, as the oracle
+/// counts them.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };
@@ -43,7 +49,8 @@ inline double largest_edge_strain(const compare::Scene& scene, const compare::Bo
     const compare::Triangle& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
     for (std::size_t k = 0; k < 3; ++k) {
       const compare::Index a = corners[k], b = corners[(k + 1) % 3];
-      const double rest = distance_of(scene.rest_positions[static_cast<std::size_t>(a)], scene.rest_positions[static_cast<std::size_t>(b)]);
+      const double rest = distance_of(scene.rest_positions[static_cast<std::size_t>(a)],
+                                      scene.rest_positions[static_cast<std::size_t>(b)]);
       largest = std::max(largest, std::abs(distance_of(start_of(scene, a), start_of(scene, b)) / rest - 1));
     }
   }
@@ -56,7 +63,8 @@ inline double largest_step(const compare::Scene& scene) {
   for (const compare::PrescribedMotion& motion : scene.motions) {
     std::vector<compare::Vec3> before = compare::to_double(prescribed_targets(scene, motion, 0));
     for (std::int64_t step = 1; step <= scene.settings.steps; ++step) {
-      const std::vector<compare::Vec3> now = compare::to_double(prescribed_targets(scene, motion, scene.settings.time_step * static_cast<double>(step)));
+      const std::vector<compare::Vec3> now = compare::to_double(
+          prescribed_targets(scene, motion, scene.settings.time_step * static_cast<double>(step)));
       for (std::size_t v = 0; v < now.size(); ++v) largest = std::max(largest, distance_of(before[v], now[v]));
       before = now;
     }

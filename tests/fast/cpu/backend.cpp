@@ -26,8 +26,10 @@ TEST_CASE("loops of many items have parts for many threads, those of few items o
     std::atomic<int> parts = 0, items = 0;
     backend.for_each(n, Counted{&parts, &items});
     CHECK(items == n);
-    if (n > 64) CHECK(parts > 1);
-    else CHECK(parts == 1);
+    if (n > 64)
+      CHECK(parts > 1);
+    else
+      CHECK(parts == 1);
   }
 }
 

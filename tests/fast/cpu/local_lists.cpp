@@ -12,7 +12,9 @@
 using namespace ogc;
 using namespace ogc::fast;
 
-TEST_CASE("a list of one thread moves to the common one in order, and what finds no room there is counted and handed back", "[unit]") {
+TEST_CASE(
+    "a list of one thread moves to the common one in order, and what finds no room there is counted and handed back",
+    "[unit]") {
   std::vector<int> common(5, -1), left;
   int count = 3;
   LocalList<int, 4> list;
@@ -72,10 +74,12 @@ TEST_CASE("contacts that find no room are counted, but not for their buckets and
     }
   }
   REQUIRE(*lists.noted_count <= lists.noted_capacity);
-  backend.for_each_counted(lists.noted_count, lists.noted_capacity, CollectContacts{{view, {places.data()}, 0.3F}, {view, {places.data()}, 0.3F}, lists});
+  backend.for_each_counted(lists.noted_count, lists.noted_capacity,
+                           CollectContacts{{view, {places.data()}, 0.3F}, {view, {places.data()}, 0.3F}, lists});
   CHECK(*lists.cursor == static_cast<int>(lists.slot_mask) + 1);  // all slots are taken
   CHECK(*lists.without_slot > room);
-  std::vector<int> records(static_cast<std::size_t>(lists.buckets)), incidences(static_cast<std::size_t>(view.vertex_count));
+  std::vector<int> records(static_cast<std::size_t>(lists.buckets)),
+      incidences(static_cast<std::size_t>(view.vertex_count));
   for (int i = 0; i < room; ++i) {
     const EnteredContact& contact = lists.entered[i];
     ++records[static_cast<std::size_t>(contact.bucket)];

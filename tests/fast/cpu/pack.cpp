@@ -36,7 +36,8 @@ P pack(const Floats<P>& a) {
   return P::of_each([&a](int k) { return a[static_cast<std::size_t>(k)]; });
 }
 
-/// The same bits, or both not a number: of two NaN operands a processor keeps the first, and which that is a compiler may choose.
+/// The same bits, or both not a number: of two NaN operands a processor keeps the first, and which that is a compiler
+/// may choose.
 bool alike(float a, float b) { return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0; }
 
 /// f of packs against f of each place, for numbers of every size, zeros of both signs, infinities and NaN.
@@ -44,8 +45,12 @@ template <class P, class F>
 int differences(F f) {
   std::mt19937 random(7);
   std::normal_distribution<float> normal;
-  constexpr float special[] = {0.0F, -0.0F, 1e-40F, -1e38F, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), 1.0F};
-  const auto number = [&] { return random() % 8 == 0 ? special[random() % 7] : std::ldexp(normal(random), static_cast<int>(random() % 80) - 40); };
+  constexpr float special[] = {
+      0.0F, -0.0F, 1e-40F, -1e38F, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(),
+      1.0F};
+  const auto number = [&] {
+    return random() % 8 == 0 ? special[random() % 7] : std::ldexp(normal(random), static_cast<int>(random() % 80) - 40);
+  };
   int wrong = 0;
   for (int k = 0; k < 20000; ++k) {
     Floats<P> a, b;
@@ -59,7 +64,8 @@ int differences(F f) {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("every operation on a pack gives the bits of the same operation on each of its numbers", "[property]", Packs) {
+TEMPLATE_LIST_TEST_CASE("every operation on a pack gives the bits of the same operation on each of its numbers",
+                        "[property]", Packs) {
   CHECK(differences<TestType>([](auto a, auto b) { return a + b; }) == 0);
   CHECK(differences<TestType>([](auto a, auto b) { return a - b; }) == 0);
   CHECK(differences<TestType>([](auto a, auto b) { return a * b; }) == 0);
@@ -86,7 +92,8 @@ TEMPLATE_LIST_TEST_CASE("a number everywhere in a pack keeps its bits", "[proper
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("a mask is false only where none of its places is true, and counts from the first place", "[property]", Packs) {
+TEMPLATE_LIST_TEST_CASE("a mask is false only where none of its places is true, and counts from the first place",
+                        "[property]", Packs) {
   for (int count = 0; count <= TestType::width + 1; ++count) {
     const auto mask = first_of<TestType>(count);
     const auto got = floats(select(mask, TestType{1.0F}, TestType{}));
@@ -116,7 +123,9 @@ TEMPLATE_LIST_TEST_CASE("places make three packs, coordinate by coordinate", "[p
 TEST_CASE("the lower bounds of distances of four pairs at a time have the bits of each", "[property]") {
   std::mt19937 random(11);
   std::normal_distribution<float> normal;
-  const auto point = [&](float size) { return Vec{size * normal(random), size * normal(random), size * normal(random)}; };
+  const auto point = [&](float size) {
+    return Vec{size * normal(random), size * normal(random), size * normal(random)};
+  };
   const auto packed = [](const Vec* p) {
     const auto each = [p](float Vec::*axis) { return Pack::of_each([&](int k) { return p[k].*axis; }); };
     return Vector<Pack>{each(&Vec::x), each(&Vec::y), each(&Vec::z)};
@@ -126,8 +135,10 @@ TEST_CASE("the lower bounds of distances of four pairs at a time have the bits o
     Vec p[4][4];  // [which point][pair]
     const float size = std::ldexp(1.0F, -static_cast<int>(random() % 20));
     for (auto& of_pairs : p)
-      for (Vec& x : of_pairs) x = random() % 16 == 0 ? p[0][0] : point(random() % 4 == 0 ? 1.0F : size);  // some coincide
-    const auto edges = floats(separation(EndsOf<Pack>{packed(p[0]), packed(p[1])}, EndsOf<Pack>{packed(p[2]), packed(p[3])}));
+      // some coincide
+      for (Vec& x : of_pairs) x = random() % 16 == 0 ? p[0][0] : point(random() % 4 == 0 ? 1.0F : size);
+    const auto edges = floats(
+        separation(EndsOf<Pack>{packed(p[0]), packed(p[1])}, EndsOf<Pack>{packed(p[2]), packed(p[3])}));
     const auto corners = floats(separation(packed(p[0]), CornersOf<Pack>{packed(p[1]), packed(p[2]), packed(p[3])}));
     for (std::size_t i = 0; i < 4; ++i) {
       wrong += alike(edges[i], separation(Ends{p[0][i], p[1][i]}, Ends{p[2][i], p[3][i]})) ? 0 : 1;

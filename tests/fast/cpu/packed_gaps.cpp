@@ -6,7 +6,10 @@
 
 using namespace ogc::fast;
 
-TEST_CASE("gaps of a node's four lanes at once are those of its boxes one by one, whatever primitives and reaches stand beside them", "[property]") {
+TEST_CASE(
+    "gaps of a node's four lanes at once are those of its boxes one by one, whatever primitives and reaches stand "
+    "beside them",
+    "[property]") {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-1, 1), size(0, 0.2F);
   const auto box = [&] {

@@ -42,7 +42,8 @@ struct Outcome {
   compare::Snapshot end;
 };
 
-Outcome run(const compare::Scene& scene, std::int64_t steps, const compare::SimulationOptions& options = {}, int capacity = 0) {
+Outcome run(const compare::Scene& scene, std::int64_t steps, const compare::SimulationOptions& options = {},
+            int capacity = 0) {
   const auto simulation = start_cpu(scene, options, capacity);
   Outcome outcome;
   outcome.rows = simulation->advance(steps);
@@ -58,7 +59,8 @@ double mean(const std::vector<compare::Vec3f>& x, std::size_t first, std::size_t
 
 }  // namespace
 
-TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess loop runs out of rounds, and says when", "[property]") {
+TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess loop runs out of rounds, and says when",
+          "[property]") {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 10, 0.1, 1.0, false);
   const auto simulation = start_cpu(scene, {});
@@ -76,8 +78,8 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     const auto x = simulation->snapshot().positions;
     double worst = 0;
     for (const compare::Vec3f& p : x) worst = std::max(worst, std::abs(p.y - (1.0f - fall)));
-    // Each step rounds a position below 4 m to 2^-23 m once, and the velocity made of it carries that on: n(n+1)/2 times at most; the sweep's residual
-    // internal forces act on strains of rounding size and are as small.
+    // Each step rounds a position below 4 m to 2^-23 m once, and the velocity made of it carries that on: n(n+1)/2
+    // times at most; the sweep's residual internal forces act on strains of rounding size and are as small.
     REQUIRE(worst <= n * (n + 1) * 0x1p-23);
     REQUIRE(row.momentum_lost_end <= 1e-4);
     followed = g * h * n;
@@ -88,7 +90,8 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
   CHECK(followed < 16 * 0.45 * 0.012 / h);
 }
 
-TEST_CASE("the printed single round falls behind free fall at once where bounds are small, and reports the loss", "[property]") {
+TEST_CASE("the printed single round falls behind free fall at once where bounds are small, and reports the loss",
+          "[property]") {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 10, 0.1, 1.0, false);
   for (auto& v : scene.velocities) v = {0, -2, 0};
@@ -98,7 +101,8 @@ TEST_CASE("the printed single round falls behind free fall at once where bounds 
   CHECK(row.momentum_lost_guess > 0.5);
 }
 
-TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets are found before each iteration", "[property]") {
+TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets are found before each iteration",
+          "[property]") {
   compare::Scene scene = empty_scene();
   compare::Material material;
   material.contact_stiffness = 10;
@@ -116,7 +120,10 @@ TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets ar
   CHECK(outcome.rows.back().vertex_facet_contacts >= 64);
 }
 
-TEST_CASE("found once a step, the sets miss what a vertex just above a radius falls into, and the cloth chatters within a step of free fall", "[property]") {
+TEST_CASE(
+    "found once a step, the sets miss what a vertex just above a radius falls into, and the cloth chatters within a "
+    "step of free fall",
+    "[property]") {
   compare::Scene scene = empty_scene();
   compare::Material material;
   material.contact_stiffness = 10;
@@ -127,9 +134,11 @@ TEST_CASE("found once a step, the sets miss what a vertex just above a radius fa
   for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(outcome.end.positions[v].y - 0.005) < 9.81 * h * h);
 }
 
-// Membrane and contact are soft against the inertia m/h² of 0.2 N/m, so that few sweeps suffice: a stiff membrane recovers a translation slowly after the
-// first sweep braked it with the normal force of a start that fell into the plane, and stiff contacts do not converge (see the chattering above).
-TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g (sin a - mu cos a) without", "[property]") {
+// Membrane and contact are soft against the inertia m/h² of 0.2 N/m, so that few sweeps suffice: a stiff membrane
+// recovers a translation slowly after the first sweep braked it with the normal force of a start that fell into the
+// plane, and stiff contacts do not converge (see the chattering above).
+TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g (sin a - mu cos a) without",
+          "[property]") {
   const double tilt = 0.35, h = 0.01;
   const auto slide = [&](double friction) {
     compare::Scene scene = empty_scene();
@@ -172,7 +181,10 @@ TEST_CASE("the smallest distance of a row is that of the last detection, whateve
   }
 }
 
-TEST_CASE("the same scene gives the same bits twice, with other numbers of threads, in other frames, with profile and without energies", "[property]") {
+TEST_CASE(
+    "the same scene gives the same bits twice, with other numbers of threads, in other frames, with profile and "
+    "without energies",
+    "[property]") {
   const compare::Scene scene = drop_scene();
   const Outcome first = run(scene, 12);
   CHECK(first.rows.back().edge_edge_contacts > 20);
@@ -196,7 +208,8 @@ TEST_CASE("the same scene gives the same bits twice, with other numbers of threa
   CHECK(same_bits(simulation->snapshot().positions, first.end.positions));
 }
 
-TEST_CASE("whether iterations are asked one by one or in groups whether a detection is due changes no bit", "[property]") {
+TEST_CASE("whether iterations are asked one by one or in groups whether a detection is due changes no bit",
+          "[property]") {
   for (const std::int64_t every : {0, 1, 2, 3}) {
     INFO("redetect_every " << every);
     compare::Scene scene = drop_scene();
@@ -210,7 +223,8 @@ TEST_CASE("whether iterations are asked one by one or in groups whether a detect
     const auto simulation = start_cpu(scene, {});
     std::int64_t redetections = 0;
     for (std::size_t k = 0; k < 12; ++k) {  // as the frame before says
-      const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k), &profiled_row = profiled.rows.at(k);
+      const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k),
+                                 &profiled_row = profiled.rows.at(k);
       for (const compare::StepMetrics* other : {&expected, &profiled_row}) {
         CHECK(row.discrete_detections == other->discrete_detections);
         CHECK(row.vertices_at_bound == other->vertices_at_bound);
@@ -252,7 +266,8 @@ TEST_CASE("stored positions lie within the bounds of the last detection", "[prop
     REQUIRE(simulation->advance(1).at(0).status == compare::step_clean);
     const compare::Snapshot s = simulation->snapshot();
     for (std::size_t v = 0; v < s.positions.size(); ++v) {
-      const double x = static_cast<double>(s.positions[v].x) - s.previous[v].x, y = static_cast<double>(s.positions[v].y) - s.previous[v].y,
+      const double x = static_cast<double>(s.positions[v].x) - s.previous[v].x,
+                   y = static_cast<double>(s.positions[v].y) - s.previous[v].y,
                    z = static_cast<double>(s.positions[v].z) - s.previous[v].z;
       REQUIRE(x * x + y * y + z * z <= static_cast<double>(s.bounds[v]) * s.bounds[v]);
     }
@@ -271,7 +286,8 @@ TEST_CASE("energy only falls while a cloth drops, touches and slides", "[propert
   for (const auto& row : outcome.rows) {
     const double total = row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
     if (!std::isfinite(before)) start = row.kinetic_energy;
-    // An unconverged step may leave a little of the energy that its truncated start lost on the way; a thousandth of the first kinetic energy.
+    // An unconverged step may leave a little of the energy that its truncated start lost on the way; a thousandth of
+    // the first kinetic energy.
     CHECK(total <= before + 1e-3 * start);
     before = total;
   }
@@ -326,9 +342,11 @@ TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
   for (std::size_t k = 0; k < 6; ++k) CHECK(x[k] == targets[k]);
 }
 
-// What a step leaves behind besides a snapshot (the order of the trees, sorted every 16 steps, contacts, bounds, the strain and angles that damping starts from) must
-// decide nothing: each step is taken by a simulation that has seen no other.
-TEST_CASE("a simulation that is replaced by a new one after each step comes to the same bits and the same rows", "[property]") {
+// What a step leaves behind besides a snapshot (the order of the trees, sorted every 16 steps, contacts, bounds, the
+// strain and angles that damping starts from) must decide nothing: each step is taken by a simulation that has seen no
+// other.
+TEST_CASE("a simulation that is replaced by a new one after each step comes to the same bits and the same rows",
+          "[property]") {
   const compare::Scene scene = drop_scene();
   constexpr std::int64_t steps = 40;
   Outcome whole = run(scene, steps, {}, 1);
@@ -364,7 +382,8 @@ TEST_CASE("before the first step a simulation is at the start of its scene, and 
 
 TEST_CASE("capacities of other lists are refused", "[unit]") {
   compare::Snapshot state = start_cpu(drop_scene(), {})->snapshot();
-  for (const std::vector<std::int64_t>& wrong : {std::vector<std::int64_t>{1}, {1, 0}, {1, std::int64_t{1} << 40}, {1, 1, 1}}) {
+  for (const std::vector<std::int64_t>& wrong :
+       {std::vector<std::int64_t>{1}, {1, 0}, {1, std::int64_t{1} << 40}, {1, 1, 1}}) {
     state.capacities = wrong;
     CHECK_THROWS_AS(start_cpu(drop_scene(), {})->restore(state), std::invalid_argument);
   }
@@ -405,7 +424,8 @@ TEST_CASE("re-detection after a set number of iterations is counted", "[unit]") 
   CHECK(row.discrete_detections > few);
 }
 
-TEST_CASE("each activation, model and form of damping changes the result of a run, and each run is clean", "[property]") {
+TEST_CASE("each activation, model and form of damping changes the result of a run, and each run is clean",
+          "[property]") {
   std::vector<compare::Scene> scenes(1, drop_scene());
   for (int kind = 1; kind < 5; ++kind) {
     scenes.push_back(drop_scene());
@@ -432,7 +452,8 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
 
 namespace {
 
-/// Two sheets beside each other in one plane, 8 mm apart, at rest and without gravity, stitched along their border, each vertex of the second to the border of the first.
+/// Two sheets beside each other in one plane, 8 mm apart, at rest and without gravity, stitched along their border,
+/// each vertex of the second to the border of the first.
 compare::Scene seam_scene(bool excluded) {
   compare::Scene scene = empty_scene();
   scene.gravity = {};
@@ -458,22 +479,26 @@ double widest_gap(const compare::Scene& scene, const std::vector<compare::Vec3f>
   for (const compare::Spring& s : scene.springs) {
     const auto at = [&](compare::Index v) { return x[static_cast<std::size_t>(v)]; };
     const auto apart = [&](float compare::Vec3f::*axis) {
-      const double other = s.third < 0 ? at(s.second).*axis : (1 - s.ratio) * (at(s.second).*axis) + s.ratio * (at(s.third).*axis);
+      const double other = s.third < 0 ? at(s.second).*axis
+                                       : (1 - s.ratio) * (at(s.second).*axis) + s.ratio * (at(s.third).*axis);
       return at(s.first).*axis - other;
     };
-    widest = std::max(widest, std::hypot(apart(&compare::Vec3f::x), apart(&compare::Vec3f::y), apart(&compare::Vec3f::z)));
+    widest = std::max(widest,
+                      std::hypot(apart(&compare::Vec3f::x), apart(&compare::Vec3f::y), apart(&compare::Vec3f::z)));
   }
   return widest;
 }
 
 }  // namespace
 
-TEST_CASE("a seam of stitches closes where the pairs beside it are no contacts, and stays open where they are", "[property]") {
+TEST_CASE("a seam of stitches closes where the pairs beside it are no contacts, and stays open where they are",
+          "[property]") {
   const compare::Scene seam = seam_scene(true), repelled = seam_scene(false);
   const Outcome closed = run(seam, 150), open = run(repelled, 150);
   CHECK(closed.rows.back().status == compare::step_clean);
   CHECK(open.rows.back().status == compare::step_clean);
-  // A stitch of 20 N/m against a contact of at most k_c r/2: they balance more than a tenth of r apart; without contacts nothing holds a stitch open but the sheets.
+  // A stitch of 20 N/m against a contact of at most k_c r/2: they balance more than a tenth of r apart; without
+  // contacts nothing holds a stitch open but the sheets.
   CHECK(widest_gap(seam, closed.end.positions) < 0.05 * seam.settings.contact_radius);
   CHECK(widest_gap(repelled, open.end.positions) > 0.1 * seam.settings.contact_radius);
 }
@@ -491,7 +516,9 @@ TEST_CASE("a surface that keyframes deform carries a sheet along, and follows it
     for (compare::Index v = 64; v < 145; ++v) {
       const compare::Vec3 x = scene.mesh.positions[static_cast<std::size_t>(v)];
       if (time == 0) motion.vertices.push_back(v);
-      motion.keyframes.positions.push_back({static_cast<float>(x.x), static_cast<float>(x.y + time * (0.1 + 0.5 * std::cos(20 * x.x))), static_cast<float>(x.z)});
+      motion.keyframes.positions.push_back({static_cast<float>(x.x),
+                                            static_cast<float>(x.y + time * (0.1 + 0.5 * std::cos(20 * x.x))),
+                                            static_cast<float>(x.z)});
     }
   scene.motions.push_back(motion);
   const Outcome outcome = run(scene, 50);

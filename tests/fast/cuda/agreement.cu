@@ -24,7 +24,10 @@ TEST_CASE("the fast path on CUDA agrees with the reference in every stage", "[gp
   }
 }
 
-TEST_CASE("the device gives the same bits again, shuffled, in small batches, with other blocks and as on devices of other sizes", "[gpu]") {
+TEST_CASE(
+    "the device gives the same bits again, shuffled, in small batches, with other blocks and as on devices of other "
+    "sizes",
+    "[gpu]") {
   for (const DeterminismReport& report : experiments::determinism_of(fast::Backend::cuda, all_stages, 1000, 5)) {
     INFO(stage_name(report.stage) << (report.changed.empty() ? "" : ": " + report.changed[0]));
     CHECK_FALSE(report.skipped);

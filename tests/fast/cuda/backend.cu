@@ -53,7 +53,8 @@ struct Subtract {
   OGC_HD void operator()(int) const { *target -= value; }
 };
 
-// Sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives other bits.
+// Sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives other
+// bits.
 struct Sums {
   float large = 0, small = 0;
   int count = 0;
@@ -76,8 +77,11 @@ struct RowSums {
     const int begin = offsets[row], count = offsets[row + 1] - begin, first = count / 5, second = first + count / 2;
     const auto load_from = [this](int start) { return [from = terms + start](int k) { return from[k]; }; };
     const auto add = [](float term, Sums& sums) { sums += Sums{term, mul(term, term), 1}; };
-    const Sums sums = team.template sum<Sums>(part(first, load_from(begin), add), part(second - first, load_from(begin + first), add),
-                                              pooled_part(begin + second, count - second, load_from(0), [](float term) { return Sums{term, mul(term, term), 1}; }));
+    const Sums sums = team.template sum<Sums>(part(first, load_from(begin), add),
+                                              part(second - first, load_from(begin + first), add),
+                                              pooled_part(begin + second, count - second, load_from(0), [](float term) {
+                                                return Sums{term, mul(term, term), 1};
+                                              }));
     if (team.leader()) out[row] = sums;
   }
 };
@@ -93,7 +97,8 @@ Rows random_rows(int count) {
   for (int row = 0; row < count; ++row) {
     const int length = static_cast<int>(random() % 90);
     for (int k = 0; k < length; ++k) {
-      rows.terms.push_back(std::ldexp(static_cast<float>(random() % 2001) - 1000.0f, static_cast<int>(random() % 40) - 20));
+      rows.terms.push_back(
+          std::ldexp(static_cast<float>(random() % 2001) - 1000.0f, static_cast<int>(random() % 40) - 20));
     }
     rows.offsets.push_back(static_cast<int>(rows.terms.size()));
   }
@@ -104,7 +109,8 @@ template <int W>
 void check_team(int count) {
   const Rows rows = random_rows(count);
   std::vector<Sums> expected(static_cast<std::size_t>(count));
-  for (int row = 0; row < count; ++row) RowSums{rows.offsets.data(), rows.terms.data(), expected.data()}(row, SerialTeam<W>{});
+  for (int row = 0; row < count; ++row)
+    RowSums{rows.offsets.data(), rows.terms.data(), expected.data()}(row, SerialTeam<W>{});
   CudaBackend backend;
   const CudaBuffer<int> offsets = on_device(rows.offsets);
   const CudaBuffer<float> terms = on_device(rows.terms);
@@ -115,7 +121,8 @@ void check_team(int count) {
     backend.for_each_team<W>(count, RowSums{offsets.data(), terms.data(), out.data()}, start);
     const std::vector<Sums> found = on_host(out);
     int different = 0;
-    for (std::size_t row = 0; row < found.size(); ++row) different += std::memcmp(&found[row], &expected[row], sizeof(Sums)) != 0;
+    for (std::size_t row = 0; row < found.size(); ++row)
+      different += std::memcmp(&found[row], &expected[row], sizeof(Sums)) != 0;
     CHECK(different == 0);
   }
 }
@@ -148,7 +155,9 @@ TEST_CASE("for_each_counted reads its count on the device and never passes the c
   }
 }
 
-TEST_CASE("a team of lanes gives the bits of SerialTeam for every width, in launches that fill the device and in small ones", "[gpu]") {
+TEST_CASE(
+    "a team of lanes gives the bits of SerialTeam for every width, in launches that fill the device and in small ones",
+    "[gpu]") {
   for (const int count : {1001, 50'003}) {
     check_team<1>(count);
     check_team<2>(count);
@@ -167,7 +176,8 @@ TEST_CASE("a scan gives n + 1 sums, in place too", "[gpu]") {
     for (std::size_t i = 0; i < n; ++i) expected[i + 1] = expected[i] + items[i];
     CudaBuffer<int> in = on_device(items), in_place = on_device(items), out;
     out.resize(n + 1);
-    backend.exclusive_scans({in.data(), out.data(), static_cast<int>(n)}, {in_place.data(), in_place.data(), static_cast<int>(n)});
+    backend.exclusive_scans({in.data(), out.data(), static_cast<int>(n)},
+                            {in_place.data(), in_place.data(), static_cast<int>(n)});
     CHECK((on_host(out) == expected));
     CHECK((on_host(in_place) == expected));
   }
@@ -187,7 +197,8 @@ TEST_CASE("two scans at once give the sums of each", "[gpu]") {
       }
       CudaBuffer<int> in[2] = {on_device(items[0]), on_device(items[1])}, out[2];
       out[0].resize(n + 1), out[1].resize(m + 1);
-      backend.exclusive_scans({in[0].data(), out[0].data(), static_cast<int>(n)}, {in[1].data(), out[1].data(), static_cast<int>(m)});
+      backend.exclusive_scans({in[0].data(), out[0].data(), static_cast<int>(n)},
+                              {in[1].data(), out[1].data(), static_cast<int>(m)});
       CHECK((on_host(out[0]) == expected[0]));
       CHECK((on_host(out[1]) == expected[1]));
     }
@@ -203,7 +214,9 @@ TEST_CASE("sort_pairs is stable and ascending over all 64 bits", "[gpu]") {
     std::iota(values.begin(), values.end(), 0);
     for (auto& key : keys) key = random() % 1000 == 0 ? ~random() : (random() % 97) << (random() % 50);
     std::vector<int> expected = values;
-    std::stable_sort(expected.begin(), expected.end(), [&](int a, int b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; });
+    std::stable_sort(expected.begin(), expected.end(), [&](int a, int b) {
+      return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
+    });
     CudaBuffer<std::uint64_t> device_keys = on_device(keys);
     CudaBuffer<int> device_values = on_device(values);
     backend.sort_pairs(device_keys.data(), device_values.data(), static_cast<int>(n));
@@ -251,7 +264,8 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
   }
 }
 
-TEST_CASE("repeat goes on until its flag falls, both at once and in a replay, and not at all where it is down", "[gpu]") {
+TEST_CASE("repeat goes on until its flag falls, both at once and in a replay, and not at all where it is down",
+          "[gpu]") {
   CudaBackend backend;
   CudaBuffer<int> left, count;
   left.resize(1);
@@ -262,10 +276,14 @@ TEST_CASE("repeat goes on until its flag falls, both at once and in a replay, an
       count.fill_zero();
       recording.clear();
       const auto body = [&] {
-        backend.repeat(Assign{left.data(), rounds}, left.data(), [&] { backend.for_each(1, AddOne{count.data()}); }, Subtract{left.data(), 1});
+        backend.repeat(
+            Assign{left.data(), rounds}, left.data(), [&] { backend.for_each(1, AddOne{count.data()}); },
+            Subtract{left.data(), 1});
       };
-      if (recorded) backend.replay(recording, 3, body);
-      else body();
+      if (recorded)
+        backend.replay(recording, 3, body);
+      else
+        body();
       backend.synchronize();
       CHECK(on_host(count)[0] == (recorded ? 3 * rounds : rounds));
     }
@@ -298,7 +316,10 @@ TEST_CASE("a body that throws while it is recorded leaves the backend usable", "
   CudaBuffer<int> items;
   items.resize(4);
   CudaRecording recording;
-  CHECK_THROWS_AS(backend.replay(recording, 1, [&] { backend.when(Decided{}, items.data(), [&] { throw std::runtime_error("body"); }); }), std::runtime_error);
+  CHECK_THROWS_AS(
+      backend.replay(recording, 1,
+                     [&] { backend.when(Decided{}, items.data(), [&] { throw std::runtime_error("body"); }); }),
+      std::runtime_error);
   backend.replay(recording, 1, [&] { backend.for_each(4, SetToNumber{items.data()}); });
   backend.synchronize();
   CHECK((on_host(items) == std::vector<int>{1, 2, 3, 4}));

@@ -1,5 +1,5 @@
-// The device gives the host's bits. Detection does so in every build, because its arithmetic is rounded operation by operation; a whole step does in the
-// strict build, where neither side contracts.
+// The device gives the host's bits. Detection does so in every build, because its arithmetic is rounded operation by
+// operation; a whole step does in the strict build, where neither side contracts.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -48,7 +48,8 @@ Crumpled crumpled_sheets(int n) {
     const int first = static_cast<int>(sheets.positions.size());
     for (int i = 0; i < n * n; ++i) {
       const auto noise = [&] { return std::ldexp(static_cast<float>(random() % 1024), -16); };
-      sheets.positions.push_back({0.01f * static_cast<float>(i % n) + noise(), 0.003f * static_cast<float>(sheet) + noise(),
+      sheets.positions.push_back({0.01f * static_cast<float>(i % n) + noise(),
+                                  0.003f * static_cast<float>(sheet) + noise(),
                                   0.01f * static_cast<float>(i / n) + noise()});
       if (i % n == n - 1 || i / n == n - 1) continue;
       sheets.triangles.push_back({first + i, first + i + 1, first + i + n});
@@ -64,16 +65,19 @@ bool same_contact(const compare::VertexFacetContact& a, const compare::VertexFac
   return a.vertex == b.vertex && same_face(a.face, b.face) && a.owner == b.owner;
 }
 bool same_contact(const compare::EdgeEdgeContact& a, const compare::EdgeEdgeContact& b) {
-  return same_face(a.first, b.first) && same_face(a.second, b.second) && a.first_edge == b.first_edge && a.second_edge == b.second_edge;
+  return same_face(a.first, b.first) && same_face(a.second, b.second) && a.first_edge == b.first_edge &&
+         a.second_edge == b.second_edge;
 }
 template <class Contact>
 bool same_contacts(const std::vector<Contact>& a, const std::vector<Contact>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Contact& x, const Contact& y) { return same_contact(x, y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Contact& x, const Contact& y) { return same_contact(x, y); });
 }
 
 bool same_sets(const fast::ContactSets& a, const fast::ContactSets& b) {
-  return same_contacts(a.vertex_facet, b.vertex_facet) && same_contacts(a.edge_edge, b.edge_edge) && same_bits(a.d_min_vertex, b.d_min_vertex) &&
-         same_bits(a.d_min_edge, b.d_min_edge) && same_bits(a.d_min_triangle, b.d_min_triangle) && same_bits(a.bound, b.bound);
+  return same_contacts(a.vertex_facet, b.vertex_facet) && same_contacts(a.edge_edge, b.edge_edge) &&
+         same_bits(a.d_min_vertex, b.d_min_vertex) && same_bits(a.d_min_edge, b.d_min_edge) &&
+         same_bits(a.d_min_triangle, b.d_min_triangle) && same_bits(a.bound, b.bound);
 }
 
 compare::Snapshot after(compare::Simulation& simulation, int steps) {
@@ -82,7 +86,8 @@ compare::Snapshot after(compare::Simulation& simulation, int steps) {
 }
 
 bool same_state(const compare::Snapshot& a, const compare::Snapshot& b) {
-  return a.step == b.step && same_bits(a.positions, b.positions) && same_bits(a.velocities, b.velocities) && same_bits(a.bounds, b.bounds);
+  return a.step == b.step && same_bits(a.positions, b.positions) && same_bits(a.velocities, b.velocities) &&
+         same_bits(a.bounds, b.bounds);
 }
 
 }  // namespace
@@ -115,7 +120,8 @@ TEST_CASE("closest faces and closest points have the host's bits", "[gpu]") {
 TEST_CASE("contact sets, smallest distances and bounds have the host's bits", "[gpu]") {
   const Crumpled sheets = crumpled_sheets(60);
   const auto vertices = static_cast<compare::Index>(sheets.positions.size());
-  fast::ContactFinder host(vertices, sheets.triangles, {}, fast::Backend::cpu), device(vertices, sheets.triangles, {}, fast::Backend::cuda);
+  fast::ContactFinder host(vertices, sheets.triangles, {}, fast::Backend::cpu),
+      device(vertices, sheets.triangles, {}, fast::Backend::cuda);
   for (const float radius : {0.001f, 0.004f, 0.02f}) {
     const fast::ContactQuery query{.contact_radius = radius, .query_radius = 1.5f * radius};
     const fast::ContactSets a = host.find(sheets.positions, query), b = device.find(sheets.positions, query);
@@ -156,7 +162,8 @@ TEST_CASE("a simulation repeats to the bit, whatever the frames and however smal
   CHECK(same_state(one_by_one->snapshot(), expected));
 }
 
-TEST_CASE("a simulation on the device that is replaced by a new one after each step comes to the same bits and rows", "[gpu]") {
+TEST_CASE("a simulation on the device that is replaced by a new one after each step comes to the same bits and rows",
+          "[gpu]") {
   const compare::Scene scene = experiments::make_scene("cloth_on_sphere", experiments::Scale::smoke);
   constexpr int steps = 40;
   const auto whole = fast::start_cuda(scene, {}, 1);

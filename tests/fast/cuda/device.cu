@@ -1,5 +1,6 @@
-// Tests that need a device are skipped without one, never passed: the run ends with exit status 77, ctest's SKIP_RETURN_CODE, before its first test
-// case. Listing the test cases, which happens at build time, starts no run and needs no device.
+// Tests that need a device are skipped without one, never passed: the run ends with exit status 77, ctest's
+// SKIP_RETURN_CODE, before its first test case. Listing the test cases, which happens at build time, starts no run and
+// needs no device.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,5 +1,6 @@
-// The judge's numbers in device code and on the host, bit for bit. `between`, which adds a product, is left out: contraction may change it on the device. Names
-// are literals with their length: of a plain one the length is counted by a function of the host, and nvcc drops the whole kernel without a word.
+// The judge's numbers in device code and on the host, bit for bit. `between`, which adds a product, is left out:
+// contraction may change it on the device. Names are literals with their length: of a plain one the length is counted
+// by a function of the host, and nvcc drops the whole kernel without a word.
 #include <bit>
 #include <cstdint>
 #include <string_view>

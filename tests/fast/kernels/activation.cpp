@@ -9,11 +9,16 @@ using namespace ogc::fast;
 
 namespace {
 
-constexpr ContactActivation all_kinds[]{ContactActivation::ogc, ContactActivation::ogc_as_printed, ContactActivation::quadratic, ContactActivation::ipc_log,
+constexpr ContactActivation all_kinds[]{ContactActivation::ogc, ContactActivation::ogc_as_printed,
+                                        ContactActivation::quadratic, ContactActivation::ipc_log,
                                         ContactActivation::cubic};
 
-float energy_of(float d, float r, float k, ContactActivation kind = ContactActivation::ogc) { return activation_energy(kind, d, r, k); }
-ActivationSlope slope_of(float d, float r, float k, ContactActivation kind = ContactActivation::ogc) { return activation_slope(kind, d, r, k); }
+float energy_of(float d, float r, float k, ContactActivation kind = ContactActivation::ogc) {
+  return activation_energy(kind, d, r, k);
+}
+ActivationSlope slope_of(float d, float r, float k, ContactActivation kind = ContactActivation::ogc) {
+  return activation_slope(kind, d, r, k);
+}
 
 }  // namespace
 
@@ -35,7 +40,8 @@ TEST_CASE("activation: value, slope and curvature join at tau, value and slope a
   }
 }
 
-TEST_CASE("activation: slope and curvature are the derivatives of the energy, of every activation and in both stages", "[unit]") {
+TEST_CASE("activation: slope and curvature are the derivatives of the energy, of every activation and in both stages",
+          "[unit]") {
   const float r = 1, k = 3;
   for (const ContactActivation kind : all_kinds)
     for (const float d : {0.01F, 0.1F, 0.3F, 0.6F, 0.9F}) {
@@ -43,8 +49,10 @@ TEST_CASE("activation: slope and curvature are the derivatives of the energy, of
       const double step = 0.01 * std::min(d, r - d), low = d - step, high = d + step;
       const auto g = [&](double x) { return static_cast<double>(energy_of(static_cast<float>(x), r, k, kind)); };
       const double noise = 0x1p-22 * g(d);  // a few roundings of the energy, and of d
-      CHECK((g(high) - g(low)) / (2 * step) == Approx(slope_of(d, r, k, kind).slope).epsilon(3e-3).margin(noise / step));
-      CHECK((g(high) - 2 * g(d) + g(low)) / (step * step) == Approx(slope_of(d, r, k, kind).curvature).epsilon(3e-2).margin(4 * noise / (step * step)));
+      CHECK((g(high) - g(low)) / (2 * step) ==
+            Approx(slope_of(d, r, k, kind).slope).epsilon(3e-3).margin(noise / step));
+      CHECK((g(high) - 2 * g(d) + g(low)) / (step * step) ==
+            Approx(slope_of(d, r, k, kind).curvature).epsilon(3e-2).margin(4 * noise / (step * step)));
     }
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double u = 0x1p-24;
 
-// The angle between the two half planes, from their unit vectors across the edge; 0 where flat, negative where o1 is on the side of (x1 − x0) × (o0 − x0).
+// The angle between the two half planes, from their unit vectors across the edge; 0 where flat, negative where o1 is on
+// the side of (x1 − x0) × (o0 − x0).
 double angle_of(const std::vector<D3>& x) {
   const D3 edge = (1 / length(x[1] - x[0])) * (x[1] - x[0]);
   const auto across = [&](const D3& p) {
@@ -44,7 +45,8 @@ struct Case {
   // Largest gradient of the angle: one over the smaller height, with the feet of the heights along the edge.
   double steepness() const {
     const auto w = wide_x();
-    const double e = length(w[1] - w[0]), ha = length(cross(w[1] - w[0], w[2] - w[0])) / e, hb = length(cross(w[1] - w[0], w[3] - w[0])) / e;
+    const double e = length(w[1] - w[0]), ha = length(cross(w[1] - w[0], w[2] - w[0])) / e,
+                 hb = length(cross(w[1] - w[0], w[3] - w[0])) / e;
     const double reach = std::max(length(w[2] - w[0]), length(w[3] - w[0])) / e;
     return (1 + reach) / std::min(ha, hb);
   }
@@ -62,8 +64,10 @@ Case random_case(std::mt19937& random) {
     c.x.clear();
     const RigidMotion motion(random, 0.1);
     const double bend = 0.5 * normal(random);
-    const D3 corners[4] = {{0, 0, 0}, {0.01, 0, 0}, {0.004, 0.008, 0.008 * bend}, {0.006, -0.007, 0.003 * normal(random)}};
-    for (const D3& p : corners) c.x.push_back(narrow(motion(p + 1e-3 * D3{normal(random), normal(random), normal(random)})));
+    const D3 corners[4] = {
+        {0, 0, 0}, {0.01, 0, 0}, {0.004, 0.008, 0.008 * bend}, {0.006, -0.007, 0.003 * normal(random)}};
+    for (const D3& p : corners)
+      c.x.push_back(narrow(motion(p + 1e-3 * D3{normal(random), normal(random), normal(random)})));
   } while (c.conditioning() > 100);
   return c;
 }
@@ -77,8 +81,9 @@ TEST_CASE("the hinge's angle is that of the half planes, for every role", "[prop
     const double exact = angle_of(c.wide_x());
     const float forward = hinge_shape(c.x[1] - c.x[0], c.x[2] - c.x[0], c.x[3] - c.x[0]).angle;
     const float backward = hinge_shape(c.x[0] - c.x[1], c.x[3] - c.x[1], c.x[2] - c.x[1]).angle;
-    // Edges are differences of coordinates below 1 m, exact to u of themselves here only up to u of a coordinate: the test's own input error is none
-    // (they are exact in double too), so what is left is 12 u of the sine, amplified by the shape.
+    // Edges are differences of coordinates below 1 m, exact to u of themselves here only up to u of a coordinate: the
+    // test's own input error is none (they are exact in double too), so what is left is 12 u of the sine, amplified by
+    // the shape.
     REQUIRE(std::abs(forward - exact) <= 32 * u * c.conditioning());
     REQUIRE(std::abs(backward - exact) <= 32 * u * c.conditioning());
   }
@@ -105,7 +110,8 @@ TEST_CASE("the hinge's block is Gauss-Newton's", "[property]") {
       std::array<double, 9> expected{};
       for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) {
-          expected[static_cast<std::size_t>(3 * a + b)] = c.stencil.stiffness * (1 + c.damping) * axis(gradient, a) * axis(gradient, b);
+          expected[static_cast<std::size_t>(3 * a + b)] = c.stencil.stiffness * (1 + c.damping) * axis(gradient, a) *
+                                                          axis(gradient, b);
         }
       }
       const double scale = c.stencil.stiffness * (1 + c.damping) * c.steepness() * c.steepness();

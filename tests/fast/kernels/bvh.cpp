@@ -1,4 +1,5 @@
-// The order of the trees. That searches find all that is near, whatever the order, is held by tests/fast/stages/detection.cpp.
+// The order of the trees. That searches find all that is near, whatever the order, is held by
+// tests/fast/stages/detection.cpp.
 #include "fast/kernels/bvh.hpp"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ std::int64_t distance_1(const Cell& a, const Cell& b) {
 
 }  // namespace
 
-TEST_CASE("the curve fills each cube of 2^n cells a side before it leaves it, from cell to touching cell", "[property]") {
+TEST_CASE("the curve fills each cube of 2^n cells a side before it leaves it, from cell to touching cell",
+          "[property]") {
   std::mt19937 random(1);
   for (const std::uint32_t side : {1U, 2U, 4U, 8U})
     for (int trial = 0; trial < 20; ++trial) {
@@ -69,7 +71,8 @@ TEST_CASE("the curve begins in the first cell and goes on where a cube of 2^20 /
   CHECK(largest == (std::uint64_t{1} << 60) - 1);  // the curve ends in a corner of the grid
 }
 
-TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of their boxes along the curve", "[unit]") {
+TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of their boxes along the curve",
+          "[unit]") {
   const std::vector<Vec> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
   const std::vector<EdgeEnds> edges{{0, 1}, {0, 3}};
   std::vector<Facet> facets(1);
@@ -87,10 +90,13 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   std::vector<int> values(7);
   for (int i = 0; i < 7; ++i) HilbertKeys{surface, positions.data(), tree, tree, keys.data(), values.data()}(i);
   CHECK(values == std::vector<int>{0, 1, 2, 3, 0, 1, 0});
-  const auto key_of = [](std::uint64_t kind, std::uint32_t x, std::uint32_t y, std::uint32_t z) { return kind << 62 | hilbert_key({{x, y, z}}); };
+  const auto key_of = [](std::uint64_t kind, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return kind << 62 | hilbert_key({{x, y, z}});
+  };
   constexpr std::uint32_t last = (1U << 20) - 1, half = last / 2;
-  CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0), key_of(0, last, last, last),
-                                           key_of(1, half, 0, 0), key_of(1, half, half, half), key_of(2, half, half, 0)});
+  CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0),
+                                           key_of(0, last, last, last), key_of(1, half, 0, 0),
+                                           key_of(1, half, half, half), key_of(2, half, half, 0)});
   // A mesh without extent lies in the first cell.
   Quad point;
   Box one;

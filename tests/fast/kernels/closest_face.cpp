@@ -1,4 +1,5 @@
-// Values by hand: the triangle (0,0,0), (4,0,0), (0,4,0), seen from points over each of its seven faces and on the planes between them.
+// Values by hand: the triangle (0,0,0), (4,0,0), (0,4,0), seen from points over each of its seven faces and on the
+// planes between them.
 #include "fast/kernels/closest_face.hpp"
 
 #include <array>
@@ -21,15 +22,15 @@ struct Hand {
 const std::array<Vec, 3> corners{Vec{0, 0, 0}, Vec{4, 0, 0}, Vec{0, 4, 0}};
 
 const std::vector<Hand> hands{
-    {{1, 1, 2}, 7, 2},                           // over the inside
-    {{-3, -4, 0}, 1, 5},                         // beyond corner 0
-    {{4, -3, 4}, 2, 5},                          // on the end plane of corner 1 and edge 01: the corner wins
-    {{1, -3, 4}, 3, 5},                          // beside edge 01
-    {{1, 0, 2}, 3, 2},                           // over edge 01: the edge wins over the inside
-    {{4, 4, 0}, 6, std::sqrt(8.0)},              // beside edge 12: foot (2, 2)
-    {{-2, 1, 0}, 5, 2},                          // beside edge 20
-    {{0, 0, 3}, 1, 3},                           // over a corner
-    {{0, 9, 12}, 4, 13},                         // beyond corner 2
+    {{1, 1, 2}, 7, 2},               // over the inside
+    {{-3, -4, 0}, 1, 5},             // beyond corner 0
+    {{4, -3, 4}, 2, 5},              // on the end plane of corner 1 and edge 01: the corner wins
+    {{1, -3, 4}, 3, 5},              // beside edge 01
+    {{1, 0, 2}, 3, 2},               // over edge 01: the edge wins over the inside
+    {{4, 4, 0}, 6, std::sqrt(8.0)},  // beside edge 12: foot (2, 2)
+    {{-2, 1, 0}, 5, 2},              // beside edge 20
+    {{0, 0, 3}, 1, 3},               // over a corner
+    {{0, 9, 12}, 4, 13},             // beyond corner 2
 };
 
 /// Corners of the feature, as a bit set of places in the triangle.
@@ -40,16 +41,21 @@ int bits(TriangleFeature feature) {
 
 double distance_to_segment(const Vec& x, const Vec& a, const Vec& b) {
   using Wide = long double;
-  const std::array<Wide, 3> u{Wide(x.x) - a.x, Wide(x.y) - a.y, Wide(x.z) - a.z}, e{Wide(b.x) - a.x, Wide(b.y) - a.y, Wide(b.z) - a.z};
+  const std::array<Wide, 3> u{Wide(x.x) - a.x, Wide(x.y) - a.y, Wide(x.z) - a.z},
+      e{Wide(b.x) - a.x, Wide(b.y) - a.y, Wide(b.z) - a.z};
   const Wide ee = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], ue = u[0] * e[0] + u[1] * e[1] + u[2] * e[2];
   const Wide t = ee > 0 ? std::min<Wide>(1, std::max<Wide>(0, ue / ee)) : 0;
-  return static_cast<double>(std::sqrt(std::pow(u[0] - t * e[0], 2) + std::pow(u[1] - t * e[1], 2) + std::pow(u[2] - t * e[2], 2)));
+  return static_cast<double>(
+      std::sqrt(std::pow(u[0] - t * e[0], 2) + std::pow(u[1] - t * e[1], 2) + std::pow(u[2] - t * e[2], 2)));
 }
 
 double distance_to_triangle(const Vec& x, const Corners& t) {
-  const double edges = std::min({distance_to_segment(x, t.a, t.b), distance_to_segment(x, t.b, t.c), distance_to_segment(x, t.a, t.c)});
+  const double edges = std::min(
+      {distance_to_segment(x, t.a, t.b), distance_to_segment(x, t.b, t.c), distance_to_segment(x, t.a, t.c)});
   using Wide = long double;
-  const auto minus = [](const Vec& p, const Vec& q) { return std::array<Wide, 3>{Wide(p.x) - q.x, Wide(p.y) - q.y, Wide(p.z) - q.z}; };
+  const auto minus = [](const Vec& p, const Vec& q) {
+    return std::array<Wide, 3>{Wide(p.x) - q.x, Wide(p.y) - q.y, Wide(p.z) - q.z};
+  };
   const auto by = [](const auto& p, const auto& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; };
   const auto times = [](const auto& p, const auto& q) {
     return std::array<Wide, 3>{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
@@ -63,7 +69,8 @@ double distance_to_triangle(const Vec& x, const Corners& t) {
 }  // namespace
 
 TEST_CASE("closest_face: hand cases in all six orders of the corners", "[unit]") {
-  constexpr std::array<std::array<int, 3>, 6> orders{{{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  constexpr std::array<std::array<int, 3>, 6> orders{
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
   for (const Hand& hand : hands) {
     for (const auto& order : orders) {
       const auto at = [&](std::size_t k) { return corners[static_cast<std::size_t>(order[k])]; };
@@ -96,9 +103,12 @@ TEST_CASE("closest_face: distance_below never exceeds the distance, and is close
   for (int i = 0; i < 200000; ++i) {
     const float size = std::ldexp(1.0F, exponent(random));
     Corners t{point(size), point(size), point(size)};
-    if (i % 3 == 1) t.c = t.a + unit(random) * (t.b - t.a) + std::ldexp(1.0F, thinness(random)) * point(size);  // slivers
-    if (i % 3 == 2) t.b = t.a + std::ldexp(1.0F, thinness(random)) * point(size);                               // needles
-    const Vec x = i % 2 == 0 ? point(size) : (1.0F / 3) * (t.a + t.b + t.c) + std::ldexp(1.0F, thinness(random)) * point(size);
+    // slivers
+    if (i % 3 == 1) t.c = t.a + unit(random) * (t.b - t.a) + std::ldexp(1.0F, thinness(random)) * point(size);
+    // needles
+    if (i % 3 == 2) t.b = t.a + std::ldexp(1.0F, thinness(random)) * point(size);
+    const Vec x = i % 2 == 0 ? point(size)
+                             : (1.0F / 3) * (t.a + t.b + t.c) + std::ldexp(1.0F, thinness(random)) * point(size);
     const Distance d = point_triangle_distance(x, t);
     const double exact = distance_to_triangle(x, t), extent = static_cast<double>(size) * 8;
     above += static_cast<double>(d.below()) > exact * (1 + 1e-15) + extent * 1e-18;
@@ -108,14 +118,16 @@ TEST_CASE("closest_face: distance_below never exceeds the distance, and is close
   CHECK(loose == 0);
 }
 
-TEST_CASE("closest_face: the chosen face attains the triangle's distance, on lattices as on random points", "[property]") {
+TEST_CASE("closest_face: the chosen face attains the triangle's distance, on lattices as on random points",
+          "[property]") {
   std::mt19937 random(6);
   std::uniform_int_distribution<int> lattice(-3, 3);
   std::uniform_real_distribution<float> unit(-1, 1);
   int wrong = 0;
   for (int i = 0; i < 200000; ++i) {
     const auto point = [&] {
-      return i % 2 == 0 ? Vec{static_cast<float>(lattice(random)), static_cast<float>(lattice(random)), static_cast<float>(lattice(random))}
+      return i % 2 == 0 ? Vec{static_cast<float>(lattice(random)), static_cast<float>(lattice(random)),
+                              static_cast<float>(lattice(random))}
                         : Vec{unit(random), unit(random), unit(random)};
     };
     const Corners t{point(), point(), point()};

@@ -49,14 +49,18 @@ TEST_CASE("closest_points: hand cases", "[unit]") {
   CHECK(features({1, 1, 0}, {2, 5, 0}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});
   CHECK(features({6, -1, 0}, {6, 1, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::interior});
   CHECK(features({5, 1, 0}, {9, 1, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
-  CHECK(features({4, 1, 0}, {4, 5, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});  // on the end plane the vertex wins
+  // on the end plane the vertex wins
+  CHECK(features({4, 1, 0}, {4, 5, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
   CHECK(features({-9, 3, 0}, {-3, 4, 0}) == std::pair{EdgeFeature::end_0, EdgeFeature::end_1});
   CHECK(edge_edge_distance(x_axis, {{-9, 3, 0}, {-3, 4, 0}}).value == 5);
-  CHECK(features({2, 3, 4}, {2, 3, 4}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});  // no length: its end_0
+  // no length: its end_0
+  CHECK(features({2, 3, 4}, {2, 3, 4}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});
 }
 
-TEST_CASE("closest_points: nearly parallel edges meet in the middle of their overlap, with the true distance beside", "[unit]") {
-  const Ends first{{0, 0, 0}, {4, 0, 0}}, second{{1, 3, 0}, {7, 3, 0}}, touching{{4, 3, 0}, {7, 3, 0}}, steep{{1, 3, 0}, {7, 3.0625F, 0}};
+TEST_CASE("closest_points: nearly parallel edges meet in the middle of their overlap, with the true distance beside",
+          "[unit]") {
+  const Ends first{{0, 0, 0}, {4, 0, 0}}, second{{1, 3, 0}, {7, 3, 0}}, touching{{4, 3, 0}, {7, 3, 0}},
+      steep{{1, 3, 0}, {7, 3.0625F, 0}};
   CHECK(is_overlapping_parallel(first, second));
   CHECK_FALSE(is_overlapping_parallel(first, touching));  // projections share one point only
   CHECK_FALSE(is_overlapping_parallel(first, steep));     // angle 0.01
@@ -68,7 +72,8 @@ TEST_CASE("closest_points: nearly parallel edges meet in the middle of their ove
   CHECK(edge_edge_distance(first, second).value == 3);
 }
 
-TEST_CASE("closest_points: distance_below never exceeds the distance on a ladder of angles down to parallel", "[property]") {
+TEST_CASE("closest_points: distance_below never exceeds the distance on a ladder of angles down to parallel",
+          "[property]") {
   std::mt19937 random(9);
   std::uniform_real_distribution<float> unit(-1, 1);
   std::uniform_int_distribution<int> angle(-40, 0), exponent(-20, 10);
@@ -79,7 +84,8 @@ TEST_CASE("closest_points: distance_below never exceeds the distance on a ladder
     const Ends p{point(size), point(size)};
     Ends q{point(size), point(size)};
     if (i % 4 != 0) {  // through the first edge's neighbourhood, at a small angle, crossing inside
-      const Vec off = std::ldexp(1.0F, angle(random)) * point(size), turn = std::ldexp(1.0F, angle(random)) * point(size);
+      const Vec off = std::ldexp(1.0F, angle(random)) * point(size),
+                turn = std::ldexp(1.0F, angle(random)) * point(size);
       q = {p.a + off - turn, p.b + off + turn};
     }
     const Distance d = edge_edge_distance(p, q);
@@ -91,14 +97,16 @@ TEST_CASE("closest_points: distance_below never exceeds the distance on a ladder
   CHECK(loose == 0);
 }
 
-TEST_CASE("closest_points: the chosen faces attain the distance of the edges, on lattices as on random points", "[property]") {
+TEST_CASE("closest_points: the chosen faces attain the distance of the edges, on lattices as on random points",
+          "[property]") {
   std::mt19937 random(10);
   std::uniform_int_distribution<int> lattice(-3, 3);
   std::uniform_real_distribution<float> unit(-1, 1);
   int wrong = 0;
   for (int i = 0; i < 100000; ++i) {
     const auto point = [&] {
-      return i % 2 == 0 ? Vec{static_cast<float>(lattice(random)), static_cast<float>(lattice(random)), static_cast<float>(lattice(random))}
+      return i % 2 == 0 ? Vec{static_cast<float>(lattice(random)), static_cast<float>(lattice(random)),
+                              static_cast<float>(lattice(random))}
                         : Vec{unit(random), unit(random), unit(random)};
     };
     const Ends p{point(), point()}, q{point(), point()};

@@ -11,7 +11,8 @@ using namespace ogc::fast::test;
 namespace {
 
 constexpr double u = 0x1p-24;
-constexpr ContactKind kinds[] = {ContactKind::point_point, ContactKind::point_segment, ContactKind::segment_segment, ContactKind::point_triangle};
+constexpr ContactKind kinds[] = {ContactKind::point_point, ContactKind::point_segment, ContactKind::segment_segment,
+                                 ContactKind::point_triangle};
 
 // Which slots belong to the first side, the second, or to none.
 constexpr int sides[4][4] = {{1, 0, 2, 0}, {1, 0, 2, 2}, {1, 1, 2, 2}, {1, 2, 2, 2}};
@@ -51,7 +52,9 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
   for (const ContactKind kind : kinds) {
     for (int i = 0; i < 20000; ++i) {
       const Placement p = random_placement(random, kind, 0.01);
-      if (kind == ContactKind::segment_segment && length(cross(p.x[1] - p.x[0], p.x[3] - p.x[2])) < 0.05 * p.size * p.size) continue;
+      if (kind == ContactKind::segment_segment &&
+          length(cross(p.x[1] - p.x[0], p.x[3] - p.x[2])) < 0.05 * p.size * p.size)
+        continue;
       const ContactWeights w = contact_weights(kind, p.x);
       D3 first, second;
       closest(kind, p, w, first, second);
@@ -61,8 +64,10 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
         const int side = sides[static_cast<int>(kind)][k];
         total[side] += w.slot[k];
         REQUIRE((side == 0 ? w.slot[k] == 0 : side == 1 ? w.slot[k] >= 0 : w.slot[k] <= 0));
-        // Convexity: no vertex of a side lies nearer to the other side's point than its own closest point does, seen along the gap.
-        const double nearer = dot(gap, (wide(p.x[k]) - wide(p.x[0])) - (side == 1 ? first : second)) * (side == 1 ? -1 : 1);
+        // Convexity: no vertex of a side lies nearer to the other side's point than its own closest point does, seen
+        // along the gap.
+        const double nearer = dot(gap, (wide(p.x[k]) - wide(p.x[0])) - (side == 1 ? first : second)) *
+                              (side == 1 ? -1 : 1);
         if (side != 0) REQUIRE(nearer <= 4e4 * u * p.size * p.size);
       }
       REQUIRE(std::abs(total[1] - 1) <= 4 * u);
@@ -71,7 +76,8 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
   }
 }
 
-TEST_CASE("where the sort of a contact is known its weights are the same, and a slot's weight is found by its number", "[property]") {
+TEST_CASE("where the sort of a contact is known its weights are the same, and a slot's weight is found by its number",
+          "[property]") {
   std::mt19937 random(32);
   const auto same = [](const ContactWeights& a, const ContactWeights& b) {
     bool equal = true;
@@ -82,7 +88,8 @@ TEST_CASE("where the sort of a contact is known its weights are the same, and a 
     for (int i = 0; i < 1000; ++i) {
       const Placement p = random_placement(random, kind, 0.01);
       const ContactWeights any = contact_weights(kind, p.x);
-      if (kind != ContactKind::segment_segment) REQUIRE(same(contact_weights<ContactSort::vertex_facet>(kind, p.x), any));
+      if (kind != ContactKind::segment_segment)
+        REQUIRE(same(contact_weights<ContactSort::vertex_facet>(kind, p.x), any));
       if (kind != ContactKind::point_triangle) REQUIRE(same(contact_weights<ContactSort::edge_edge>(kind, p.x), any));
     }
   }
@@ -121,15 +128,19 @@ TEST_CASE("contact forces leave no net force and no net torque, and blocks are g
         strength = add_contact<float>(ContactActivation::ogc, shape, w.slot[k], w.slot[k] * w.slot[k], 0.05f, 100, sum);
         force += wide(sum.force);
         torque += cross(wide(p.x[k]) - wide(p.x[0]), wide(sum.force));
-        const double curvature = activation_slope(ContactActivation::ogc, shape.distance, 0.05f, 100).curvature * static_cast<double>(w.slot[k]) * w.slot[k];
+        const double curvature = activation_slope(ContactActivation::ogc, shape.distance, 0.05f, 100).curvature *
+                                 static_cast<double>(w.slot[k]) * w.slot[k];
         const D3 n = wide(shape.normal);
-        REQUIRE(largest_difference(dense(sum.block), {curvature * n.x * n.x, curvature * n.x * n.y, curvature * n.x * n.z, curvature * n.x * n.y,
-                                                      curvature * n.y * n.y, curvature * n.y * n.z, curvature * n.x * n.z, curvature * n.y * n.z,
-                                                      curvature * n.z * n.z}) <= 8 * u * curvature);
+        REQUIRE(largest_difference(dense(sum.block),
+                                   {curvature * n.x * n.x, curvature * n.x * n.y, curvature * n.x * n.z,
+                                    curvature * n.x * n.y, curvature * n.y * n.y, curvature * n.y * n.z,
+                                    curvature * n.x * n.z, curvature * n.y * n.z, curvature * n.z * n.z}) <=
+                8 * u * curvature);
       }
       REQUIRE(strength > 0);
       REQUIRE(length(force) <= 16 * u * strength);
-      // The arm of the pair of forces is along n but for the error of the weights' sum; the normal's own error is that of the gap.
+      // The arm of the pair of forces is along n but for the error of the weights' sum; the normal's own error is that
+      // of the gap.
       REQUIRE(length(torque) <= 64 * u * strength * p.size * std::max(1.0, p.size / shape.distance));
     }
   }
@@ -142,12 +153,15 @@ TEST_CASE("a force pushes the two sides apart by the slope of the activation", "
   CHECK(w.slot[2] == Approx(-0.25));
   CHECK(w.slot[3] == Approx(-0.25));
   ForceAndBlock sum;
-  CHECK(add_contact<float>(ContactActivation::ogc, contact_shape(weighted_sum(w, x), 0.005f), 1, 1, 0.005f, 10, sum) == Approx(10 * 0.002).epsilon(1e-5));  // k_c (r − d)
+  // k_c (r − d)
+  CHECK(add_contact<float>(ContactActivation::ogc, contact_shape(weighted_sum(w, x), 0.005f), 1, 1, 0.005f, 10, sum) ==
+        Approx(10 * 0.002).epsilon(1e-5));
   CHECK(sum.force.y == Approx(0.02).epsilon(1e-5));
   CHECK(sum.block.yy == Approx(10));
 }
 
-TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, and at the smallest distances", "[unit]") {
+TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, and at the smallest distances",
+          "[unit]") {
   std::mt19937 random(34);
   for (const ContactKind kind : kinds) {
     for (int equal = 0; equal < 64; ++equal) {
@@ -158,7 +172,8 @@ TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, a
       const ContactWeights w = contact_weights(kind, p.x);
       const ContactShape shape = contact_shape(weighted_sum(w, p.x), 0.05f);
       ForceAndBlock sum;
-      if (shape.acts) add_contact<float>(ContactActivation::ogc, shape, w.slot[0], w.slot[0] * w.slot[0], 0.05f, 100, sum);
+      if (shape.acts)
+        add_contact<float>(ContactActivation::ogc, shape, w.slot[0], w.slot[0] * w.slot[0], 0.05f, 100, sum);
       REQUIRE(std::isfinite(length(sum.force)));
       REQUIRE(std::isfinite(sum.block.xx + sum.block.xy + sum.block.xz + sum.block.yy + sum.block.yz + sum.block.zz));
     }
@@ -198,7 +213,8 @@ TEST_CASE("the mollifier is 0 for parallel edges, 1 from its limit on, and C1 th
   CHECK(mollifier({1, 0, 0}, {2, 0, 0}, 1, 4) == 0);
   CHECK(mollifier({1, 0, 0}, {0, 2, 0}, 1, 4) == 1);
   const auto at = [](double sine) {
-    return static_cast<double>(mollifier({1, 0, 0}, {static_cast<float>(std::sqrt(1 - sine * sine)), static_cast<float>(sine), 0}, 1, 1));
+    return static_cast<double>(
+        mollifier({1, 0, 0}, {static_cast<float>(std::sqrt(1 - sine * sine)), static_cast<float>(sine), 0}, 1, 1));
   };
   const double limit = std::sqrt(1e-3);
   CHECK(at(limit * std::sqrt(0.5)) == Approx(0.75));
@@ -217,7 +233,8 @@ TEST_CASE("a point far above a corner keeps its foot on the side where it is, th
 }
 
 TEST_CASE("almost collinear edges one behind the other meet at the end that is nearer, whichever it is", "[unit]") {
-  // The second begins behind the first, seen along the first; seen along itself, the tilted one begins before the first ends.
+  // The second begins behind the first, seen along the first; seen along itself, the tilted one begins before the first
+  // ends.
   const Vec x[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.1004f}};
   const ContactWeights forward = contact_weights(ContactKind::segment_segment, x);
   CHECK(forward.slot[1] == 1);

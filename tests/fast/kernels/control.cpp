@@ -38,7 +38,8 @@ TEST_CASE("another round of the guess needs enough cut vertices and a round left
   CHECK(c.guess == 0);  // too few
 }
 
-TEST_CASE("an iteration asks for a detection at the threshold or when it is due, and says how many were cut", "[unit]") {
+TEST_CASE("an iteration asks for a detection at the threshold or when it is due, and says how many were cut",
+          "[unit]") {
   ControlSettings settings;
   settings.cut_threshold = 5;
   StepControl c = running();
@@ -89,7 +90,8 @@ TEST_CASE("iterations take turns, none while a detection is due, and after the l
   CHECK(c.detect == 0);
 }
 
-TEST_CASE("a list that was too small, a violation or a number that is not finite stops the step and all that follow", "[unit]") {
+TEST_CASE("a list that was too small, a violation or a number that is not finite stops the step and all that follow",
+          "[unit]") {
   const int overflow = 1, none = 0;
   StepControl c = running();
   EndDetection{&c, &overflow}(0);

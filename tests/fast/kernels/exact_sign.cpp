@@ -1,4 +1,5 @@
-// Single precision may leave a sign open, but what it is certain of must be right: whatever the scale, and where terms cancel or underflow.
+// Single precision may leave a sign open, but what it is certain of must be right: whatever the scale, and where terms
+// cancel or underflow.
 #include "fast/kernels/predicates.hpp"
 
 #include <cmath>
@@ -26,11 +27,15 @@ class Points {
  public:
   explicit Points(unsigned seed) : random_(seed) {}
 
-  /// Generic, on a lattice, on a line but for the last digits, or with a right angle but for them; far from the origin or not; from 2⁻⁵⁰ to 2³⁰.
+  /// Generic, on a lattice, on a line but for the last digits, or with a right angle but for them; far from the origin
+  /// or not; from 2⁻⁵⁰ to 2³⁰.
   void next(Vec (&x)[4], bool generic) {
     const int kind = generic ? 0 : static_cast<int>(random_() % 4);
-    const float scale = std::ldexp(1.0F, generic ? -6 : static_cast<int>(random_() % 81) - 50), shift = random_() % 3 == 0 ? 100 * scale : 0.0F;
-    for (Vec& p : x) p = kind == 1 ? Vec{integer(), integer(), integer()} : Vec{uniform_(random_), uniform_(random_), uniform_(random_)};
+    const float scale = std::ldexp(1.0F, generic ? -6 : static_cast<int>(random_() % 81) - 50),
+                shift = random_() % 3 == 0 ? 100 * scale : 0.0F;
+    for (Vec& p : x)
+      p = kind == 1 ? Vec{integer(), integer(), integer()}
+                    : Vec{uniform_(random_), uniform_(random_), uniform_(random_)};
     const float little = std::ldexp(1.0F, -static_cast<int>(random_() % 30));
     if (kind == 2) {
       for (int k = 2; k < 4; ++k) x[k] = x[0] + uniform_(random_) * (x[1] - x[0]) + little * x[k];
@@ -73,4 +78,6 @@ TEST_CASE("exact_sign: single precision is never certain of a wrong sign", "[pro
   CHECK(all.certain > 0);
 }
 
-TEST_CASE("exact_sign: single precision decides 999 of 1000 generic signs", "[property]") { CHECK(tally(2, 100'000, true).certain > 499'500); }
+TEST_CASE("exact_sign: single precision decides 999 of 1000 generic signs", "[property]") {
+  CHECK(tally(2, 100'000, true).certain > 499'500);
+}

@@ -30,7 +30,8 @@ TEST_CASE("friction is tangential, opposes the slip and never exceeds mu lambda"
   std::normal_distribution<float> normal;
   for (int i = 0; i < 20000; ++i) {
     const Vec n = random_normal(random);
-    const Vec moved = std::pow(10.0f, static_cast<float>(i % 6 - 7)) * Vec{normal(random), normal(random), normal(random)};
+    const Vec moved = std::pow(10.0f, static_cast<float>(i % 6 - 7)) *
+                      Vec{normal(random), normal(random), normal(random)};
     const D3 f = wide(of(n, moved).force), tangential = wide(moved) - dot(wide(n), wide(moved)) * wide(n);
     const double size = friction * normal_force;
     // The slip loses 3 u of the movement when its normal part is taken away.
@@ -64,6 +65,7 @@ TEST_CASE("friction on the two sides cancels, and its block is positive semidefi
     const Vec n = random_normal(random), moved = 1e-4f * Vec{normal(random), normal(random), normal(random)};
     const ForceAndBlock first = of(n, moved, 1), a = of(n, moved, -0.25f), b = of(n, moved, -0.75f);
     REQUIRE(length(wide(first.force) + wide(a.force) + wide(b.force)) <= 4 * u * friction * normal_force);
-    REQUIRE(least_curvature(first.block, random) >= -8 * u * first.block.xx - 8 * u * first.block.yy - 8 * u * first.block.zz);
+    REQUIRE(least_curvature(first.block, random) >=
+            -8 * u * first.block.xx - 8 * u * first.block.yy - 8 * u * first.block.zz);
   }
 }

@@ -13,7 +13,10 @@ TEST_CASE("the logarithm of a ratio stays within 5 u of its value, from neighbou
   double worst = 0;
   for (int i = 0; i < 1000000; ++i) {
     const float d = std::exp2(exponent(random));
-    float r = i % 4 == 0 ? d * (1 + std::exp2(-24 * share(random))) : i % 4 == 1 ? d * (1 + share(random)) : i % 4 == 2 ? d * (2 + share(random)) : d * std::exp2(20 * share(random));
+    float r = i % 4 == 0   ? d * (1 + std::exp2(-24 * share(random)))
+              : i % 4 == 1 ? d * (1 + share(random))
+              : i % 4 == 2 ? d * (2 + share(random))
+                           : d * std::exp2(20 * share(random));
     if (i % 16 == 0) r = std::nextafter(d, 2 * d);
     const double exact = std::log(static_cast<double>(r) / d);
     if (exact == 0) continue;

@@ -21,7 +21,8 @@ std::array<double, 3> strain_of(const TriangleRest& rest, const std::vector<D3>&
 }
 
 double quadratic_form(const SurfaceMaterial& m, double area, const std::array<double, 3>& g) {
-  return area * (m.lame_lambda / 2.0 * (g[0] + g[2]) * (g[0] + g[2]) + m.lame_mu * (g[0] * g[0] + 2 * g[1] * g[1] + g[2] * g[2]));
+  return area * (m.lame_lambda / 2.0 * (g[0] + g[2]) * (g[0] + g[2]) +
+                 m.lame_mu * (g[0] * g[0] + 2 * g[1] * g[1] + g[2] * g[2]));
 }
 
 struct Case {
@@ -32,23 +33,29 @@ struct Case {
   std::vector<D3> wide_x() const { return {wide(x[0]), wide(x[1]), wide(x[2])}; }
   double energy(const std::vector<D3>& at) const {
     const auto g = strain_of(rest, at), g0 = strain_of(rest, {wide(start[0]), wide(start[1]), wide(start[2])});
-    return quadratic_form(material, rest.area, g) + material.membrane_damping * quadratic_form(material, rest.area, {g[0] - g0[0], g[1] - g0[1], g[2] - g0[2]});
+    return quadratic_form(material, rest.area, g) +
+           material.membrane_damping * quadratic_form(material, rest.area, {g[0] - g0[0], g[1] - g0[1], g[2] - g0[2]});
   }
   ForceAndBlock add(int corner) const {
     const int b = (corner + 1) % 3, c = (corner + 2) % 3;
-    const MembraneStencil stencil{{rest.gradient[b][0], rest.gradient[b][1]}, {rest.gradient[c][0], rest.gradient[c][1]}, rest.area};
-    const Symmetric2 before = green_strain(deformation_gradient(start[1] - start[0], start[2] - start[0], rest.gradient[1], rest.gradient[2]));
+    const MembraneStencil stencil{
+        {rest.gradient[b][0], rest.gradient[b][1]}, {rest.gradient[c][0], rest.gradient[c][1]}, rest.area};
+    const Symmetric2 before = green_strain(
+        deformation_gradient(start[1] - start[0], start[2] - start[0], rest.gradient[1], rest.gradient[2]));
     ForceAndBlock sum;
     const auto own = static_cast<std::size_t>(corner);
-    add_membrane(stencil, material, x[static_cast<std::size_t>(b)] - x[own], x[static_cast<std::size_t>(c)] - x[own], before, sum);
+    add_membrane(stencil, material, x[static_cast<std::size_t>(b)] - x[own], x[static_cast<std::size_t>(c)] - x[own],
+                 before, sum);
     return sum;
   }
   // Of the rounding of a force: strain of rounding u (1 + ‖F‖²), times stiffness, ‖F‖ and the largest ‖∇N‖.
   double force_scale() const {
     double stretch = 0, gradient = 0;
-    for (int k = 0; k < 3; ++k) gradient = std::max<double>(gradient, std::hypot(rest.gradient[k][0], rest.gradient[k][1]));
+    for (int k = 0; k < 3; ++k)
+      gradient = std::max<double>(gradient, std::hypot(rest.gradient[k][0], rest.gradient[k][1]));
     for (std::size_t k = 1; k < 3; ++k) stretch += gradient * length(x[k] - x[0]);
-    return rest.area * (material.lame_lambda + 2 * material.lame_mu) * (1 + material.membrane_damping) * gradient * stretch * (1 + stretch * stretch);
+    return rest.area * (material.lame_lambda + 2 * material.lame_mu) * (1 + material.membrane_damping) * gradient *
+           stretch * (1 + stretch * stretch);
   }
 };
 
@@ -66,7 +73,8 @@ Case random_case(std::mt19937& random, double deformation) {
   const RigidMotion motion(random, 0.1);
   for (const auto& corner : p) {
     const auto moved = [&] {
-      return narrow(motion({corner.x, corner.y, corner.z}) + deformation * D3{normal(random), normal(random), normal(random)});
+      return narrow(motion({corner.x, corner.y, corner.z}) +
+                    deformation * D3{normal(random), normal(random), normal(random)});
     };
     c.x.push_back(moved());
     c.start.push_back(moved());
@@ -81,8 +89,10 @@ TEST_CASE("membrane forces are the negative gradient of energy and damping", "[p
   for (int i = 0; i < 2000; ++i) {
     const Case c = random_case(random, i % 2 == 0 ? 1e-3 : 2e-2);
     for (int corner = 0; corner < 3; ++corner) {
-      const D3 expected = force_by_differences([&](const auto& at) { return c.energy(at); }, c.wide_x(), static_cast<std::size_t>(corner), 1e-7);
-      // 24 u: strain (6 roundings), stress (4), product with F and b (6), each on terms of this size; 1e-8: the differences' own error.
+      const D3 expected = force_by_differences([&](const auto& at) { return c.energy(at); }, c.wide_x(),
+                                               static_cast<std::size_t>(corner), 1e-7);
+      // 24 u: strain (6 roundings), stress (4), product with F and b (6), each on terms of this size; 1e-8: the
+      // differences' own error.
       REQUIRE(length(wide(c.add(corner).force) - expected) <= (24 * u + 1e-8) * c.force_scale());
     }
   }
@@ -102,8 +112,10 @@ TEST_CASE("the membrane's block is its material part plus the clamped geometric 
       for (std::size_t j = 0; j < 3; ++j) dg[static_cast<std::size_t>(k)][j] = (ga[j] - gb[j]) / (2 * h);
     }
     const auto g = strain_of(c.rest, c.wide_x());
-    const double bx = c.rest.gradient[0][0], by = c.rest.gradient[0][1], l = c.material.lame_lambda, m = c.material.lame_mu;
-    const double geometric = bx * bx * (l * (g[0] + g[2]) + 2 * m * g[0]) + 2 * bx * by * 2 * m * g[1] + by * by * (l * (g[0] + g[2]) + 2 * m * g[2]);
+    const double bx = c.rest.gradient[0][0], by = c.rest.gradient[0][1], l = c.material.lame_lambda,
+                 m = c.material.lame_mu;
+    const double geometric = bx * bx * (l * (g[0] + g[2]) + 2 * m * g[0]) + 2 * bx * by * 2 * m * g[1] +
+                             by * by * (l * (g[0] + g[2]) + 2 * m * g[2]);
     std::array<double, 9> expected{};
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {

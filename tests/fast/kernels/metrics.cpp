@@ -13,7 +13,8 @@ namespace {
 
 using Sums = std::array<double, sum_columns>;
 
-// One vertex of 3 kg that has come from (1, 2, 4) to (2, 5, 9) and was to go to (4, 9, 16), in steps of half a second under an acceleration of (−1, 2, −10).
+// One vertex of 3 kg that has come from (1, 2, 4) to (2, 5, 9) and was to go to (4, 9, 16), in steps of half a second
+// under an acceleration of (−1, 2, −10).
 struct OneVertex {
   Vec position{2, 5, 9}, start{1, 2, 4}, target{4, 9, 16}, previous{1, 2, 4};
   float mass = 3, bound = 10;
@@ -73,7 +74,9 @@ TEST_CASE("the share of momentum lost is the quotient of two lengths, and 0 wher
   CHECK(momentum_lost(sums.data()) == 0);
 }
 
-TEST_CASE("at the end of a step the smallest bound, the lag of what is prescribed, and what broke its bound or is not finite", "[unit]") {
+TEST_CASE(
+    "at the end of a step the smallest bound, the lag of what is prescribed, and what broke its bound or is not finite",
+    "[unit]") {
   OneVertex vertex;
   vertex.target = {4, 8, 15};  // 2, 3, 6 away: 7
   StepControl control = vertex.checked(2);
@@ -91,7 +94,8 @@ TEST_CASE("at the end of a step the smallest bound, the lag of what is prescribe
   CHECK(vertex.checked(-1).not_finite == 1);
 }
 
-TEST_CASE("the row of a step holds what was counted; one that a list stopped or that was not begun writes none", "[unit]") {
+TEST_CASE("the row of a step holds what was counted; one that a list stopped or that was not begun writes none",
+          "[unit]") {
   const int contacts[2] = {11, 12};
   ContactView view{};
   view.vertex_facet_count = &contacts[0], view.edge_edge_count = &contacts[1];
@@ -111,9 +115,11 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   CHECK(control.steps_done == 2);
   const StepRow& row = rows[1];
   CHECK(row.status == 0);
-  CHECK(std::array{row.vertex_facet_contacts, row.edge_edge_contacts, row.detections, row.rounds, row.iterations, row.cut_last} == std::array{11, 12, 3, 4, 5, 6});
+  CHECK(std::array{row.vertex_facet_contacts, row.edge_edge_contacts, row.detections, row.rounds, row.iterations,
+                   row.cut_last} == std::array{11, 12, 3, 4, 5, 6});
   CHECK(std::array{row.query_radius, row.smallest_bound, row.largest_lag} == std::array{7.0f, 8.0f, 9.0f});
-  CHECK(std::array{row.lost_guess, row.lost_end, row.kinetic, row.gravity, row.elastic, row.contact} == std::array{0.25, 0.5, 20.0, 21.0, 90.0, 360.0});
+  CHECK(std::array{row.lost_guess, row.lost_end, row.kinetic, row.gravity, row.elastic, row.contact} ==
+        std::array{0.25, 0.5, 20.0, 21.0, 90.0, 360.0});
   control.status = compare::step_list_grew;
   FinishStep{&control, view, guess.data(), end.data(), rows}(0);
   control.status = 0, control.attempted = 0;

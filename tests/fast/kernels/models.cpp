@@ -1,4 +1,5 @@
-// The kernels of the models that are not the default ones, against differences of energies that are written here once more.
+// The kernels of the models that are not the default ones, against differences of energies that are written here once
+// more.
 #include <random>
 
 #include "fast/kernels/sweep_models.hpp"
@@ -25,13 +26,17 @@ struct Triangle {
     rest.area = 0.5f;
     material.lame_lambda = stiff(random);
     material.lame_mu = stiff(random);
-    x = {{near(random), near(random), near(random)}, {1 + near(random), near(random), near(random)}, {near(random), 1 + near(random), near(random)}};
+    x = {{near(random), near(random), near(random)},
+         {1 + near(random), near(random), near(random)},
+         {near(random), 1 + near(random), near(random)}};
   }
   MembraneStencil stencil(int corner) const {
     const int b = (corner + 1) % 3, c = (corner + 2) % 3;
     return {{rest.gradient[b][0], rest.gradient[b][1]}, {rest.gradient[c][0], rest.gradient[c][1]}, rest.area};
   }
-  Vec to(int corner, int next) const { return x[static_cast<std::size_t>((corner + next) % 3)] - x[static_cast<std::size_t>(corner)]; }
+  Vec to(int corner, int next) const {
+    return x[static_cast<std::size_t>((corner + next) % 3)] - x[static_cast<std::size_t>(corner)];
+  }
   double energy(const std::vector<D3>& at) const {
     D3 f[2];
     for (int column = 0; column < 2; ++column)
@@ -42,12 +47,16 @@ struct Triangle {
   }
 };
 
-// Forces of size 10 with a few tens of roundings, or a step of 10⁻⁴ of energies of size 10 with third derivatives of size 100.
+// Forces of size 10 with a few tens of roundings, or a step of 10⁻⁴ of energies of size 10 with third derivatives of
+// size 100.
 constexpr double accepted = 1e-4;
 
 }  // namespace
 
-TEST_CASE("stable Neo-Hookean kernel: the force is minus the slope of the energy, forces add up to nothing, the block is no less than the slope's", "[property]") {
+TEST_CASE(
+    "stable Neo-Hookean kernel: the force is minus the slope of the energy, forces add up to nothing, the block is no "
+    "less than the slope's",
+    "[property]") {
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
     Triangle t(random);
@@ -57,7 +66,8 @@ TEST_CASE("stable Neo-Hookean kernel: the force is minus the slope of the energy
     for (int corner = 0; corner < 3; ++corner) {
       ForceAndBlock sum;
       add_neo_hookean(t.stencil(corner), t.material, t.to(corner, 1), t.to(corner, 2), sum);
-      const D3 force = force_by_differences([&](const std::vector<D3>& x) { return t.energy(x); }, at, static_cast<std::size_t>(corner), 1e-4);
+      const D3 force = force_by_differences([&](const std::vector<D3>& x) { return t.energy(x); }, at,
+                                            static_cast<std::size_t>(corner), 1e-4);
       CHECK(length(wide(sum.force) - force) < 10 * accepted);
       CHECK(least_curvature(sum.block, random) > -accepted);
       total += wide(sum.force);
@@ -66,7 +76,10 @@ TEST_CASE("stable Neo-Hookean kernel: the force is minus the slope of the energy
   }
 }
 
-TEST_CASE("stable Neo-Hookean kernel: a collapsed triangle, down to a point, gives finite numbers and pulls its corners together", "[unit]") {
+TEST_CASE(
+    "stable Neo-Hookean kernel: a collapsed triangle, down to a point, gives finite numbers and pulls its corners "
+    "together",
+    "[unit]") {
   std::mt19937 random(2);
   for (const float size : {0.0f, 1e-30f, 1e-20f, 1e-12f, 1e-6f}) {
     Triangle t(random);
@@ -115,7 +128,8 @@ TEST_CASE("spring kernel: force and block where stretched, pressed, stitched and
     add_spring({{0, 1, 1}, 8, rest_length, damping}, 1, damping, apart, start, sum);
     return sum;
   };
-  const ForceAndBlock stretched = of(1, {2, 0, 0}), pressed = of(4, {2, 0, 0}), stitch = of(0, {0.5f, 0, 0}), damped = of(2, {2, 0, 0}, 3, 1.5f);
+  const ForceAndBlock stretched = of(1, {2, 0, 0}), pressed = of(4, {2, 0, 0}), stitch = of(0, {0.5f, 0, 0}),
+                      damped = of(2, {2, 0, 0}, 3, 1.5f);
   CHECK(stretched.force.x == -8);
   CHECK(stretched.block.xx == 8);
   CHECK(stretched.block.yy == 4);  // 1 − l₀/l = 1/2

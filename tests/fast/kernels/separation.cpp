@@ -1,4 +1,5 @@
-// The bound may be too small, never too large: a pair that it rejects must not be able to lower any smallest distance by one bit.
+// The bound may be too small, never too large: a pair that it rejects must not be able to lower any smallest distance
+// by one bit.
 #include "fast/kernels/separation.hpp"
 
 #include <cmath>
@@ -11,21 +12,25 @@ namespace {
 
 using namespace ogc::fast;
 
-/// Points of one pair: generic, on a lattice (parallel, coplanar, touching, zero length), nearly flat, nearly collinear; far from the origin; any scale.
+/// Points of one pair: generic, on a lattice (parallel, coplanar, touching, zero length), nearly flat, nearly
+/// collinear; far from the origin; any scale.
 class Points {
  public:
   explicit Points(unsigned seed) : random_(seed) {}
 
   void next(Vec (&x)[4]) {
     const int kind = static_cast<int>(random_() % 5);
-    const float scale = std::ldexp(1.0F, static_cast<int>(random_() % 61) - 30), shift = random_() % 3 == 0 ? 100 * scale : 0.0F;
+    const float scale = std::ldexp(1.0F, static_cast<int>(random_() % 61) - 30),
+                shift = random_() % 3 == 0 ? 100 * scale : 0.0F;
     const float flat = kind == 2 ? std::ldexp(1.0F, -static_cast<int>(random_() % 24)) : 1.0F;
     for (Vec& p : x) {
-      p = kind == 1 ? Vec{integer(), integer(), integer()} : Vec{uniform_(random_), flat * uniform_(random_), uniform_(random_)};
+      p = kind == 1 ? Vec{integer(), integer(), integer()}
+                    : Vec{uniform_(random_), flat * uniform_(random_), uniform_(random_)};
     }
     if (kind == 3) {
       const Vec along = x[1] - x[0];
-      for (int k = 2; k < 4; ++k) x[k] = x[0] + uniform_(random_) * along + std::ldexp(1.0F, -static_cast<int>(random_() % 24)) * x[k];
+      for (int k = 2; k < 4; ++k)
+        x[k] = x[0] + uniform_(random_) * along + std::ldexp(1.0F, -static_cast<int>(random_() % 24)) * x[k];
     }
     for (Vec& p : x) p = scale * p + Vec{shift, shift, shift};
   }
@@ -54,7 +59,10 @@ TEST_CASE("separation: never above the rounded-down distance, in any scale and d
   CHECK(triangle_too_far == 0);
 }
 
-TEST_CASE("separation: the distance to a thousandth of all but a hundredth of generic pairs, so that it rejects what it should", "[property]") {
+TEST_CASE(
+    "separation: the distance to a thousandth of all but a hundredth of generic pairs, so that it rejects what it "
+    "should",
+    "[property]") {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> uniform(-1, 1);
   int loose_edges = 0, loose_triangles = 0;

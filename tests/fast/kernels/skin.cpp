@@ -1,4 +1,5 @@
-// Each decision of the list with a skin at its threshold; that its pairs give the bits of a search is held by tests/fast/stages/skin.cpp.
+// Each decision of the list with a skin at its threshold; that its pairs give the bits of a search is held by
+// tests/fast/stages/skin.cpp.
 #include "fast/kernels/skin.hpp"
 
 #include <cmath>
@@ -17,7 +18,8 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 float above(float x) { return std::nextafter(x, infinite); }
 
 /// One detection's choice, with the largest margin 1 and room for 10 pairs.
-SkinState chosen(SkinState state, float drift, float extent = 0, float query_radius = 4, int overflow = 0, float largest_margin = 1) {
+SkinState chosen(SkinState state, float drift, float extent = 0, float query_radius = 4, int overflow = 0,
+                 float largest_margin = 1) {
   state.drift = float_bits(drift), state.extent = float_bits(extent);
   SkinView view;
   view.state = &state, view.largest_margin = largest_margin, view.capacity = 10;
@@ -53,7 +55,10 @@ TEST_CASE("skin: the first detection searches, remembers where it was, and choos
   CHECK((first.drift == 0 && first.extent == 0));
 }
 
-TEST_CASE("skin: where nothing has moved the next detection lists, with an eighth of the largest margin or what the coordinates need", "[unit]") {
+TEST_CASE(
+    "skin: where nothing has moved the next detection lists, with an eighth of the largest margin or what the "
+    "coordinates need",
+    "[unit]") {
   const SkinState list = chosen(anchored(), 0);
   CHECK(list.mode == SkinMode::list);
   CHECK(list.has_list == 1);
@@ -67,7 +72,8 @@ TEST_CASE("skin: where nothing has moved the next detection lists, with an eight
   CHECK(chosen(anchored(), 0, 0, 4, 0, 0).mode == SkinMode::search);  // no margin at all
 }
 
-TEST_CASE("skin: the margin is for six detections of this displacement, and no list is made that three could not use", "[unit]") {
+TEST_CASE("skin: the margin is for six detections of this displacement, and no list is made that three could not use",
+          "[unit]") {
   CHECK(chosen(anchored(), 0x7p-8F).margin == Approx(6 * 32.0F / 7 * 0x7p-8F));
   CHECK(chosen(anchored(), 0x7p-8F).mode == SkinMode::list);
   CHECK(chosen(anchored(), 0.07F).margin == 1);                // six would take more than the largest
@@ -77,8 +83,13 @@ TEST_CASE("skin: the margin is for six detections of this displacement, and no l
   CHECK(chosen(anchored(), 0.074F).searches == 2);
 }
 
-TEST_CASE("skin: a list is looked at again up to 7/32 of its margin, half a margin more of r_q, its room and its coordinates, and not beyond", "[unit]") {
-  const auto mode = [](SkinState state, float drift, float extent = 0, float query_radius = 4) { return chosen(state, drift, extent, query_radius).mode; };
+TEST_CASE(
+    "skin: a list is looked at again up to 7/32 of its margin, half a margin more of r_q, its room and its "
+    "coordinates, and not beyond",
+    "[unit]") {
+  const auto mode = [](SkinState state, float drift, float extent = 0, float query_radius = 4) {
+    return chosen(state, drift, extent, query_radius).mode;
+  };
   const float drift = 0x7p-6F;  // 7/32 of 1/2
   CHECK(mode(listed(), 0) == SkinMode::recheck);
   CHECK(mode(listed(), drift) == SkinMode::recheck);
@@ -113,7 +124,8 @@ TEST_CASE("skin: looking again leaves list and anchor as they are, and bounds to
   CHECK((now.drift == 0 && now.extent == 0));
 }
 
-TEST_CASE("skin: after lists that nothing used, twice as many searches and one go by without one, 63 at most", "[unit]") {
+TEST_CASE("skin: after lists that nothing used, twice as many searches and one go by without one, 63 at most",
+          "[unit]") {
   int patience = 0;
   for (const int next : {1, 3, 7, 15, 31, 63, 63}) {
     SkinState unused = listed();
@@ -167,7 +179,10 @@ TEST_CASE("skin: once a list of contacts has overflowed nothing is chosen or mea
   CHECK((still.drift == 0 && still.extent == 0));
 }
 
-TEST_CASE("skin: the displacement is rounded up, the largest coordinate is of any axis and sign, and what is no number is infinite", "[unit]") {
+TEST_CASE(
+    "skin: the displacement is rounded up, the largest coordinate is of any axis and sign, and what is no number is "
+    "infinite",
+    "[unit]") {
   const auto measured = [](const Vec& from, const Vec& to, bool has_anchor) {
     SkinState state;
     state.has_anchor = has_anchor;
@@ -200,7 +215,8 @@ TEST_CASE("skin: the displacement is rounded up, the largest coordinate is of an
   CHECK(float_from_bits(state.extent) == 4);
 }
 
-TEST_CASE("skin: pairs are counted beyond the room and not written there; margins and bounds are of their modes", "[unit]") {
+TEST_CASE("skin: pairs are counted beyond the room and not written there; margins and bounds are of their modes",
+          "[unit]") {
   std::vector<NotedPair> pairs(3);
   SkinState state = listed();
   state.count = 0, state.bound = 0.25F;
@@ -225,7 +241,8 @@ TEST_CASE("skin: pairs are counted beyond the room and not written there; margin
   CHECK(view.bound(4) == infinite);  // as far as the search looked
 }
 
-TEST_CASE("skin: a search keeps where vertices were, a list also their smallest distances, a second look nothing", "[unit]") {
+TEST_CASE("skin: a search keeps where vertices were, a list also their smallest distances, a second look nothing",
+          "[unit]") {
   for (const SkinMode mode : {SkinMode::search, SkinMode::list, SkinMode::recheck}) {
     SkinState state = listed();
     state.mode = mode;
@@ -234,10 +251,12 @@ TEST_CASE("skin: a search keeps where vertices were, a list also their smallest 
     std::vector<Vec> anchor(3);
     std::vector<float> vertex(3), edge(3), triangle(3);
     SkinView view;
-    view.state = &state, view.anchor = anchor.data(), view.vertex = vertex.data(), view.edge = edge.data(), view.triangle = triangle.data();
+    view.state = &state, view.anchor = anchor.data(), view.vertex = vertex.data(), view.edge = edge.data(),
+    view.triangle = triangle.data();
     SurfaceView surface{};
     surface.vertex_count = 1, surface.edge_count = 2, surface.triangle_count = 2;
-    for (int i = 0; i < 3; ++i) KeepAnchor{view, surface, positions.data(), d_min.data(), d_min.data(), d_min.data()}(i);
+    for (int i = 0; i < 3; ++i)
+      KeepAnchor{view, surface, positions.data(), d_min.data(), d_min.data(), d_min.data()}(i);
     const bool is_kept = mode != SkinMode::recheck, is_list = mode == SkinMode::list;
     CHECK(anchor[0].x == (is_kept ? 1 : 0));
     CHECK(anchor[1].x == 0);

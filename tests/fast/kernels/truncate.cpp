@@ -25,11 +25,14 @@ bool same_bits(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && 
 
 }  // namespace
 
-TEST_CASE("truncate: the stored position obeys the bound, whatever the sizes of position, step and bound", "[property]") {
+TEST_CASE("truncate: the stored position obeys the bound, whatever the sizes of position, step and bound",
+          "[property]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(-1, 1);
   std::uniform_int_distribution<int> exponent(-30, 20);
-  const auto point = [&](int e) { return Vec{std::ldexp(unit(random), e), std::ldexp(unit(random), e), std::ldexp(unit(random), e)}; };
+  const auto point = [&](int e) {
+    return Vec{std::ldexp(unit(random), e), std::ldexp(unit(random), e), std::ldexp(unit(random), e)};
+  };
   int broken = 0, moved = 0, flagged_wrongly = 0, short_by_far = 0;
   for (int i = 0; i < 1000000; ++i) {
     const int e = exponent(random);
@@ -39,7 +42,9 @@ TEST_CASE("truncate: the stored position obeys the bound, whatever the sizes of 
     broken += !obeys(p, cut.position, b);
     flagged_wrongly += cut.exceeded == obeys(p, x, b);
     moved += !cut.exceeded && !same_bits(cut.position, x);
-    const double size = std::max({std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y)), std::abs(static_cast<double>(p.z))}) + b;
+    const double size = std::max({std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y)),
+                                  std::abs(static_cast<double>(p.z))}) +
+                        b;
     short_by_far += cut.exceeded && static_cast<double>(b) - distance(p, cut.position) > 8 * 0x1p-24 * size;
   }
   CHECK(broken == 0);
@@ -70,7 +75,8 @@ TEST_CASE("truncate: a coordinate far too small for two doubles does not pass be
   }
 }
 
-TEST_CASE("truncate: a difference that does not fit into a double is beyond the bound, along each coordinate", "[unit]") {
+TEST_CASE("truncate: a difference that does not fit into a double is beyond the bound, along each coordinate",
+          "[unit]") {
   const float large = 0x1p20f, speck = 0x1p-100f;
   for (int axis = 0; axis < 3; ++axis) {
     Vec previous{0, 0, 0}, tie{0, 0, 0}, beyond{0, 0, 0};

@@ -16,7 +16,8 @@ RestState rest_of(const compare::Scene& scene) { return build_rest_state(scene, 
 void require_valid(const RestState& rest, const Colouring& colouring) {
   const auto free = [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; };
   const auto apart = [&](int a, int b) {
-    return a == b || !free(a) || !free(b) || colouring.colour[static_cast<std::size_t>(a)] != colouring.colour[static_cast<std::size_t>(b)];
+    return a == b || !free(a) || !free(b) ||
+           colouring.colour[static_cast<std::size_t>(a)] != colouring.colour[static_cast<std::size_t>(b)];
   };
   for (const TriangleRest& t : rest.triangles) {
     for (const int a : t.corner) {
@@ -37,7 +38,8 @@ void require_valid(const RestState& rest, const Colouring& colouring) {
   REQUIRE(colouring.begin.size() == static_cast<std::size_t>(colouring.count) + 1);
   for (int c = 0; c < colouring.count; ++c) {
     REQUIRE(colouring.begin[static_cast<std::size_t>(c)] < colouring.begin[static_cast<std::size_t>(c) + 1]);
-    for (int i = colouring.begin[static_cast<std::size_t>(c)]; i < colouring.begin[static_cast<std::size_t>(c) + 1]; ++i) {
+    for (int i = colouring.begin[static_cast<std::size_t>(c)]; i < colouring.begin[static_cast<std::size_t>(c) + 1];
+         ++i) {
       const int v = colouring.order[static_cast<std::size_t>(i)];
       REQUIRE(colouring.colour[static_cast<std::size_t>(v)] == c);
       seen.insert(v);
@@ -124,8 +126,10 @@ TEST_CASE("no two free vertices of a spring or a stitch share a colour, its thir
     for (int k = 0; k < 40; ++k) {
       const auto first = static_cast<compare::Index>(random() % 64),
                  edge = static_cast<compare::Index>(64 + random() % 63);
-      if (k % 4 == 0) scene.springs.push_back({first, edge, 1, 0, 0});
-      else scene.springs.push_back({first, edge, 1, 0, 0, edge + 1, 0.5});
+      if (k % 4 == 0)
+        scene.springs.push_back({first, edge, 1, 0, 0});
+      else
+        scene.springs.push_back({first, edge, 1, 0, 0, edge + 1, 0.5});
     }
     const RestState rest = rest_of(scene);
     REQUIRE(rest.springs.size() == 40);
@@ -152,8 +156,10 @@ TEST_CASE("the colouring is the same each time", "[property]") {
   CHECK(colour_vertices(rest).colour == colour_vertices(rest).colour);
 }
 
-TEST_CASE("facing vertices of identical cloths share no colour, and no more colours are needed than for one", "[property]") {
-  // Contacts are Jacobi inside a colour: partners that share one both remove the whole of their overlap (method.md §7.3).
+TEST_CASE("facing vertices of identical cloths share no colour, and no more colours are needed than for one",
+          "[property]") {
+  // Contacts are Jacobi inside a colour: partners that share one both remove the whole of their overlap (method.md
+  // §7.3).
   compare::Scene one = test::empty_scene();
   test::add_sheet(one, 12, 1, 0, false);
   const int alone = colour_vertices(rest_of(one)).count;

@@ -33,7 +33,9 @@ ContactSets find(const TestMesh& surface, float r, float r_q) {
 /// Three crumpled layers, closer to each other than r.
 TestMesh layers(std::uint32_t seed) {
   TestMesh surface;
-  for (int k = 0; k < 3; ++k) surface.add(tests::jittered(tests::sheet(9, 1.0F, 0.4F * static_cast<float>(k)), 0.15F, seed + static_cast<std::uint32_t>(k)));
+  for (int k = 0; k < 3; ++k)
+    surface.add(tests::jittered(tests::sheet(9, 1.0F, 0.4F * static_cast<float>(k)), 0.15F,
+                                seed + static_cast<std::uint32_t>(k)));
   return surface;
 }
 
@@ -65,7 +67,8 @@ ContactSets all_pairs(const TestMesh& surface, float r_q) {
       if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) continue;
       Box first, second;
       first.include(x[e[0]]), first.include(x[e[1]]), second.include(x[f[0]]), second.include(x[f[1]]);
-      const float d = std::max(edge_edge_distance({x[e[0]], x[e[1]]}, {x[f[0]], x[f[1]]}).below(), gap_below(squared_gap(first, second)));
+      const float d = std::max(edge_edge_distance({x[e[0]], x[e[1]]}, {x[f[0]], x[f[1]]}).below(),
+                               gap_below(squared_gap(first, second)));
       sets.d_min_edge[i] = std::min(sets.d_min_edge[i], d);
       sets.d_min_edge[k] = std::min(sets.d_min_edge[k], d);
     }
@@ -75,7 +78,8 @@ ContactSets all_pairs(const TestMesh& surface, float r_q) {
 
 std::vector<compare::VertexFacetContact> of_vertex(const ContactSets& sets, compare::Index v) {
   std::vector<compare::VertexFacetContact> found;
-  std::copy_if(sets.vertex_facet.begin(), sets.vertex_facet.end(), std::back_inserter(found), [v](const auto& c) { return c.vertex == v; });
+  std::copy_if(sets.vertex_facet.begin(), sets.vertex_facet.end(), std::back_inserter(found),
+               [v](const auto& c) { return c.vertex == v; });
   return found;
 }
 
@@ -134,23 +138,30 @@ TEST_CASE("detection: a flat sheet has no contact with itself at rest, parallel 
 TEST_CASE("detection: lists that start with room for one contact grow to the same sets", "[unit]") {
   const TestMesh surface = layers(5);
   const compare::Topology topology = surface.topology();
-  CHECK(find(topology, surface.positions, 0.3F, 1.0F, {}, 1) == find(topology, surface.positions, 0.3F, 1.0F, {}, 100000));
+  CHECK(find(topology, surface.positions, 0.3F, 1.0F, {}, 1) ==
+        find(topology, surface.positions, 0.3F, 1.0F, {}, 100000));
 }
 
-TEST_CASE("detection: one set of lists serves positions after positions, grown on the way or not, as fresh lists would", "[property]") {
+TEST_CASE("detection: one set of lists serves positions after positions, grown on the way or not, as fresh lists would",
+          "[property]") {
   const TestMesh surface = layers(5);
   const compare::Topology topology = surface.topology();
-  std::vector<std::vector<compare::Vec3f>> states{surface.positions, layers(15).positions, tests::scaled(surface.positions, 0.5F), surface.positions};
+  std::vector<std::vector<compare::Vec3f>> states{surface.positions, layers(15).positions,
+                                                  tests::scaled(surface.positions, 0.5F), surface.positions};
   for (const int capacity : {1, 30, 100, 300, 1000, 100000}) {
     CpuBackend backend;
     BackendContactEngine<CpuBackend> engine(backend, topology, {}, capacity);
     for (const auto& positions : states) {
-      CHECK(engine.find(positions, {.contact_radius = 0.3F, .query_radius = 1.0F}) == find(topology, positions, 0.3F, 1.0F, {}, 100000));
+      CHECK(engine.find(positions, {.contact_radius = 0.3F, .query_radius = 1.0F}) ==
+            find(topology, positions, 0.3F, 1.0F, {}, 100000));
     }
   }
 }
 
-TEST_CASE("detection: there is room for as many contacts as the capacity says, and for one less a growth by the count of them", "[unit]") {
+TEST_CASE(
+    "detection: there is room for as many contacts as the capacity says, and for one less a growth by the count of "
+    "them",
+    "[unit]") {
   const TestMesh surface = layers(5);
   const compare::Topology topology = surface.topology();
   const auto* x = reinterpret_cast<const Vec*>(surface.positions.data());
@@ -205,7 +216,9 @@ TEST_CASE("detection: after an overflow nothing runs until the lists have grown,
   CHECK(*detection.view().vertex_facet_count > 40);
 }
 
-TEST_CASE("detection: the same bits in each run, rebuilt or not, and the rows of the incidences are complete and ascending", "[property]") {
+TEST_CASE(
+    "detection: the same bits in each run, rebuilt or not, and the rows of the incidences are complete and ascending",
+    "[property]") {
   const TestMesh surface = layers(7);
   const compare::Topology topology = surface.topology();
   const auto* x = reinterpret_cast<const Vec*>(surface.positions.data());
@@ -224,7 +237,9 @@ TEST_CASE("detection: the same bits in each run, rebuilt or not, and the rows of
   }
   for (int i = 0; i < *view.edge_edge_count; ++i) {
     const std::uint32_t code = 0x80000000U | static_cast<std::uint32_t>(i) << 2;
-    for (unsigned k = 0; k < 2; ++k) expected.insert({view.edge_edge[i].first[k], code | k}), expected.insert({view.edge_edge[i].second[k], code | (k + 2)});
+    for (unsigned k = 0; k < 2; ++k)
+      expected.insert({view.edge_edge[i].first[k], code | k}),
+          expected.insert({view.edge_edge[i].second[k], code | (k + 2)});
   }
   expected.erase(expected.begin(), expected.lower_bound({0, 0}));
   bool ascending = true;
@@ -238,14 +253,16 @@ TEST_CASE("detection: the same bits in each run, rebuilt or not, and the rows of
   CHECK(found == expected);
 }
 
-TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets, smallest distances and bounds", "[property]") {
+TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets, smallest distances and bounds",
+          "[property]") {
   const TestMesh surface = layers(8);
   std::vector<int> number(surface.positions.size()), place(surface.triangles.size());
   std::iota(number.begin(), number.end(), 0), std::iota(place.begin(), place.end(), 0);
   std::mt19937 random(8);
   std::shuffle(number.begin(), number.end(), random), std::shuffle(place.begin(), place.end(), random);
   TestMesh other = surface;
-  for (std::size_t v = 0; v < number.size(); ++v) other.positions[static_cast<std::size_t>(number[v])] = surface.positions[v];
+  for (std::size_t v = 0; v < number.size(); ++v)
+    other.positions[static_cast<std::size_t>(number[v])] = surface.positions[v];
   for (std::size_t t = 0; t < place.size(); ++t) {
     const compare::Triangle& corners = surface.triangles[t];
     const auto at = [&](std::size_t k) { return number[static_cast<std::size_t>(corners[(k + t) % 3])]; };
@@ -257,7 +274,8 @@ TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets
     const auto i = static_cast<std::size_t>(face.index);
     if (face.kind == compare::FaceKind::vertex) return {face.kind, number[i]};
     if (face.kind == compare::FaceKind::triangle) return {face.kind, place[i]};
-    return {face.kind, compare::find_edge(to, number[static_cast<std::size_t>(from.edges[i][0])], number[static_cast<std::size_t>(from.edges[i][1])])};
+    return {face.kind, compare::find_edge(to, number[static_cast<std::size_t>(from.edges[i][0])],
+                                          number[static_cast<std::size_t>(from.edges[i][1])])};
   };
   std::set<std::pair<int, compare::Face>> expected, found;
   for (const auto& c : a.vertex_facet) expected.insert({number[static_cast<std::size_t>(c.vertex)], renamed(c.face)});
@@ -271,7 +289,8 @@ TEST_CASE("detection: renumbered vertices and triangles give the renumbered sets
     CHECK(b.d_min_vertex[static_cast<std::size_t>(number[v])] == a.d_min_vertex[v]);
     CHECK(b.bound[static_cast<std::size_t>(number[v])] == a.bound[v]);
   }
-  for (std::size_t t = 0; t < place.size(); ++t) CHECK(b.d_min_triangle[static_cast<std::size_t>(place[t])] == a.d_min_triangle[t]);
+  for (std::size_t t = 0; t < place.size(); ++t)
+    CHECK(b.d_min_triangle[static_cast<std::size_t>(place[t])] == a.d_min_triangle[t]);
 }
 
 TEST_CASE("detection: scaling by powers of two scales distances and keeps the sets", "[property]") {
@@ -289,7 +308,8 @@ TEST_CASE("detection: scaling by powers of two scales distances and keeps the se
   }
 }
 
-TEST_CASE("detection: a vertex exactly above a vertex, an edge or a triangle has one contact with the sheet", "[unit]") {
+TEST_CASE("detection: a vertex exactly above a vertex, an edge or a triangle has one contact with the sheet",
+          "[unit]") {
   const TestMesh flat = tests::sheet(5, 1.0F, 0);
   const auto contact = [&](const compare::Vec3f& x) {
     TestMesh surface = flat;
@@ -306,17 +326,22 @@ TEST_CASE("detection: a vertex exactly above a vertex, an edge or a triangle has
   CHECK(contact({-0.25F, 0, 2}) == compare::Face{compare::FaceKind::vertex, 10});  // beside the boundary, in the plane
 }
 
-TEST_CASE("detection: of two identical sheets one above the other each vertex touches its twin only, and parallel edges are interior pairs", "[unit]") {
+TEST_CASE(
+    "detection: of two identical sheets one above the other each vertex touches its twin only, and parallel edges are "
+    "interior pairs",
+    "[unit]") {
   TestMesh surface = tests::sheet(5, 1.0F, 0);
   surface.add(tests::sheet(5, 1.0F, 0.25F));
   const ContactSets sets = find(surface, 0.5F, 0.75F);
   REQUIRE(sets.vertex_facet.size() == 50);
-  for (const auto& c : sets.vertex_facet) CHECK(c.face == compare::Face{compare::FaceKind::vertex, (c.vertex + 25) % 50});
+  for (const auto& c : sets.vertex_facet)
+    CHECK(c.face == compare::Face{compare::FaceKind::vertex, (c.vertex + 25) % 50});
   const compare::Topology topology = surface.topology();
   std::size_t twins = 0;
   for (const auto& c : sets.edge_edge) {
     if (c.first.kind == compare::FaceKind::edge && c.second.kind == compare::FaceKind::edge) {
-      const compare::Edge &e = topology.edges[static_cast<std::size_t>(c.first.index)], &f = topology.edges[static_cast<std::size_t>(c.second.index)];
+      const compare::Edge &e = topology.edges[static_cast<std::size_t>(c.first.index)],
+                          &f = topology.edges[static_cast<std::size_t>(c.second.index)];
       twins += f[0] == e[0] + 25 && f[1] == e[1] + 25;
     }
   }
@@ -335,10 +360,12 @@ TEST_CASE("detection: a crowded vertex keeps all of its hundreds of contacts", "
   }
   const auto found = of_vertex(find(surface, 0.5F, 0.5F), 0);
   REQUIRE(found.size() == 400);
-  for (std::size_t k = 0; k < 400; ++k) CHECK(found[k].face == compare::Face{compare::FaceKind::triangle, static_cast<int>(k) + 1});
+  for (std::size_t k = 0; k < 400; ++k)
+    CHECK(found[k].face == compare::Face{compare::FaceKind::triangle, static_cast<int>(k) + 1});
 }
 
-TEST_CASE("detection: covering, a vertex closer than r to a sheet with lattice coordinates always has a contact there", "[property]") {
+TEST_CASE("detection: covering, a vertex closer than r to a sheet with lattice coordinates always has a contact there",
+          "[property]") {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> height(-2, 2), half(0, 20);
   int uncovered = 0, near = 0;
@@ -347,7 +374,8 @@ TEST_CASE("detection: covering, a vertex closer than r to a sheet with lattice c
     for (auto& x : surface.positions) x.y = 0.5F * static_cast<float>(height(random));
     const compare::Index first = 36;
     for (int k = 0; k < 60; ++k) {
-      surface.add(probe({0.25F * static_cast<float>(half(random)), 0.25F * static_cast<float>(height(random)), 0.25F * static_cast<float>(half(random))}));
+      surface.add(probe({0.25F * static_cast<float>(half(random)), 0.25F * static_cast<float>(height(random)),
+                         0.25F * static_cast<float>(half(random))}));
     }
     const ContactSets sets = find(surface, 0.75F, 0.75F);
     std::set<compare::Index> covered;
@@ -371,7 +399,8 @@ TEST_CASE("detection: covering, a vertex closer than r to a sheet with lattice c
 
 TEST_CASE("detection: edges of yarn meet edges, and two vertices of crossing strands are one pair", "[unit]") {
   TestMesh strands;
-  strands.positions = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {2, 0.25F, -2}, {2, 0.25F, 0}, {2, 0.25F, 2}, {1, 0.25F, -1}, {1, 0.25F, 1}};
+  strands.positions = {{0, 0, 0},     {2, 0, 0},     {4, 0, 0},      {2, 0.25F, -2},
+                       {2, 0.25F, 0}, {2, 0.25F, 2}, {1, 0.25F, -1}, {1, 0.25F, 1}};
   strands.loose_edges = {{0, 1}, {1, 2}, {3, 4}, {4, 5}, {6, 7}};
   const ContactSets sets = find(strands, 0.5F, 1.0F);
   const compare::EdgeEdgeContact vertices{{compare::FaceKind::vertex, 1}, {compare::FaceKind::vertex, 4}, 0, 2};
@@ -389,13 +418,16 @@ TEST_CASE("detection: pairs inside one rigid group are left out, of contacts and
   const ContactSets none = find(topology, surface.positions, 0.5F, 2.0F, one);
   CHECK(none.vertex_facet.empty());
   CHECK(none.edge_edge.empty());
-  CHECK(std::count(none.d_min_edge.begin(), none.d_min_edge.end(), 2.0F) == static_cast<std::ptrdiff_t>(topology.edges.size()));
+  CHECK(std::count(none.d_min_edge.begin(), none.d_min_edge.end(), 2.0F) ==
+        static_cast<std::ptrdiff_t>(topology.edges.size()));
   std::vector<compare::Index> two(32, 0);
   std::fill(two.begin() + 16, two.end(), 1);
-  CHECK(find(topology, surface.positions, 0.5F, 0.75F, two).vertex_facet == find(topology, surface.positions, 0.5F, 0.75F).vertex_facet);
+  CHECK(find(topology, surface.positions, 0.5F, 0.75F, two).vertex_facet ==
+        find(topology, surface.positions, 0.5F, 0.75F).vertex_facet);
 }
 
-TEST_CASE("detection: pairs beside excluded ones are left out, of contacts and of distances, and of nothing else", "[property]") {
+TEST_CASE("detection: pairs beside excluded ones are left out, of contacts and of distances, and of nothing else",
+          "[property]") {
   TestMesh surface = tests::sheet(5, 1.0F, 0);
   surface.add(tests::jittered(tests::sheet(5, 1.0F, 0.25F), 0.1F, 3));
   const compare::Topology topology = surface.topology();
@@ -420,23 +452,28 @@ TEST_CASE("detection: pairs beside excluded ones are left out, of contacts and o
     lost += !kept;
     // A pair of faces with a vertex may be entered under another pair of edges; of two interiors there is one.
     if (contact.first.kind != compare::FaceKind::edge || contact.second.kind != compare::FaceKind::edge) continue;
-    CHECK(kept != beside(topology.edges[static_cast<std::size_t>(contact.first_edge)], topology.edges[static_cast<std::size_t>(contact.second_edge)]));
+    CHECK(kept != beside(topology.edges[static_cast<std::size_t>(contact.first_edge)],
+                         topology.edges[static_cast<std::size_t>(contact.second_edge)]));
   }
   CHECK(lost > 0);
-  for (const auto& contact : some.vertex_facet) CHECK(std::find(all.vertex_facet.begin(), all.vertex_facet.end(), contact) != all.vertex_facet.end());
+  for (const auto& contact : some.vertex_facet)
+    CHECK(std::find(all.vertex_facet.begin(), all.vertex_facet.end(), contact) != all.vertex_facet.end());
   CHECK(some.vertex_facet.size() < all.vertex_facet.size());
   for (std::size_t v = 0; v < 50; ++v) CHECK(some.d_min_vertex[v] >= all.d_min_vertex[v]);
   CHECK(std::equal(some.d_min_vertex.begin() + 10, some.d_min_vertex.begin() + 25, all.d_min_vertex.begin() + 10));
 }
 
-TEST_CASE("detection: the bound is the relaxed minimum over the vertex, its edges and its triangles, rounded down", "[unit]") {
+TEST_CASE("detection: the bound is the relaxed minimum over the vertex, its edges and its triangles, rounded down",
+          "[unit]") {
   const TestMesh surface = layers(12);
   const compare::Topology topology = surface.topology();
   const ContactSets sets = find(surface, 0.3F, 1.0F);
   for (std::size_t v = 0; v < surface.positions.size(); ++v) {
     float d = sets.d_min_vertex[v];
-    for (const compare::Index e : topology.vertex_edges[v]) d = std::min(d, sets.d_min_edge[static_cast<std::size_t>(e)]);
-    for (const compare::Index t : topology.vertex_triangles[v]) d = std::min(d, sets.d_min_triangle[static_cast<std::size_t>(t)]);
+    for (const compare::Index e : topology.vertex_edges[v])
+      d = std::min(d, sets.d_min_edge[static_cast<std::size_t>(e)]);
+    for (const compare::Index t : topology.vertex_triangles[v])
+      d = std::min(d, sets.d_min_triangle[static_cast<std::size_t>(t)]);
     const double product = static_cast<double>(0.45F) * d;
     CHECK(static_cast<double>(sets.bound[v]) <= product);
     CHECK(static_cast<double>(std::nextafter(sets.bound[v], 10.0F)) > product);

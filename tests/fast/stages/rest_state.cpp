@@ -96,8 +96,11 @@ TEST_CASE("a rest state put into an answer and taken out again is the same, bit 
   test::add_sheet(scene, 3, 1, 0, true);
   scene.motions.push_back({.name = "held", .vertices = {0, 3}, .keyframes = {}});
   const compare::Topology topology = compare::build_topology(scene);
-  const RestState rest = build_rest_state(scene, topology), again = rest_state_of({&scene, &topology}, rest_state_out({&scene, &topology}));
-  const auto same = [](const auto& a, const auto& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0; };
+  const RestState rest = build_rest_state(scene, topology),
+                  again = rest_state_of({&scene, &topology}, rest_state_out({&scene, &topology}));
+  const auto same = [](const auto& a, const auto& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+  };
   CHECK(same(rest.mass, again.mass));
   CHECK(same(rest.mobility, again.mobility));
   CHECK(same(rest.body, again.body));

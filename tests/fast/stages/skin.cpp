@@ -19,10 +19,12 @@ constexpr float farthest = 7 * margin / 32;
 
 using Positions = std::vector<compare::Vec3f>;
 
-/// Layers closer to each other than r, edges longer and shorter than r, a triangle as large as all of it, and a vertex far from everything.
+/// Layers closer to each other than r, edges longer and shorter than r, a triangle as large as all of it, and a vertex
+/// far from everything.
 TestMesh surfaces() {
   TestMesh mesh;
-  for (std::uint32_t k = 0; k < 3; ++k) mesh.add(tests::jittered(tests::sheet(9, 1.0F, 0.25F * static_cast<float>(k)), 0.1F, k));
+  for (std::uint32_t k = 0; k < 3; ++k)
+    mesh.add(tests::jittered(tests::sheet(9, 1.0F, 0.25F * static_cast<float>(k)), 0.1F, k));
   mesh.add(tests::jittered(tests::sheet(7, 0.15F, 1.5F), 0.03F, 7));
   mesh.add({{{-9, -0.2F, -9}, {18, -0.2F, -9}, {4, -0.2F, 18}}, {{0, 1, 2}}, {}});
   mesh.add({{{4, 9, 4}, {5, 9, 4}, {4, 9, 5}}, {{0, 1, 2}}, {}});
@@ -42,20 +44,27 @@ Positions moved(Positions positions, float length, std::mt19937& random) {
 
 ContactSets afresh(const compare::Topology& topology, const Positions& positions, float r_q, float r = radius) {
   CpuBackend backend;
-  return BackendContactEngine<CpuBackend>(backend, topology, {}).find(positions, {.contact_radius = r, .query_radius = r_q});
+  return BackendContactEngine<CpuBackend>(backend, topology, {})
+      .find(positions, {.contact_radius = r, .query_radius = r_q});
 }
 
 }  // namespace
 
-TEST_CASE("skin: pairs kept by a search give the bits of a search, wherever vertices are within their drift and whatever r_q is", "[property]") {
+TEST_CASE(
+    "skin: pairs kept by a search give the bits of a search, wherever vertices are within their drift and whatever r_q "
+    "is",
+    "[property]") {
   const TestMesh mesh = surfaces();
   const compare::Topology topology = mesh.topology();
   std::mt19937 random(1);
   for (const float r_q : {radius, 0.5F, 2.0F}) {
     CpuBackend backend;
     BackendContactEngine<CpuBackend> engine(backend, topology, {});
-    const auto find = [&](const Positions& positions, float query) { return engine.find(positions, {.contact_radius = radius, .query_radius = query}); };
-    for (int k = 0; k < 4; ++k) find(mesh.positions, r_q);  // a search, and searches that keep pairs, until these have room
+    const auto find = [&](const Positions& positions, float query) {
+      return engine.find(positions, {.contact_radius = radius, .query_radius = query});
+    };
+    // a search, and searches that keep pairs, until these have room
+    for (int k = 0; k < 4; ++k) find(mesh.positions, r_q);
     const SkinState before = engine.detection().skin_state();
     REQUIRE(before.listings >= 1);
     CHECK(before.count < 20000);  // of 280,000 edge pairs and 140,000 of vertices and facets
@@ -74,7 +83,10 @@ TEST_CASE("skin: pairs kept by a search give the bits of a search, wherever vert
   }
 }
 
-TEST_CASE("skin: detections along a walk are those of a search, through all changes between searching, keeping and looking again", "[property]") {
+TEST_CASE(
+    "skin: detections along a walk are those of a search, through all changes between searching, keeping and looking "
+    "again",
+    "[property]") {
   const TestMesh mesh = surfaces();
   const compare::Topology topology = mesh.topology();
   std::mt19937 random(2);
@@ -83,7 +95,8 @@ TEST_CASE("skin: detections along a walk are those of a search, through all chan
   Positions positions = mesh.positions;
   for (int k = 0; k < 80; ++k) {
     positions = moved(positions, (k % 10 == 0 ? 0.5F : 0.02F) * radius, random);
-    CHECK(engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F}) == afresh(topology, positions, 0.8F));
+    CHECK(engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F}) ==
+          afresh(topology, positions, 0.8F));
   }
   const SkinState state = engine.detection().skin_state();
   CHECK(state.searches >= 5);
@@ -91,15 +104,20 @@ TEST_CASE("skin: detections along a walk are those of a search, through all chan
   CHECK(state.rechecks >= 30);
 }
 
-TEST_CASE("skin: nothing is looked at again beyond the drift, for a larger r_q, or where coordinates are too large for the margin", "[unit]") {
+TEST_CASE(
+    "skin: nothing is looked at again beyond the drift, for a larger r_q, or where coordinates are too large for the "
+    "margin",
+    "[unit]") {
   const TestMesh mesh = surfaces();
   const compare::Topology topology = mesh.topology();
   const auto looks_again_after = [&](const compare::Vec3f& shift, float r_q) {
     CpuBackend backend;
     BackendContactEngine<CpuBackend> engine(backend, topology, {});
     Positions positions = mesh.positions;
-    if (shift.y != 0) for (auto& x : positions) x.y += shift.y;
-    for (int k = 0; k < 4; ++k) engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F});  // until the list has room
+    if (shift.y != 0)
+      for (auto& x : positions) x.y += shift.y;
+    // until the list has room
+    for (int k = 0; k < 4; ++k) engine.find(positions, {.contact_radius = radius, .query_radius = 0.8F});
     positions[5].x += shift.x;
     engine.find(positions, {.contact_radius = radius, .query_radius = r_q});
     return engine.detection().skin_state().mode == SkinMode::recheck;
@@ -122,7 +140,8 @@ TEST_CASE("skin: pairs kept for one radius are of no use for another", "[unit]")
     BackendContactEngine<CpuBackend> engine(backend, topology, {});
     for (int k = 0; k < 4; ++k) engine.find(mesh.positions, {.contact_radius = radius, .query_radius = 1});
     REQUIRE(engine.detection().skin_state().mode == SkinMode::recheck);
-    CHECK(engine.find(mesh.positions, {.contact_radius = r, .query_radius = 1}) == afresh(topology, mesh.positions, 1, r));
+    CHECK(engine.find(mesh.positions, {.contact_radius = r, .query_radius = 1}) ==
+          afresh(topology, mesh.positions, 1, r));
   }
 }
 
@@ -141,7 +160,10 @@ TEST_CASE("skin: a list without room for its pairs is not used, and is given roo
   CHECK(detection.skin_state().rechecks == 1);
 }
 
-TEST_CASE("skin: nothing is kept where vertices moved too far for any margin, and ever less often where lists came to nothing", "[unit]") {
+TEST_CASE(
+    "skin: nothing is kept where vertices moved too far for any margin, and ever less often where lists came to "
+    "nothing",
+    "[unit]") {
   const TestMesh mesh = surfaces();
   const compare::Topology topology = mesh.topology();
   const auto state_after = [&](int detections, float move) {

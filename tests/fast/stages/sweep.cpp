@@ -23,7 +23,8 @@ std::vector<Place> places_of(const std::vector<Vec>& positions, int copies = 1) 
   return places;
 }
 
-// Two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions a little elsewhere, so that damping and friction act.
+// Two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions a little elsewhere, so that damping
+// and friction act.
 struct Fixture {
   compare::Scene scene;
   compare::Topology topology;
@@ -161,11 +162,13 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
     const SweepView view = f.view();
     f.sweep->iterate(view);
     const std::vector<Vec> answer = f.fresh;
-    // The rule, naively: before each colour, a snapshot of what has been written so far; each vertex of the colour is solved in it.
+    // The rule, naively: before each colour, a snapshot of what has been written so far; each vertex of the colour is
+    // solved in it.
     std::vector<Vec> now = f.x;
     for (int c = 0; c < f.colouring.count; ++c) {
       std::vector<Vec> seen = now, out = now;
-      for (int i = f.colouring.begin[static_cast<std::size_t>(c)]; i < f.colouring.begin[static_cast<std::size_t>(c) + 1]; ++i) {
+      for (int i = f.colouring.begin[static_cast<std::size_t>(c)];
+           i < f.colouring.begin[static_cast<std::size_t>(c) + 1]; ++i) {
         SweepView naive = view;
         std::vector<Place> both = places_of(seen, 2);
         naive.old = both.data();
@@ -191,7 +194,8 @@ TEST_CASE("what a sweep writes for others to read is what it gathers from itself
   }
 }
 
-TEST_CASE("the width of the sums changes only the last bits of an iteration, and the same width gives the same bits", "[property]") {
+TEST_CASE("the width of the sums changes only the last bits of an iteration, and the same width gives the same bits",
+          "[property]") {
   Fixture a(false, 1), b(false, 16), c(false, 16);
   for (Fixture* f : {&a, &b, &c}) f->sweep->iterate(f->view());
   CHECK(same_bits(b.fresh, c.fresh));
@@ -201,7 +205,8 @@ TEST_CASE("the width of the sums changes only the last bits of an iteration, and
   CHECK(worst <= 1e-6);
 }
 
-TEST_CASE("positions are truncated before they are written, and each cut vertex counts once an iteration", "[property]") {
+TEST_CASE("positions are truncated before they are written, and each cut vertex counts once an iteration",
+          "[property]") {
   Fixture f(false, 4);
   std::fill(f.bound.begin(), f.bound.end(), 1e-5f);
   f.sweep->iterate(f.view());
@@ -230,7 +235,8 @@ TEST_CASE("a failed detection leaves the stream as it was", "[unit]") {
   Detection<CpuBackend> full(f.backend, f.topology, compare::rigid_groups(f.scene), 1);
   const ContactView view = full.view();
   full.detect(f.start.data(), 0.02F, &f.control.query_radius, 0.45F,
-              OnTheWay{Decided{}, f.sweep->slots(), f.sweep->contact_rows(view.incidence_offsets, full.loose_incidences(), full.overflow()),
+              OnTheWay{Decided{}, f.sweep->slots(),
+                       f.sweep->contact_rows(view.incidence_offsets, full.loose_incidences(), full.overflow()),
                        f.sweep->resolve_contact(view, f.start.data())});
   REQUIRE(*full.overflow() != 0);
   f.fresh = f.x;
@@ -245,9 +251,11 @@ TEST_CASE("the stream made on the way of a detection is that of its contacts", "
   Sweep<CpuBackend> other(f.backend, f.rest, f.colouring, f.topology, f.scene);
   other.reserve_contacts(4 * f.detection->capacity());
   const ContactView view = f.detection->view();
-  f.detection->detect(f.x.data(), 0.02F, &f.control.query_radius, 0.45F,
-                      OnTheWay{Decided{}, other.slots(), other.contact_rows(view.incidence_offsets, f.detection->loose_incidences(), f.detection->overflow()),
-                               other.resolve_contact(view, f.x.data())});
+  f.detection->detect(
+      f.x.data(), 0.02F, &f.control.query_radius, 0.45F,
+      OnTheWay{Decided{}, other.slots(),
+               other.contact_rows(view.incidence_offsets, f.detection->loose_incidences(), f.detection->overflow()),
+               other.resolve_contact(view, f.x.data())});
   f.fresh = f.x;
   SweepView with = f.view();
   other.complete(with);
@@ -264,7 +272,8 @@ TEST_CASE("where all models are default ones, the sum over every model is the de
     const ForceAndBlock all = GatherEveryModel{}(view, static_cast<int>(slot), vertex, own, SerialTeam<4>{});
     const ForceAndBlock expected = GatherDefault{}(view, static_cast<int>(slot), vertex, own, SerialTeam<4>{});
     // Terms are the same; sums are formed stencil by stencil: a rounding more for each hinge.
-    CHECK(length(all.force - expected.force) <= 64 * 0x1p-24 * (1e-6 + length(expected.force) + 0.02f * expected.block.xx));
+    CHECK(length(all.force - expected.force) <=
+          64 * 0x1p-24 * (1e-6 + length(expected.force) + 0.02f * expected.block.xx));
     CHECK(all.block.xx == Approx(expected.block.xx).epsilon(1e-5));
   }
 }
@@ -297,8 +306,8 @@ int other_bits(Fixture& f) {
   const SweepView view = f.view();
   int count = 0;
   for (const PackKernels* k : all_kernels()) {
-    count += other_bits<1>(f, view, *k) + other_bits<2>(f, view, *k) + other_bits<4>(f, view, *k) + other_bits<8>(f, view, *k) + other_bits<16>(f, view, *k) +
-             other_bits<32>(f, view, *k);
+    count += other_bits<1>(f, view, *k) + other_bits<2>(f, view, *k) + other_bits<4>(f, view, *k) +
+             other_bits<8>(f, view, *k) + other_bits<16>(f, view, *k) + other_bits<32>(f, view, *k);
   }
   return count;
 }
@@ -315,7 +324,7 @@ TEST_CASE("that holds without damping, and where triangles and edges have collap
   Fixture f(false, 4);
   for (const int v : {5, 23, 40, 61}) {
     const auto i = static_cast<std::size_t>(v);
-    f.x[i] = f.x[i + 1];                                   // an edge without length
+    f.x[i] = f.x[i + 1];                             // an edge without length
     f.x[i + 9] = 0.5f * (f.x[i + 10] + f.x[i + 8]);  // a triangle without area
   }
   CHECK(other_bits(f) == 0);
@@ -365,8 +374,12 @@ TEST_CASE("that holds for edges on either side of the limit below which two coun
   CHECK(above > 3);
 }
 
-TEST_CASE("the sum of a vertex with springs and of bodies with any models in packs has the bits of the lanes in turn, for every width", "[property]") {
-  const auto membrane = GENERATE(compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean);
+TEST_CASE(
+    "the sum of a vertex with springs and of bodies with any models in packs has the bits of the lanes in turn, for "
+    "every width",
+    "[property]") {
+  const auto membrane = GENERATE(compare::MembraneModel::st_venant_kirchhoff,
+                                 compare::MembraneModel::stable_neo_hookean);
   const auto bending = GENERATE(compare::BendingModel::discrete_hinge, compare::BendingModel::isometric_quadratic);
   const auto damping = GENERATE(compare::DampingForm::strain, compare::DampingForm::per_vertex);
   Fixture f(false, 4);

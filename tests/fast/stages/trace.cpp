@@ -39,7 +39,8 @@ compare::StepOut traced(const compare::Scene& scene, int list_capacity = 0) {
 }
 
 std::int64_t count(const compare::StepOut& out, compare::StepEventKind kind) {
-  return std::count_if(out.events.begin(), out.events.end(), [&](const compare::StepEvent& event) { return event.kind == kind; });
+  return std::count_if(out.events.begin(), out.events.end(),
+                       [&](const compare::StepEvent& event) { return event.kind == kind; });
 }
 
 }  // namespace
@@ -68,7 +69,8 @@ TEST_CASE("the last detection of a trace is the one that the state's certificate
   untraced->advance(1);
   const compare::Snapshot end = untraced->snapshot();
   const compare::StepOut trace = traced(scene);
-  const auto last = std::find_if(trace.events.rbegin(), trace.events.rend(), [](const auto& e) { return e.kind == compare::StepEventKind::detection; });
+  const auto last = std::find_if(trace.events.rbegin(), trace.events.rend(),
+                                 [](const auto& e) { return e.kind == compare::StepEventKind::detection; });
   CHECK(same_bits(last->position, end.previous));
   CHECK(last->bound == end.bounds);
 }

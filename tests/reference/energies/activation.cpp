@@ -12,12 +12,13 @@ using compare::ContactActivation;
 
 namespace {
 
-reference::ActivationValue activation_at(double d, double r, double k, ContactActivation kind = ContactActivation::ogc) {
+reference::ActivationValue activation_at(double d, double r, double k,
+                                         ContactActivation kind = ContactActivation::ogc) {
   return reference::activation_at(kind, d, r, k);
 }
 
-constexpr std::array all_kinds{ContactActivation::ogc, ContactActivation::ogc_as_printed, ContactActivation::quadratic, ContactActivation::ipc_log,
-                               ContactActivation::cubic};
+constexpr std::array all_kinds{ContactActivation::ogc, ContactActivation::ogc_as_printed, ContactActivation::quadratic,
+                               ContactActivation::ipc_log, ContactActivation::cubic};
 
 }  // namespace
 
@@ -45,12 +46,14 @@ TEST_CASE("activation: value and slope vanish at r, where the curvature jumps fr
   CHECK(below.curvature == k);
 }
 
-TEST_CASE("activation: slope and curvature are the derivatives of the energy, of every activation and in both stages", "[property]") {
+TEST_CASE("activation: slope and curvature are the derivatives of the energy, of every activation and in both stages",
+          "[property]") {
   const double r = 0.01, k = 50;
   for (const ContactActivation kind : all_kinds)
     for (double d = 0.0005; d < r; d += 0.00037) {
       const double h = d * 1e-4;
-      const auto low = activation_at(d - h, r, k, kind), at = activation_at(d, r, k, kind), high = activation_at(d + h, r, k, kind);
+      const auto low = activation_at(d - h, r, k, kind), at = activation_at(d, r, k, kind),
+                 high = activation_at(d + h, r, k, kind);
       if ((d - h < r / 2 && d + h >= r / 2) || d + h >= r) continue;
       // Next to r the cubic's slope tends to 0 and the difference's error, h²/6 · 4k/r, does not.
       CHECK((high.energy - low.energy) / (2 * h) == Approx(at.slope).epsilon(1e-6).margin(1e-7 * k * r));
@@ -73,8 +76,10 @@ TEST_CASE("activation: every variant repels below r, is convex, and ends at r wi
 }
 
 TEST_CASE("activation: the variants by hand at half the radius", "[unit]") {
-  // r = 2, k = 3, d = 1, depth 1: quadratic 3/2, −3, 3; cubic 2 · 3/6 = 1, −3, 6; IPC 3 ln 2, −3 (2 ln 2 + 1), 3 (2 ln 2 + 4 + 1).
-  const auto quadratic = activation_at(1, 2, 3, ContactActivation::quadratic), cubic = activation_at(1, 2, 3, ContactActivation::cubic);
+  // r = 2, k = 3, d = 1, depth 1: quadratic 3/2, −3, 3; cubic 2 · 3/6 = 1, −3, 6; IPC 3 ln 2, −3 (2 ln 2 + 1), 3 (2 ln
+  // 2 + 4 + 1).
+  const auto quadratic = activation_at(1, 2, 3, ContactActivation::quadratic),
+             cubic = activation_at(1, 2, 3, ContactActivation::cubic);
   const auto barrier = activation_at(1, 2, 3, ContactActivation::ipc_log);
   CHECK(quadratic.energy == 1.5);
   CHECK(quadratic.slope == -3);
@@ -135,7 +140,8 @@ TEST_CASE("activation: the curves of the drawing are those of the energies", "[u
   for (std::size_t i = 0; i < reference::stiffness_ratios.size(); ++i)
     for (const auto& point : panels[1].layers[i].points)
       CHECK(point[1] == reference::curvature_ratio(point[0], reference::stiffness_ratios[i]));
-  // Up to half of k_c r OGC's curvature is k_c = 1, so that the ratio is IPC's own curvature, which the first panel has.
+  // Up to half of k_c r OGC's curvature is k_c = 1, so that the ratio is IPC's own curvature, which the first panel
+  // has.
   const reference::DrawingLayer& ipc = panels[0].layers[3];
   REQUIRE(ipc.name == "ipc_log");
   for (std::size_t i = 280; i < 399; ++i) {  // 0.7 r and beyond: forces up to 0.34

@@ -1,4 +1,5 @@
-// The hinge of the reference against differences of its energy, against mechanics, and where its angle jumps or ceases to be.
+// The hinge of the reference against differences of its energy, against mechanics, and where its angle jumps or ceases
+// to be.
 #include "reference/energies/bending.hpp"
 
 #include <numbers>
@@ -30,7 +31,9 @@ double angle(const std::array<Point, 4>& x) {
   return std::atan2(inner(outer(a, continued), edge), inner(a, continued));
 }
 
-std::array<Point, 4> points(const std::array<compare::Vec3f, 4>& x) { return {point(x[0]), point(x[1]), point(x[2]), point(x[3])}; }
+std::array<Point, 4> points(const std::array<compare::Vec3f, 4>& x) {
+  return {point(x[0]), point(x[1]), point(x[2]), point(x[3])};
+}
 
 BendingCase random_case(Draw& draw) {
   BendingCase c;
@@ -59,7 +62,8 @@ BendingCase isometric_case(Draw& draw) {
 
 /// ℓ from the vertices themselves, not from differences.
 Point curvature(const std::array<Point, 4>& x, const BendingCase& c) {
-  const std::array<double, 4> w{-double{c.weight[0]} - c.weight[1] - c.weight[2], c.weight[0], c.weight[1], c.weight[2]};
+  const std::array<double, 4> w{-double{c.weight[0]} - c.weight[1] - c.weight[2], c.weight[0], c.weight[1],
+                                c.weight[2]};
   Point sum{};
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t i = 0; i < 3; ++i) sum[i] += w[k] * x[k][i];
@@ -87,8 +91,10 @@ TEST_CASE("the reference's hinge force is minus the slope of the energy at each 
     c.own = i % 4;
     const auto answers = reference::bending(c);
     REQUIRE(answers.size() == 1);
-    const Point fallen = slope([&](const Point& x) { return energy(x, c); }, point(c.vertex[static_cast<std::size_t>(c.own)]), 1e-5);
-    // Energies of some 10 J, third derivatives below 10⁴ at heights above 0.4 m: 10⁻¹⁰/6 · 10⁴, and 10 · 2⁻⁵³/10⁻⁵ by rounding.
+    const Point fallen = slope([&](const Point& x) { return energy(x, c); },
+                               point(c.vertex[static_cast<std::size_t>(c.own)]), 1e-5);
+    // Energies of some 10 J, third derivatives below 10⁴ at heights above 0.4 m: 10⁻¹⁰/6 · 10⁴, and 10 · 2⁻⁵³/10⁻⁵ by
+    // rounding.
     CHECK(std::abs(answers[0].force.x + fallen[0]) < 1e-6);
     CHECK(std::abs(answers[0].force.y + fallen[1]) < 1e-6);
     CHECK(std::abs(answers[0].force.z + fallen[2]) < 1e-6);
@@ -103,21 +109,23 @@ TEST_CASE("the reference's hinge exerts no net force and no net torque", "[prope
     double scale = 0;
     for (c.own = 0; c.own < 4; ++c.own) {
       const compare::ForceAnswer answer = reference::bending(c)[0];
-      const Point f{answer.force.x, answer.force.y, answer.force.z}, turn = outer(point(c.vertex[static_cast<std::size_t>(c.own)]), f);
+      const Point f{answer.force.x, answer.force.y, answer.force.z},
+          turn = outer(point(c.vertex[static_cast<std::size_t>(c.own)]), f);
       for (std::size_t k = 0; k < 3; ++k) {
         force[k] += f[k];
         torque[k] += turn[k];
       }
       scale += answer.force_scale;
     }
-    // The angle is a function of the four points alone: in double nothing but its rounding remains, some tens of 2⁻⁵³ on arms shorter than 2 m.
-    // Scales of the isometric model are a quarter and less of the condition.
+    // The angle is a function of the four points alone: in double nothing but its rounding remains, some tens of 2⁻⁵³
+    // on arms shorter than 2 m. Scales of the isometric model are a quarter and less of the condition.
     CHECK(norm(force) < 1e-13 * scale);
     CHECK(norm(torque) < 1e-13 * scale);
   }
 }
 
-TEST_CASE("the reference's hinge block is positive semidefinite, and the force vanishes at the rest angle", "[property]") {
+TEST_CASE("the reference's hinge block is positive semidefinite, and the force vanishes at the rest angle",
+          "[property]") {
   Draw draw(3);
   for (int i = 0; i < 200; ++i) {
     BendingCase c = random_case(draw);
@@ -162,13 +170,19 @@ TEST_CASE("a hinge with a needle may count as collapsed, and a sound one may not
   CHECK(needle[1].force == compare::Vec3{});
 }
 
-TEST_CASE("the isometric model agrees with the hinge for small angles of a shape that keeps its lengths, and is 2 sin(θ/2) for large ones", "[property]") {
+TEST_CASE(
+    "the isometric model agrees with the hinge for small angles of a shape that keeps its lengths, and is 2 sin(θ/2) "
+    "for large ones",
+    "[property]") {
   // x0, x1 on the edge, o0 above, o1 below and turned: weights of that very rest shape.
   const double length = 2, foot_a = 0.5, foot_b = 1.25, height_a = 1, height_b = 0.5;
   for (const double theta : {0.0, 1e-3, 0.7, 2.5}) {
     BendingCase c;
     const auto f = [](double x) { return static_cast<float>(x); };
-    c.vertex = {{{0, 0, 0}, {f(length), 0, 0}, {f(foot_a), f(height_a), 0}, {f(foot_b), f(-height_b * std::cos(theta)), f(height_b * std::sin(theta))}}};
+    c.vertex = {{{0, 0, 0},
+                 {f(length), 0, 0},
+                 {f(foot_a), f(height_a), 0},
+                 {f(foot_b), f(-height_b * std::cos(theta)), f(height_b * std::sin(theta))}}};
     c.start = c.vertex;
     c.stiffness = 3;
     c.weight = {f((foot_a / height_a + foot_b / height_b) / length), f(-1 / height_a), f(-1 / height_b)};
@@ -179,14 +193,17 @@ TEST_CASE("the isometric model agrees with the hinge for small angles of a shape
       const compare::ForceAnswer quadratic = reference::bending(c)[0];
       c.model = compare::BendingModel::discrete_hinge;
       const compare::ForceAnswer hinge = reference::bending(c)[0];
-      const double apart = std::hypot(quadratic.force.x - hinge.force.x, quadratic.force.y - hinge.force.y, quadratic.force.z - hinge.force.z);
-      // Forces are 3 · 2 · θ and less; they differ by θ² of that, and by what rounding the coordinates does: c w² 2⁻²⁴, a few times.
+      const double apart = std::hypot(quadratic.force.x - hinge.force.x, quadratic.force.y - hinge.force.y,
+                                      quadratic.force.z - hinge.force.z);
+      // Forces are 3 · 2 · θ and less; they differ by θ² of that, and by what rounding the coordinates does: c w² 2⁻²⁴,
+      // a few times.
       if (theta < 0.1) CHECK(apart <= 1e-5);
     }
   }
 }
 
-TEST_CASE("damping of the isometric model sees no rigid motion, and resists a change of the angle alone", "[property]") {
+TEST_CASE("damping of the isometric model sees no rigid motion, and resists a change of the angle alone",
+          "[property]") {
   Draw draw(8);
   BendingCase c = isometric_case(draw);
   c.damping = 1.5f;
@@ -197,7 +214,8 @@ TEST_CASE("damping of the isometric model sees no rigid motion, and resists a ch
   for (std::size_t k = 0; k < 4; ++k) c.start[k] = {-c.vertex[k].y + 1, c.vertex[k].x, c.vertex[k].z};
   for (c.own = elastic.own = 0; c.own < 4; ++c.own, ++elastic.own) {
     const compare::ForceAnswer damped = reference::bending(c)[0], free = reference::bending(elastic)[0];
-    CHECK(std::hypot(damped.force.x - free.force.x, damped.force.y - free.force.y, damped.force.z - free.force.z) < 1e-5 * norm({free.force.x, free.force.y, free.force.z}) + 1e-6);
+    CHECK(std::hypot(damped.force.x - free.force.x, damped.force.y - free.force.y, damped.force.z - free.force.z) <
+          1e-5 * norm({free.force.x, free.force.y, free.force.z}) + 1e-6);
   }
 }
 
@@ -210,17 +228,21 @@ TEST_CASE("damping by vertex of both bending models is k times the block on the 
     elastic.damping = 0;
     c.damping_form = compare::DampingForm::per_vertex;
     const compare::ForceAnswer damped = reference::bending(c)[0], free = reference::bending(elastic)[0];
-    const Point moved = minus(point(c.vertex[static_cast<std::size_t>(c.own)]), point(c.start[static_cast<std::size_t>(c.own)]));
+    const Point moved = minus(point(c.vertex[static_cast<std::size_t>(c.own)]),
+                              point(c.start[static_cast<std::size_t>(c.own)]));
     const double along = free.block[1] * moved[0] + free.block[3] * moved[1] + free.block[4] * moved[2];
     CHECK(damped.force.y == Approx(free.force.y - c.damping * along).margin(1e-10));
-    for (std::size_t k = 0; k < 6; ++k) CHECK(damped.block[k] == Approx((1 + double{c.damping}) * free.block[k]).margin(1e-10));
+    for (std::size_t k = 0; k < 6; ++k)
+      CHECK(damped.block[k] == Approx((1 + double{c.damping}) * free.block[k]).margin(1e-10));
   }
 }
 
 TEST_CASE("a force that vanishes because angle and gradient both do keeps the product of their errors", "[unit]") {
   // o0, x0, o1 on a line, o0 and o1 equally far: the angle is 0, and the levers of both triangles cancel at x1.
   BendingCase c;
-  c.vertex = {{{0.033203125f, 0.236328125f, 0.366210938f}, {0.099609375f, 0.236425787f, 0.36597997f}, {0.033203125f, 0.236328125f, 0.299316406f},
+  c.vertex = {{{0.033203125f, 0.236328125f, 0.366210938f},
+               {0.099609375f, 0.236425787f, 0.36597997f},
+               {0.033203125f, 0.236328125f, 0.299316406f},
                {0.033203125f, 0.236328125f, 0.43310547f}}};
   c.start = c.vertex;
   c.stiffness = 1.5e-6f;
@@ -233,9 +255,10 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
 }
 
-TEST_CASE("a hinge passes from π to -π only where its triangles touch, so that its angle needs no unwrapping", "[property]") {
-  // At ±π both triangles lie in one plane on one side of their edge, where they overlap: a vertex of one lies on the other, or two of their edges cross. Bounds
-  // keep both distances above zero. Integers: nothing is rounded.
+TEST_CASE("a hinge passes from π to -π only where its triangles touch, so that its angle needs no unwrapping",
+          "[property]") {
+  // At ±π both triangles lie in one plane on one side of their edge, where they overlap: a vertex of one lies on the
+  // other, or two of their edges cross. Bounds keep both distances above zero. Integers: nothing is rounded.
   std::mt19937 engine(3);
   std::uniform_int_distribution<int> along(-8, 16), up(1, 12);
   const compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}, {1, 0, 3}});

@@ -1,4 +1,5 @@
-// The reference's contact against differences of its energy, against mechanics, in closed form, and where it has more than one answer.
+// The reference's contact against differences of its energy, against mechanics, in closed form, and where it has more
+// than one answer.
 #include "reference/energies/contact_force.hpp"
 
 #include "tests/catch.hpp"
@@ -26,7 +27,10 @@ double trace(const compare::ForceAnswer& a) { return a.block[0] + a.block[3] + a
 
 }  // namespace
 
-TEST_CASE("the reference's contact force is minus the slope of the energy of the closest distance, weights that move included", "[property]") {
+TEST_CASE(
+    "the reference's contact force is minus the slope of the energy of the closest distance, weights that move "
+    "included",
+    "[property]") {
   Draw draw(1);
   for (int i = 0; i < 60; ++i) {
     ContactForceCase c = random_contact(draw, all_sides[static_cast<std::size_t>(i) % 4]);
@@ -61,7 +65,8 @@ TEST_CASE("the reference's contact forces leave no net force and no net torque",
   }
 }
 
-TEST_CASE("the reference's contact block is g'' w^2 n n^T: along the force, positive semidefinite, of rank one", "[property]") {
+TEST_CASE("the reference's contact block is g'' w^2 n n^T: along the force, positive semidefinite, of rank one",
+          "[property]") {
   Draw draw(3);
   for (int i = 0; i < 200; ++i) {
     ContactForceCase c = random_contact(draw, all_sides[static_cast<std::size_t>(i) % 4]);
@@ -76,7 +81,8 @@ TEST_CASE("the reference's contact block is g'' w^2 n n^T: along the force, posi
     if (size < 1e-6) continue;
     const std::array<double, 3> n{answer.force.x / size, answer.force.y / size, answer.force.z / size};
     constexpr std::array<std::array<std::size_t, 2>, 6> at{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
-    for (std::size_t k = 0; k < 6; ++k) REQUIRE(answer.block[k] == Approx(trace(answer) * n[at[k][0]] * n[at[k][1]]).margin(1e-9));
+    for (std::size_t k = 0; k < 6; ++k)
+      REQUIRE(answer.block[k] == Approx(trace(answer) * n[at[k][0]] * n[at[k][1]]).margin(1e-9));
     REQUIRE(smallest_quadratic(answer.block, draw) >= -1e-12);
   }
 }
@@ -108,14 +114,18 @@ TEST_CASE("blocks of vertices that are updated together majorise what the contac
   }
 }
 
-TEST_CASE("a point above a large triangle is pushed by k (r - d), below r/2 by k r^2/(4 d), and the corners share the reaction", "[unit]") {
+TEST_CASE(
+    "a point above a large triangle is pushed by k (r - d), below r/2 by k r^2/(4 d), and the corners share the "
+    "reaction",
+    "[unit]") {
   for (const float d : {0.0625f, 0.125f, 0.25f, 0.375f}) {
     ContactForceCase c = above(d);
     const double lambda = d < 0.25f ? 8 * 0.25 / (4 * double{d}) : 8 * (0.5 - double{d});
     REQUIRE(exact(c).force.z == Approx(lambda));
     REQUIRE(trace(exact(c)) == Approx(d < 0.25f ? lambda / double{d} : 8));
     constexpr std::array<double, 3> shares{0.25, 0.25, 0.5};
-    for (c.own = 1; c.own < 4; ++c.own) REQUIRE(exact(c).force.z == Approx(-lambda * shares[static_cast<std::size_t>(c.own) - 1]));
+    for (c.own = 1; c.own < 4; ++c.own)
+      REQUIRE(exact(c).force.z == Approx(-lambda * shares[static_cast<std::size_t>(c.own) - 1]));
   }
 }
 
@@ -141,7 +151,10 @@ TEST_CASE("the mollifier is that of the last detection, for two edges of meshes 
   c.contact_radius = 1;
   c.stiffness = 2;
   const auto at = [&](double sine) {
-    c.detected = {{{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {static_cast<float>(2 * std::sqrt(1 - sine * sine)), static_cast<float>(2 * sine), 0}}};
+    c.detected = {{{-1, 0, 0},
+                   {1, 0, 0},
+                   {0, 0, 0},
+                   {static_cast<float>(2 * std::sqrt(1 - sine * sine)), static_cast<float>(2 * sine), 0}}};
     return exact(c).force.z;
   };
   c.rest_squared = {4, 0};
@@ -163,14 +176,14 @@ TEST_CASE("two edges without triangles share the energy by their overlap where t
     return exact(c).force.z;
   };
   for (const float slope : {0.0f, 1e-12f, 5e-4f}) {
-    REQUIRE(at(3, 5, slope) == Approx(0.5));   // half of the shorter second one
+    REQUIRE(at(3, 5, slope) == Approx(0.5));  // half of the shorter second one
     REQUIRE(at(5, 3, slope) == Approx(0.5));
-    REQUIRE(at(1, 2, slope) == Approx(1));     // all of it
-    REQUIRE(at(-2, 6, slope) == Approx(1));    // all of the first
-    REQUIRE(at(-2, 3, slope) == Approx(0.75)); // three quarters of the first
+    REQUIRE(at(1, 2, slope) == Approx(1));      // all of it
+    REQUIRE(at(-2, 6, slope) == Approx(1));     // all of the first
+    REQUIRE(at(-2, 3, slope) == Approx(0.75));  // three quarters of the first
   }
-  REQUIRE(at(4, 6, 0) == Approx(1));     // no more than a point: by another rule
-  REQUIRE(at(3, 5, 0.01f) == Approx(1)); // no longer nearly parallel
+  REQUIRE(at(4, 6, 0) == Approx(1));      // no more than a point: by another rule
+  REQUIRE(at(3, 5, 0.01f) == Approx(1));  // no longer nearly parallel
   c.rest_squared = {4, 0};
   REQUIRE(at(3, 5, 0) == Approx(1));
 }
@@ -199,16 +212,20 @@ TEST_CASE("where a decision is grey both answers are accepted, the exact one fir
   const auto on_side = reference::contact_force(beside);
   REQUIRE(on_side.size() == 2);
   REQUIRE(on_side[0].force.z == 0);
-  REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);  // not to be told from touching: anything up to the force at 2^-23 r
+  // not to be told from touching: anything up to the force at 2^-23 r
+  REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);
 }
 
-TEST_CASE("of a needle no force is accepted that is larger than at the exact distance, and of other shapes none at all", "[unit]") {
+TEST_CASE("of a needle no force is accepted that is larger than at the exact distance, and of other shapes none at all",
+          "[unit]") {
   ContactForceCase c = above(0.3f);
   c.vertex = {{{5, 0.005f, 0.3f}, {0, 0, 0}, {10, 0, 0}, {5, 0.01f, 0}}};
   const auto needle = reference::contact_force(c);
   REQUIRE(needle.size() == 2);
   CHECK(needle[1].force == compare::Vec3{});
-  CHECK(compare::contact_force_tolerance * compare::unit_roundoff * needle[1].force_scale == Approx(8 * (0.5 - 0.3)).epsilon(1e-4));  // k (r − d)
+  // k (r − d)
+  CHECK(compare::contact_force_tolerance * compare::unit_roundoff * needle[1].force_scale ==
+        Approx(8 * (0.5 - 0.3)).epsilon(1e-4));
   CHECK(compare::contact_block_tolerance * compare::unit_roundoff * needle[1].block_scale == Approx(8).epsilon(1e-4));
   c.vertex[3].y = 0.1f;
   c.vertex[0].y = 0.03f;

@@ -1,5 +1,5 @@
-// Random contacts and closest points without features, for the tests of the reference's contact stages: minima found by projecting to and fro, or by the
-// smallest of all candidates, never by deciding where a point belongs.
+// Random contacts and closest points without features, for the tests of the reference's contact stages: minima found by
+// projecting to and fro, or by the smallest of all candidates, never by deciding where a point belongs.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,12 @@ namespace ogc::tests {
 using compare::ContactForceCase;
 using compare::ContactSides;
 
-inline constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, ContactSides::point_edge, ContactSides::edge_edge,
-                                                       ContactSides::point_triangle};
+inline constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, ContactSides::point_edge,
+                                                       ContactSides::edge_edge, ContactSides::point_triangle};
 
-inline Point mix(const Point& a, const Point& b, double t) { return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])}; }
+inline Point mix(const Point& a, const Point& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
 
 /// Parameter of the point of the closed segment nearest to p.
 inline double nearest(const Point& p, const Point& a, const Point& b) {
@@ -47,9 +49,11 @@ inline Weights weights_of_triangle(const std::array<Point, 4>& x) {
   const double ab = nearest(x[0], x[1], x[2]), bc = nearest(x[0], x[2], x[3]), ca = nearest(x[0], x[3], x[1]);
   std::vector<Weights> candidates{{1, ab - 1, -ab, 0}, {1, 0, bc - 1, -bc}, {1, -ca, 0, ca - 1}};
   const Point n = outer(minus(x[2], x[1]), minus(x[3], x[1]));
-  const double b = inner(outer(minus(x[0], x[1]), minus(x[3], x[1])), n) / inner(n, n), c = inner(outer(minus(x[2], x[1]), minus(x[0], x[1])), n) / inner(n, n);
+  const double b = inner(outer(minus(x[0], x[1]), minus(x[3], x[1])), n) / inner(n, n),
+               c = inner(outer(minus(x[2], x[1]), minus(x[0], x[1])), n) / inner(n, n);
   if (b > 0 && c > 0 && b + c < 1) candidates.push_back({1, b + c - 1, -b, -c});
-  return *std::min_element(candidates.begin(), candidates.end(), [&](const Weights& v, const Weights& w) { return distance_of(x, v) < distance_of(x, w); });
+  return *std::min_element(candidates.begin(), candidates.end(),
+                           [&](const Weights& v, const Weights& w) { return distance_of(x, v) < distance_of(x, w); });
 }
 
 inline Weights weights(ContactSides sides, const std::array<Point, 4>& x) {
@@ -64,7 +68,9 @@ inline Weights weights(ContactSides sides, const std::array<Point, 4>& x) {
   }
 }
 
-inline std::array<Point, 4> points(const std::array<compare::Vec3f, 4>& x) { return {point(x[0]), point(x[1]), point(x[2]), point(x[3])}; }
+inline std::array<Point, 4> points(const std::array<compare::Vec3f, 4>& x) {
+  return {point(x[0]), point(x[1]), point(x[2]), point(x[3])};
+}
 
 /// Sides of about 1 m, 0.1 to 0.6 m apart, r = 0.7 m; edges at a right angle more or less.
 inline ContactForceCase random_contact(Draw& draw, ContactSides sides) {
@@ -72,9 +78,11 @@ inline ContactForceCase random_contact(Draw& draw, ContactSides sides) {
   c.sides = sides;
   const std::array<compare::Vec3f, 3> second = sides == ContactSides::edge_edge
                                                    ? std::array<compare::Vec3f, 3>{{{0, -0.5f, 0}, {0, 0.5f, 0}, {}}}
-                                                   : std::array<compare::Vec3f, 3>{{{-0.5f, -0.3f, 0}, {0.6f, -0.4f, 0}, {0, 0.6f, 0}}};
+                                                   : std::array<compare::Vec3f, 3>{
+                                                         {{-0.5f, -0.3f, 0}, {0.6f, -0.4f, 0}, {0, 0.6f, 0}}};
   const float height = draw.single(0.1, 0.5);
-  const std::size_t first = sides == ContactSides::edge_edge ? 2 : 1, count = static_cast<std::size_t>(compare::vertex_count(sides));
+  const std::size_t first = sides == ContactSides::edge_edge ? 2 : 1,
+                    count = static_cast<std::size_t>(compare::vertex_count(sides));
   for (std::size_t k = 0; k < count; ++k) {
     const compare::Vec3f jitter = draw.in_box(k < first ? 0.4 : 0.15);
     compare::Vec3f base{0, 0, height};

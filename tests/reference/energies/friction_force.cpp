@@ -25,7 +25,9 @@ FrictionForceCase random_friction(Draw& draw, ContactSides sides) {
 }
 
 /// f₀ with f₀' = f₁ and f₀(ε) = ε.
-double potential(double y, double limit) { return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y; }
+double potential(double y, double limit) {
+  return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y;
+}
 
 /// What friction holds fixed: weights, normal, λ.
 struct Lagged {
@@ -39,7 +41,10 @@ struct Lagged {
     const double d = distance_of(x, weight), h = 1e-6;
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t i = 0; i < 3; ++i) normal[i] += weight[k] * x[k][i] / d;
-    force = d < c.contact_radius ? (activation(d - h, c.contact_radius, c.stiffness) - activation(d + h, c.contact_radius, c.stiffness)) / (2 * h) : 0;
+    force = d < c.contact_radius ? (activation(d - h, c.contact_radius, c.stiffness) -
+                                    activation(d + h, c.contact_radius, c.stiffness)) /
+                                       (2 * h)
+                                 : 0;
   }
   /// The tangential part of Σ w (x − xᵗ).
   Point slip(const FrictionForceCase& c, const std::array<Point, 4>& x) const {
@@ -69,7 +74,8 @@ FrictionForceCase above(float slip, float lift) {
 
 }  // namespace
 
-TEST_CASE("the reference's friction is minus the slope of the potential with normal, weights and normal force held", "[property]") {
+TEST_CASE("the reference's friction is minus the slope of the potential with normal, weights and normal force held",
+          "[property]") {
   Draw draw(1);
   for (int i = 0; i < 100; ++i) {
     FrictionForceCase c = random_friction(draw, all_sides[static_cast<std::size_t>(i) % 4]);
@@ -109,7 +115,10 @@ TEST_CASE("the reference's friction opposes the slip, never exceeds mu lambda, a
   }
 }
 
-TEST_CASE("friction is mu lambda (2 y - y^2) up to y = 1 slip limits and mu lambda beyond, whatever the motion along the normal", "[unit]") {
+TEST_CASE(
+    "friction is mu lambda (2 y - y^2) up to y = 1 slip limits and mu lambda beyond, whatever the motion along the "
+    "normal",
+    "[unit]") {
   for (const float lift : {0.0f, 0.5f, -3.0f}) {
     for (const double y : {0.0, 0.25, 0.5, 1.0, 2.0}) {
       const compare::ForceAnswer answer = exact(above(static_cast<float>(0.125 * y), lift));
@@ -143,7 +152,9 @@ TEST_CASE("no contact, no friction; at the radius both are accepted", "[unit]") 
   REQUIRE(reference::friction_force(c).size() == 2);
 }
 
-TEST_CASE("a slip within 2^10 ulp of its limit lies near a decision, one beside it does not, nor one where nothing presses", "[unit]") {
+TEST_CASE(
+    "a slip within 2^10 ulp of its limit lies near a decision, one beside it does not, nor one where nothing presses",
+    "[unit]") {
   const auto near = [](float slip, float radius) {
     FrictionForceCase c = above(slip, 0);
     c.contact.contact_radius = radius;

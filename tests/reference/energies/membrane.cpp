@@ -1,4 +1,5 @@
-// The membrane of the reference against differences of its energy, against mechanics, and against a stretch that has a closed form.
+// The membrane of the reference against differences of its energy, against mechanics, and against a stretch that has a
+// closed form.
 #include "reference/energies/membrane.hpp"
 
 #include "tests/catch.hpp"
@@ -42,7 +43,9 @@ Columns columns(const std::array<Point, 3>& x, const MembraneCase& c) {
   return f;
 }
 
-Strain strain(const Columns& f) { return {(inner(f[0], f[0]) - 1) / 2, inner(f[0], f[1]) / 2, (inner(f[1], f[1]) - 1) / 2}; }
+Strain strain(const Columns& f) {
+  return {(inner(f[0], f[0]) - 1) / 2, inner(f[0], f[1]) / 2, (inner(f[1], f[1]) - 1) / 2};
+}
 
 double density(const Strain& g, const MembraneCase& c) {
   const double trace = g[0] + g[2];
@@ -52,13 +55,15 @@ double density(const Strain& g, const MembraneCase& c) {
 /// By the singular values of F: μ/2 (s₁ − s₂)² + (λ + μ)/2 (s₁ s₂ − 1)².
 double neo_hookean_density(const Columns& f, const MembraneCase& c) {
   const double squares = inner(f[0], f[0]) + inner(f[1], f[1]), product = norm(outer(f[0], f[1]));
-  return c.lame_mu / 2 * (squares - 2 * product) + (double{c.lame_lambda} + c.lame_mu) / 2 * (product - 1) * (product - 1);
+  return c.lame_mu / 2 * (squares - 2 * product) +
+         (double{c.lame_lambda} + c.lame_mu) / 2 * (product - 1) * (product - 1);
 }
 
 double energy(const Point& own, const MembraneCase& c) {
   const Columns f = columns({own, point(c.corner[1]), point(c.corner[2])}, c);
   const Strain now = strain(f), before = strain(columns({point(c.start[0]), point(c.start[1]), point(c.start[2])}, c));
-  const double psi = c.model == compare::MembraneModel::stable_neo_hookean ? neo_hookean_density(f, c) : density(now, c);
+  const double psi = c.model == compare::MembraneModel::stable_neo_hookean ? neo_hookean_density(f, c)
+                                                                           : density(now, c);
   return c.area * (psi + c.damping * density({now[0] - before[0], now[1] - before[1], now[2] - before[2]}, c));
 }
 
@@ -84,7 +89,8 @@ TEST_CASE("the reference's membrane force is minus the slope of the energy", "[p
     const MembraneCase c = i % 2 == 0 ? random_case(draw) : neo_hookean(random_case(draw));
     const compare::ForceAnswer answer = exact(c);
     const Point fallen = slope([&](const Point& x) { return energy(x, c); }, point(c.corner[0]), 1e-5);
-    // Energies up to 10⁵ J: rounding 10⁵ · 2⁻⁵³ / 10⁻⁵ ≈ 10⁻⁶; a quartic with third derivatives of that size leaves 10⁻¹⁰ · 10⁵.
+    // Energies up to 10⁵ J: rounding 10⁵ · 2⁻⁵³ / 10⁻⁵ ≈ 10⁻⁶; a quartic with third derivatives of that size leaves
+    // 10⁻¹⁰ · 10⁵.
     const double accepted = 1e-4 + 1e-8 * answer.force_scale;
     CHECK(std::abs(answer.force.x + fallen[0]) < accepted);
     CHECK(std::abs(answer.force.y + fallen[1]) < accepted);
@@ -108,7 +114,8 @@ TEST_CASE("the reference's membrane exerts no net force and, without damping, no
       }
       scale += answer.force_scale;
     }
-    // Gradients of a turned stencil are rounded to single once more: an error of u in an input, one unit of the condition; arms are shorter than 3 m.
+    // Gradients of a turned stencil are rounded to single once more: an error of u in an input, one unit of the
+    // condition; arms are shorter than 3 m.
     CHECK(norm(force) < 4 * compare::unit_roundoff * scale);
     CHECK(norm(torque) < 12 * compare::unit_roundoff * scale);
   }
@@ -126,7 +133,8 @@ TEST_CASE("the reference's membrane block is positive semidefinite, also under c
 }
 
 TEST_CASE("a uniform stretch of the reference's membrane has the force of its closed form", "[property]") {
-  // Corners (0,0), (1,0), (0,1) stretched to (s,0), (0,s): G = (s² − 1)/2 I, S = 2 (λ + μ) G, force on corner 0: A F S ∇N₀ summed, towards the inside.
+  // Corners (0,0), (1,0), (0,1) stretched to (s,0), (0,s): G = (s² − 1)/2 I, S = 2 (λ + μ) G, force on corner 0: A F S
+  // ∇N₀ summed, towards the inside.
   for (const float s : {0.5f, 1.0f, 1.25f, 2.0f}) {
     MembraneCase c;
     c.gradient = {{{1, 0}, {0, 1}}};
@@ -160,7 +168,8 @@ TEST_CASE("the reference's membrane at rest exerts nothing, and damping resists 
   CHECK(exact(c).force.x > 0);
 }
 
-TEST_CASE("at rest the stable Neo-Hookean membrane exerts nothing, and answers small strains like the other model", "[property]") {
+TEST_CASE("at rest the stable Neo-Hookean membrane exerts nothing, and answers small strains like the other model",
+          "[property]") {
   MembraneCase c;
   c.gradient = {{{1, 0}, {0, 1}}};
   c.area = 0.5f;
@@ -181,7 +190,8 @@ TEST_CASE("at rest the stable Neo-Hookean membrane exerts nothing, and answers s
 }
 
 TEST_CASE("a uniform stretch of the stable Neo-Hookean membrane has the force of its closed form", "[property]") {
-  // Corners (0,0), (1,0), (0,1) stretched to (s,0), (0,s): ψ = (λ + μ)/2 (s² − 1)², ∂ψ/∂F = (λ + μ)(s² − 1) s I, force on corner 0: A times its row sums.
+  // Corners (0,0), (1,0), (0,1) stretched to (s,0), (0,s): ψ = (λ + μ)/2 (s² − 1)², ∂ψ/∂F = (λ + μ)(s² − 1) s I, force
+  // on corner 0: A times its row sums.
   for (const float s : {0.5f, 1.0f, 1.25f, 2.0f}) {
     MembraneCase c;
     c.gradient = {{{1, 0}, {0, 1}}};
@@ -198,7 +208,10 @@ TEST_CASE("a uniform stretch of the stable Neo-Hookean membrane has the force of
   }
 }
 
-TEST_CASE("the stable Neo-Hookean block is the energy's second derivative where that is positive semidefinite, and never below it", "[property]") {
+TEST_CASE(
+    "the stable Neo-Hookean block is the energy's second derivative where that is positive semidefinite, and never "
+    "below it",
+    "[property]") {
   Draw draw(5);
   int definite = 0;
   for (int i = 0; i < 200; ++i) {
@@ -220,7 +233,8 @@ TEST_CASE("the stable Neo-Hookean block is the energy's second derivative where 
     const double size = std::abs(block[0]) + std::abs(block[3]) + std::abs(block[5]);
     std::array<double, 6> raised{};
     double largest = 0;
-    for (std::size_t k = 0; k < 6; ++k) raised[k] = block[k] - second[k], largest = std::max(largest, std::abs(raised[k]));
+    for (std::size_t k = 0; k < 6; ++k)
+      raised[k] = block[k] - second[k], largest = std::max(largest, std::abs(raised[k]));
     // Differences over 10⁻⁴ of energies of the size of the block: 2⁻⁵³/10⁻⁸ by rounding, fourth derivatives times 10⁻⁸.
     CHECK(smallest_quadratic(raised, draw) >= -1e-4 * size);
     if (smallest_quadratic(second, draw) < 1e-3 * size) continue;
@@ -230,7 +244,8 @@ TEST_CASE("the stable Neo-Hookean block is the energy's second derivative where 
   CHECK(definite > 20);
 }
 
-TEST_CASE("a collapsed stable Neo-Hookean triangle is pulled together alone, and any normal is accepted", "[property]") {
+TEST_CASE("a collapsed stable Neo-Hookean triangle is pulled together alone, and any normal is accepted",
+          "[property]") {
   MembraneCase c;
   c.gradient = {{{1, 0}, {0, 1}}};
   c.area = 0.5f;
@@ -240,7 +255,8 @@ TEST_CASE("a collapsed stable Neo-Hookean triangle is pulled together alone, and
   c.lame_mu = 5;
   const auto answers = reference::membrane(neo_hookean(c));
   REQUIRE(answers.size() == 2);
-  // −A μ F ∇N₀ = 0.5 · 5 · (f₁ + f₂), f₁ = (1, 0, 0), f₂ = (0.5, 0, 0); −A c g has c = −(λ + 2μ) = −13 and ‖g‖ = ‖f₁ − f₂‖ = 0.5.
+  // −A μ F ∇N₀ = 0.5 · 5 · (f₁ + f₂), f₁ = (1, 0, 0), f₂ = (0.5, 0, 0); −A c g has c = −(λ + 2μ) = −13 and ‖g‖ = ‖f₁ −
+  // f₂‖ = 0.5.
   CHECK(answers[0].force.x == Approx(0.5 * 5 * 1.5));
   CHECK(answers[1].force.x == Approx(0.5 * 5 * 1.5));
   CHECK(compare::membrane_force_tolerance * compare::unit_roundoff * answers[1].force_scale >= 0.5 * 13 * 0.5);
@@ -259,7 +275,8 @@ TEST_CASE("damping by vertex resists the vertex's own motion through its own blo
     const compare::ForceAnswer damped = exact(c), free = exact(elastic);
     const Point moved = minus(point(c.corner[0]), point(c.start[0]));
     const auto& b = free.block;
-    const Point resisted{b[0] * moved[0] + b[1] * moved[1] + b[2] * moved[2], b[1] * moved[0] + b[3] * moved[1] + b[4] * moved[2],
+    const Point resisted{b[0] * moved[0] + b[1] * moved[1] + b[2] * moved[2],
+                         b[1] * moved[0] + b[3] * moved[1] + b[4] * moved[2],
                          b[2] * moved[0] + b[4] * moved[1] + b[5] * moved[2]};
     CHECK(damped.force.x == Approx(free.force.x - c.damping * resisted[0]));
     CHECK(damped.force.z == Approx(free.force.z - c.damping * resisted[2]));

@@ -37,7 +37,8 @@ Scene crumpled(unsigned seed) {
 Scene hinge(const Vec3& far) {
   Scene scene;
   scene.name = "hinge";
-  append_body(scene, {.name = "sheet", .material = {}}, {{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, far}, {{0, 1, 2}, {1, 0, 3}}, {}});
+  append_body(scene, {.name = "sheet", .material = {}},
+              {{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, far}, {{0, 1, 2}, {1, 0, 3}}, {}});
   return scene;
 }
 
@@ -72,7 +73,10 @@ TEST_CASE("rest state: masses add up to density times area, and areas are those 
   CHECK(mass == Approx(0.25 * whole).epsilon(1e-14));
 }
 
-TEST_CASE("rest state: gradients turn the rest triangle into its plane, first edge along the first axis, third corner above it", "[property]") {
+TEST_CASE(
+    "rest state: gradients turn the rest triangle into its plane, first edge along the first axis, third corner above "
+    "it",
+    "[property]") {
   Scene scene = crumpled(5);
   const RestStateTruth rest = rest_of(scene);
   for (std::size_t t = 0; t < rest.gradient.size(); ++t) {
@@ -83,7 +87,8 @@ TEST_CASE("rest state: gradients turn the rest triangle into its plane, first ed
     const auto column = [&](std::size_t axis) {
       const Vec3 o = at(0), p = at(1), q = at(2);
       const double a = g[0][axis], b = g[1][axis];
-      return Vec3{a * (p.x - o.x) + b * (q.x - o.x), a * (p.y - o.y) + b * (q.y - o.y), a * (p.z - o.z) + b * (q.z - o.z)};
+      return Vec3{a * (p.x - o.x) + b * (q.x - o.x), a * (p.y - o.y) + b * (q.y - o.y),
+                  a * (p.z - o.z) + b * (q.z - o.z)};
     };
     const auto product = [](const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
     const Vec3 first = column(0), second = column(1);
@@ -130,13 +135,17 @@ TEST_CASE("rest state: needles and folds keep every bit", "[unit]") {
   // Height 2⁻¹⁹ over a side of 2²⁰: 2A = 2. The normals of a fold by 2⁻¹⁹ short of half a turn.
   Scene scene;
   scene.name = "needle";
-  append_body(scene, {.name = "sheet", .material = {}}, {{{0, 0, 0}, {0x1p20, 0, 0}, {0x1p19, 0x1p-19, 0}}, {{0, 1, 2}}, {}});
+  append_body(scene, {.name = "sheet", .material = {}},
+              {{{0, 0, 0}, {0x1p20, 0, 0}, {0x1p19, 0x1p-19, 0}}, {{0, 1, 2}}, {}});
   CHECK(rest_of(scene).area[0] == 1);
   CHECK(rest_of(scene).gradient[0][1][1] == 0x1p19);
   CHECK(std::numbers::pi - std::abs(angle_of({1, 1, 0x1p-19})) == Approx(0x1p-19).epsilon(1e-9));
 }
 
-TEST_CASE("rest state: bodies meet with the harmonic mean of stiffness, 0 where one has none, and the arithmetic mean of friction", "[unit]") {
+TEST_CASE(
+    "rest state: bodies meet with the harmonic mean of stiffness, 0 where one has none, and the arithmetic mean of "
+    "friction",
+    "[unit]") {
   Scene scene = tests::small_scene();
   scene.bodies[0].material.contact_stiffness = 10;
   scene.bodies[0].material.friction = 0.5;
@@ -172,9 +181,11 @@ TEST_CASE("rest state: units of errors follow Euler's rule for what scales with 
   const RestStateTruth rest = rest_of(scene);
   for (std::size_t t = 0; t < rest.area.size(); ++t) {
     CHECK(rest.area_scale[t] >= 2 * rest.area[t] * (1 - 1e-12));
-    for (std::size_t k = 0; k < 2; ++k) CHECK(rest.gradient_scale[t][k] >= std::hypot(rest.gradient[t][k][0], rest.gradient[t][k][1]) * (1 - 1e-12));
+    for (std::size_t k = 0; k < 2; ++k)
+      CHECK(rest.gradient_scale[t][k] >= std::hypot(rest.gradient[t][k][0], rest.gradient[t][k][1]) * (1 - 1e-12));
   }
-  for (std::size_t e = 0; e < rest.edge_length_squared.size(); ++e) CHECK(rest.edge_length_squared_scale[e] == Approx(2 * rest.edge_length_squared[e]));
+  for (std::size_t e = 0; e < rest.edge_length_squared.size(); ++e)
+    CHECK(rest.edge_length_squared_scale[e] == Approx(2 * rest.edge_length_squared[e]));
   for (std::size_t i = 0; i < rest.stiffness.size(); ++i) {
     CHECK(rest.stiffness_scale[i] >= rest.stiffness[i]);
     CHECK(rest.rest_angle_scale[i] >= 2);

@@ -17,7 +17,8 @@ namespace {
 
 Corners<4> hinge_corners(Draw& draw, bool collapsed) {
   const double side = 0.01, angle = draw.between(-2.5, 2.5);
-  Corners<4> x{{{0, 0, 0}, {side, 0, 0}, {0.3 * side, side, 0}, {0.6 * side, -side * std::cos(angle), side * std::sin(angle)}}};
+  Corners<4> x{
+      {{0, 0, 0}, {side, 0, 0}, {0.3 * side, side, 0}, {0.6 * side, -side * std::cos(angle), side * std::sin(angle)}}};
   for (auto& p : x)
     for (double& c : p) c += draw.between(-1e-3, 1e-3);
   if (collapsed) x[2] = x[1];
@@ -63,7 +64,10 @@ Matrix<N> matrix_of_kind(Draw& draw, int kind) {
   std::array<double, N> values;
   for (std::size_t i = 0; i < N; ++i) {
     const double sign = draw.between(-1, 1) < 0 ? -1 : 1;
-    values[i] = kind == 1 ? sign : kind == 2 ? sign * std::pow(10.0, draw.between(-16, 4)) : kind == 3 && i > 0 ? 0 : draw.between(-1, 1);
+    values[i] = kind == 1            ? sign
+                : kind == 2          ? sign * std::pow(10.0, draw.between(-16, 4))
+                : kind == 3 && i > 0 ? 0
+                                     : draw.between(-1, 1);
   }
   Matrix<N> h = with_eigenvalues<N>(draw, values);
   if (kind == 4) h = Matrix<N>(h.diagonal().asDiagonal());
@@ -88,7 +92,8 @@ LowerTriangle<N, Lanes<Packs>> in_lanes(const std::vector<Matrix<N>>& matrices) 
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j <= i; ++j)
       for (std::size_t lane = 0; lane < matrices.size(); ++lane)
-        h[lower(i, j)].part[lane / pack_width][lane % pack_width] = matrices[lane](static_cast<int>(i), static_cast<int>(j));
+        h[lower(i, j)].part[lane / pack_width][lane % pack_width] = matrices[lane](static_cast<int>(i),
+                                                                                   static_cast<int>(j));
   return h;
 }
 
@@ -96,13 +101,15 @@ template <std::size_t N, std::size_t Packs>
 Matrix<N> lane_of(const LowerTriangle<N, Lanes<Packs>>& h, std::size_t lane) {
   Matrix<N> m;
   for (std::size_t i = 0; i < N; ++i)
-    for (std::size_t j = 0; j < N; ++j) m(static_cast<int>(i), static_cast<int>(j)) = h[lower(i, j)].part[lane / pack_width][lane % pack_width];
+    for (std::size_t j = 0; j < N; ++j)
+      m(static_cast<int>(i), static_cast<int>(j)) = h[lower(i, j)].part[lane / pack_width][lane % pack_width];
   return m;
 }
 
-/// Both solvers change the basis by N − 2 reflections and some two rotations for each of the N(N − 1)/2 entries beside the diagonal, from both sides, and are off
-/// by no more than 8 u ‖H‖ in each; Frobenius norms. Clamping is no expansion, and the modulus at most one by √2 (Araki and Yamagami 1981). What is put
-/// together again of N terms of rank one adds a few u of the norm each.
+/// Both solvers change the basis by N − 2 reflections and some two rotations for each of the N(N − 1)/2 entries beside
+/// the diagonal, from both sides, and are off by no more than 8 u ‖H‖ in each; Frobenius norms. Clamping is no
+/// expansion, and the modulus at most one by √2 (Araki and Yamagami 1981). What is put together again of N terms of
+/// rank one adds a few u of the norm each.
 template <std::size_t N>
 constexpr double projection_bound = 0x1p-53 * 2 * 1.5 * (2 * 8.0 * (N - 2 + N * (N - 1)) + 4 * N);
 
@@ -113,7 +120,8 @@ void check_projection() {
   for (int round = 0; round < 200; ++round)
     for (const bool absolute : {false, true}) {
       std::vector<Matrix<N>> matrices;
-      for (std::size_t lane = 0; lane < batch_width; ++lane) matrices.push_back(matrix_of_kind<N>(draw, static_cast<int>(lane) % 6));
+      for (std::size_t lane = 0; lane < batch_width; ++lane)
+        matrices.push_back(matrix_of_kind<N>(draw, static_cast<int>(lane) % 6));
       auto h = in_lanes<N, packs>(matrices);
       project<N, packs>(h, absolute);
       for (std::size_t lane = 0; lane < batch_width; ++lane) {
@@ -128,7 +136,8 @@ void check_projection() {
 
 }  // namespace
 
-TEST_CASE("stencils side by side have the derivatives of each alone, to the bit, whatever branches the others take", "[property]") {
+TEST_CASE("stencils side by side have the derivatives of each alone, to the bit, whatever branches the others take",
+          "[property]") {
   Draw draw(11);
   for (const StencilKernels* kernels : kernels_of_this_machine()) {
     for (int round = 0; round < 30; ++round) {
@@ -140,11 +149,19 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
         // First all alike, then with other branches among them, by chance.
         const auto other = [&] { return round % 3 == 2 && draw.between(0, 1) < 0.3; };
         const bool neo_hookean = (round % 2 == 0) != other();
-        membranes.push_back(membrane(draw, !other(), neo_hookean ? compare::MembraneModel::stable_neo_hookean : compare::MembraneModel::st_venant_kirchhoff));
+        membranes.push_back(membrane(
+            draw, !other(),
+            neo_hookean ? compare::MembraneModel::stable_neo_hookean : compare::MembraneModel::st_venant_kirchhoff));
         Corners<4> fold = hinge_corners(draw, other());
         triangles.push_back({fold[0], fold[1], other() ? fold[1] : fold[3]});
         folds.push_back(fold);
-        hinges.push_back({{}, 5e-7, draw.between(-1, 1), other() ? 0 : draw.between(0, 0.5), draw.between(-1, 1), other(), {30, 70, -60, -40}});
+        hinges.push_back({{},
+                          5e-7,
+                          draw.between(-1, 1),
+                          other() ? 0 : draw.between(0, 0.5),
+                          draw.between(-1, 1),
+                          other(),
+                          {30, 70, -60, -40}});
       }
       check_against_alone<3>(kernels->membranes, membranes, triangles, alone<3>());
       check_against_alone<4>(kernels->hinges, hinges, folds, alone<4>());
@@ -152,7 +169,8 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
   }
 }
 
-TEST_CASE("contacts side by side have the derivatives of each alone, to the bit, for every form and stage", "[property]") {
+TEST_CASE("contacts side by side have the derivatives of each alone, to the bit, for every form and stage",
+          "[property]") {
   Draw draw(12);
   const double r = 5e-3;
   for (const StencilKernels* kernels : kernels_of_this_machine())
@@ -163,7 +181,13 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
       std::vector<Corners<4>> of_4;
       for (std::size_t i = 0; i < batch_width; ++i) {
         const auto kind = [&](FormKind form) {
-          ContactTerm term{compare::ContactSides::point_point, {}, r, 10, draw.between(0.1, 1), 0, static_cast<compare::ContactActivation>(round % 5)};
+          ContactTerm term{compare::ContactSides::point_point,
+                           {},
+                           r,
+                           10,
+                           draw.between(0.1, 1),
+                           0,
+                           static_cast<compare::ContactActivation>(round % 5)};
           return PlacedContact{term, {}, form};
         };
         points.push_back(kind(FormKind::points));
@@ -184,9 +208,11 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
     }
 }
 
-/// Three variables in place of nine: the same derivatives but for roundings. Of a projected sum of products of w by w the eigenvalues are ‖w‖² times those by Σ w x,
-/// so projections agree too. 10⁻¹³ of the largest entry: some hundred roundings of 10⁻¹⁶.
-TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone", "[property]") {
+/// Three variables in place of nine: the same derivatives but for roundings. Of a projected sum of products of w by w
+/// the eigenvalues are ‖w‖² times those by Σ w x, so projections agree too. 10⁻¹³ of the largest entry: some hundred
+/// roundings of 10⁻¹⁶.
+TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone",
+          "[property]") {
   Draw draw(13);
   const double r = 5e-3;
   for (const StencilKernels* kernels : kernels_of_this_machine())
@@ -203,8 +229,16 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
         const std::array<double, 4> weight{1 - s, s, t - 1, -t};
         const Triple<double> apart = separation(weight, x);
         const double slip = i % 3 == 0 ? 0 : i % 3 == 1 ? 5e-5 : 1e-3;
-        frictions.push_back({compare::ContactSides::edge_edge, {}, weight, {0, 0.6, 0.8}, apart - Triple<double>{slip, 0, 0}, 0.01, 1e-4});
-        contacts.push_back({{compare::ContactSides::edge_edge, {}, 2 * r, 10, 1, 0, compare::ContactActivation::ogc}, weight, FormKind::fixed_weights});
+        frictions.push_back({compare::ContactSides::edge_edge,
+                             {},
+                             weight,
+                             {0, 0.6, 0.8},
+                             apart - Triple<double>{slip, 0, 0},
+                             0.01,
+                             1e-4});
+        contacts.push_back({{compare::ContactSides::edge_edge, {}, 2 * r, 10, 1, 0, compare::ContactActivation::ogc},
+                            weight,
+                            FormKind::fixed_weights});
         springs.push_back({{}, {1, s - 1, -s, 0}, 10, i % 2 == 0 ? 0 : 0.3 * r, i % 3 == 0 ? 0 : 0.2, 0.5 * r});
         corners.push_back(x);
       }
@@ -223,24 +257,32 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
         const auto pulled = differentiated<4>(kernels->springs, springs, corners, projection);
         for (std::size_t i = 0; i < batch_width; ++i) {
           nearly(rubbed[i], alone<4>()(frictions[i], corners[i], projection));
-          const auto over_weights = [&](const auto& x) { return contacts[i].energy_between(separation(contacts[i].weight, x)); };
+          const auto over_weights = [&](const auto& x) {
+            return contacts[i].energy_between(separation(contacts[i].weight, x));
+          };
           nearly(pulled[i], alone<4>()(springs[i], corners[i], projection));
           CHECK(same_bits(pulled[i], differentiated<4>(kernels->springs, {springs[i]}, {corners[i]}, projection)[0]));
           nearly(pushed[i], stencil_derivatives<4>(corners[i], projection, over_weights));
-          CHECK(same_bits(rubbed[i], differentiated<4>(kernels->frictions, {frictions[i]}, {corners[i]}, projection)[0]));
-          CHECK(same_bits(pushed[i], differentiated<4>(kernels->weighted_contacts, {contacts[i]}, {corners[i]}, projection)[0]));
+          CHECK(
+              same_bits(rubbed[i], differentiated<4>(kernels->frictions, {frictions[i]}, {corners[i]}, projection)[0]));
+          CHECK(same_bits(pushed[i],
+                          differentiated<4>(kernels->weighted_contacts, {contacts[i]}, {corners[i]}, projection)[0]));
         }
       }
     }
 }
 
-TEST_CASE("projection side by side agrees with Eigen's decomposition within the roundings of both, and with each matrix alone to the bit", "[property]") {
+TEST_CASE(
+    "projection side by side agrees with Eigen's decomposition within the roundings of both, and with each matrix "
+    "alone to the bit",
+    "[property]") {
   check_projection<3>();
   check_projection<6>();
   check_projection<9>();
 }
 
-TEST_CASE("projection: what has no negative eigenvalue stays as it is, to the bit; 0 and what is no number end as well", "[unit]") {
+TEST_CASE("projection: what has no negative eigenvalue stays as it is, to the bit; 0 and what is no number end as well",
+          "[unit]") {
   Draw draw(14);
   constexpr std::size_t packs = batch_width / pack_width;
   std::vector<Matrix<9>> matrices;

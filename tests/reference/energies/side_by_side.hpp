@@ -19,9 +19,9 @@ inline std::vector<const reference::StencilKernels*> kernels_of_this_machine() {
 
 /// Up to batch_width stencils in one batch.
 template <std::size_t Count, class Term>
-std::vector<reference::StencilDerivatives> differentiated(void (*kernel)(const reference::Batch<Term, Count>&, compare::HessianProjection),
-                                                          const std::vector<Term>& terms, const std::vector<Corners<Count>>& corners,
-                                                          compare::HessianProjection projection) {
+std::vector<reference::StencilDerivatives> differentiated(
+    void (*kernel)(const reference::Batch<Term, Count>&, compare::HessianProjection), const std::vector<Term>& terms,
+    const std::vector<Corners<Count>>& corners, compare::HessianProjection projection) {
   std::vector<reference::StencilDerivatives> result(terms.size());
   reference::Batch<Term, Count> batch;
   for (std::size_t i = 0; i < terms.size(); ++i) batch.add(terms[i], corners[i], result[i]);
@@ -29,7 +29,8 @@ std::vector<reference::StencilDerivatives> differentiated(void (*kernel)(const r
   return result;
 }
 
-/// Zeros of either sign are one. Of the Hessian the lower triangle: the upper one is its mirror image side by side, and alone off by roundings.
+/// Zeros of either sign are one. Of the Hessian the lower triangle: the upper one is its mirror image side by side, and
+/// alone off by roundings.
 inline bool same_bits(const reference::StencilDerivatives& a, const reference::StencilDerivatives& b) {
   bool same = a.energy == b.energy && a.gradient == b.gradient;
   for (std::size_t i = 0; i < 12; ++i)
@@ -38,15 +39,17 @@ inline bool same_bits(const reference::StencilDerivatives& a, const reference::S
 }
 
 template <std::size_t Count, class Term, class Alone>
-void check_against_alone(void (*kernel)(const reference::Batch<Term, Count>&, compare::HessianProjection), const std::vector<Term>& terms,
-                         const std::vector<Corners<Count>>& corners, Alone alone) {
-  for (const auto projection : {compare::HessianProjection::none, compare::HessianProjection::clamp, compare::HessianProjection::absolute}) {
+void check_against_alone(void (*kernel)(const reference::Batch<Term, Count>&, compare::HessianProjection),
+                         const std::vector<Term>& terms, const std::vector<Corners<Count>>& corners, Alone alone) {
+  for (const auto projection :
+       {compare::HessianProjection::none, compare::HessianProjection::clamp, compare::HessianProjection::absolute}) {
     const auto together = differentiated<Count>(kernel, terms, corners, projection);
     for (std::size_t i = 0; i < terms.size(); ++i) {
       INFO("stencil " << i << " of " << Count << " vertices");
       CHECK(same_bits(together[i], alone(terms[i], corners[i], projection)));
       for (std::size_t row = 0; row < 12; ++row)
-        for (std::size_t column = 0; column < row; ++column) REQUIRE(together[i].hessian[12 * row + column] == together[i].hessian[12 * column + row]);
+        for (std::size_t column = 0; column < row; ++column)
+          REQUIRE(together[i].hessian[12 * row + column] == together[i].hessian[12 * column + row]);
     }
   }
 }

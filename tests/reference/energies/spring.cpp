@@ -20,8 +20,10 @@ SpringCase random_case(Draw& draw) {
 }
 
 double energy(const Point& own, const SpringCase& c) {
-  const double length = norm(minus(own, point(c.vertex[1]))), before = norm(minus(point(c.start[0]), point(c.start[1])));
-  return c.stiffness / 2 * ((length - c.rest_length) * (length - c.rest_length) + c.damping * (length - before) * (length - before));
+  const double length = norm(minus(own, point(c.vertex[1]))),
+               before = norm(minus(point(c.start[0]), point(c.start[1])));
+  return c.stiffness / 2 *
+         ((length - c.rest_length) * (length - c.rest_length) + c.damping * (length - before) * (length - before));
 }
 
 /// Of a stitch, with the vertex asked about at `own`.
@@ -30,23 +32,27 @@ double seam_energy(const Point& own, const SpringCase& c) {
     std::array<Point, 3> x{point(at[0]), point(at[1]), point(at[2])};
     if (moved != nullptr) x[static_cast<std::size_t>(c.own)] = *moved;
     Point apart{};
-    for (std::size_t k = 0; k < 3; ++k) apart[k] = x[0][k] - (1 - double{c.ratio}) * x[1][k] - double{c.ratio} * x[2][k];
+    for (std::size_t k = 0; k < 3; ++k)
+      apart[k] = x[0][k] - (1 - double{c.ratio}) * x[1][k] - double{c.ratio} * x[2][k];
     return norm(apart);
   };
   const double now = length(c.vertex, &own), before = length(c.start, nullptr);
-  return c.stiffness / 2 * ((now - c.rest_length) * (now - c.rest_length) + c.damping * (now - before) * (now - before));
+  return c.stiffness / 2 *
+         ((now - c.rest_length) * (now - c.rest_length) + c.damping * (now - before) * (now - before));
 }
 
 Point force_of(const compare::ForceAnswer& answer) { return {answer.force.x, answer.force.y, answer.force.z}; }
 
 }  // namespace
 
-TEST_CASE("the reference's spring force is minus the slope of the energy, along the spring, and opposite at its ends", "[property]") {
+TEST_CASE("the reference's spring force is minus the slope of the energy, along the spring, and opposite at its ends",
+          "[property]") {
   Draw draw(1);
   for (int i = 0; i < 200; ++i) {
     SpringCase c = random_case(draw);
     if (norm(minus(point(c.vertex[0]), point(c.vertex[1]))) < 0.1) continue;
-    const Point force = force_of(reference::spring(c)), fallen = slope([&](const Point& x) { return energy(x, c); }, point(c.vertex[0]), 1e-5);
+    const Point force = force_of(reference::spring(c)),
+                fallen = slope([&](const Point&x) { return energy(x, c); }, point(c.vertex[0]), 1e-5);
     // Energies of some 100 J with third derivatives below 10⁵ at lengths above 0.1 m.
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(force[k] + fallen[k]) < 1e-4);
     CHECK(norm(outer(force, minus(point(c.vertex[0]), point(c.vertex[1])))) < 1e-13 * (1 + norm(force)));
@@ -57,7 +63,9 @@ TEST_CASE("the reference's spring force is minus the slope of the energy, along 
   }
 }
 
-TEST_CASE("the reference's spring block is the second derivative where stretched, and positive semidefinite where pressed", "[property]") {
+TEST_CASE(
+    "the reference's spring block is the second derivative where stretched, and positive semidefinite where pressed",
+    "[property]") {
   Draw draw(2);
   for (int i = 0; i < 200; ++i) {
     SpringCase c = random_case(draw);
@@ -75,7 +83,8 @@ TEST_CASE("the reference's spring block is the second derivative where stretched
   }
 }
 
-TEST_CASE("a spring to a point of an edge: its forces are minus the energy's slopes, their sum and their moment are 0", "[property]") {
+TEST_CASE("a spring to a point of an edge: its forces are minus the energy's slopes, their sum and their moment are 0",
+          "[property]") {
   Draw draw(5);
   for (int i = 0; i < 200; ++i) {
     SpringCase c = random_case(draw);
@@ -84,7 +93,8 @@ TEST_CASE("a spring to a point of an edge: its forces are minus the energy's slo
     double size = 0;
     for (c.own = 0; c.own < 3; ++c.own) {
       const auto own = static_cast<std::size_t>(c.own);
-      const Point force = force_of(reference::spring(c)), fallen = slope([&](const Point& x) { return seam_energy(x, c); }, point(c.vertex[own]), 1e-5);
+      const Point force = force_of(reference::spring(c)),
+                  fallen = slope([&](const Point&x) { return seam_energy(x, c); }, point(c.vertex[own]), 1e-5);
       for (std::size_t k = 0; k < 3; ++k) {
         CHECK(std::abs(force[k] + fallen[k]) < 1e-3);  // energies as above, at lengths that may be shorter
         sum[k] += force[k];
@@ -122,7 +132,8 @@ TEST_CASE("a stitch is k I at every length, and a spring without a length exerts
   c.stiffness = 8;
   const compare::ForceAnswer stitch = reference::spring(c);
   CHECK(stitch.force == compare::Vec3{-2, 8, -16});
-  for (std::size_t k = 0; k < 6; ++k) CHECK(stitch.block[k] == Approx(k == 0 || k == 3 || k == 5 ? 8.0 : 0.0).margin(1e-14));
+  for (std::size_t k = 0; k < 6; ++k)
+    CHECK(stitch.block[k] == Approx(k == 0 || k == 3 || k == 5 ? 8.0 : 0.0).margin(1e-14));
   c.vertex[0] = {};
   CHECK(reference::spring(c).force == compare::Vec3{});
   CHECK(reference::spring(c).block == std::array<double, 6>{8, 0, 0, 8, 0, 8});
@@ -131,7 +142,9 @@ TEST_CASE("a stitch is k I at every length, and a spring without a length exerts
   CHECK(reference::spring(c).block == std::array<double, 6>{8, 0, 0, 8, 0, 8});
 }
 
-TEST_CASE("without a length the block majorises the energy, whatever the rest length: no smaller multiple of I does for all", "[property]") {
+TEST_CASE(
+    "without a length the block majorises the energy, whatever the rest length: no smaller multiple of I does for all",
+    "[property]") {
   Draw draw(6);
   double nearest = 0;
   for (int i = 0; i < 200; ++i) {
@@ -160,7 +173,8 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);  // of n nᵀ alone
+    // of n nᵀ alone
+    const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);
   }
@@ -175,6 +189,7 @@ TEST_CASE("damping of a spring's strain sees no rigid motion, damping by vertex 
   c.damping = 3;
   CHECK(reference::spring(c).force == compare::Vec3{});
   c.damping_form = compare::DampingForm::per_vertex;
-  CHECK(reference::spring(c).force.x == Approx(3 * 2 * 4));  // −k B moved, B = k_s n nᵀ at rest length, moved = (−4, −1, 0)
+  // −k B moved, B = k_s n nᵀ at rest length, moved = (−4, −1, 0)
+  CHECK(reference::spring(c).force.x == Approx(3 * 2 * 4));
   CHECK(reference::spring(c).force.y == Approx(0).margin(1e-14));
 }

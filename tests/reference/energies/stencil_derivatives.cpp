@@ -31,12 +31,14 @@ template <std::size_t N>
 Matrix hessian_of(const StencilDerivatives& d) {
   Matrix h(3 * N, 3 * N);
   for (std::size_t i = 0; i < 3 * N; ++i)
-    for (std::size_t j = 0; j < 3 * N; ++j) h(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = d.hessian[12 * i + j];
+    for (std::size_t j = 0; j < 3 * N; ++j)
+      h(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = d.hessian[12 * i + j];
   return h;
 }
 
-/// Gradient against differences of the energy, Hessian against differences of the gradient. `length`: over which the energy changes by its own size. With
-/// steps of 10⁻⁵ of it truncation is some 10⁻¹⁰ of the third derivative, and rounding 10⁻¹⁶/10⁻⁵ of the value.
+/// Gradient against differences of the energy, Hessian against differences of the gradient. `length`: over which the
+/// energy changes by its own size. With steps of 10⁻⁵ of it truncation is some 10⁻¹⁰ of the third derivative, and
+/// rounding 10⁻¹⁶/10⁻⁵ of the value.
 template <std::size_t N, class Energy>
 void check_against_differences(const Corners<N>& x, double length, Energy energy) {
   const StencilDerivatives at = stencil_derivatives<N>(x, HessianProjection::none, energy);
@@ -50,15 +52,20 @@ void check_against_differences(const Corners<N>& x, double length, Energy energy
     ahead[i / 3][i % 3] += step;
     behind[i / 3][i % 3] -= step;
     const double noise = 1e-15 * std::abs(at.energy) / step;
-    CHECK(at.gradient[i] == Approx((energy(ahead) - energy(behind)) / (2 * step)).epsilon(0).margin(1e-6 * (steepest + stiffest * length) + noise));
+    CHECK(at.gradient[i] == Approx((energy(ahead) - energy(behind)) / (2 * step))
+                                .epsilon(0)
+                                .margin(1e-6 * (steepest + stiffest * length) + noise));
     const StencilDerivatives to = stencil_derivatives<N>(ahead, HessianProjection::none, energy);
     const StencilDerivatives from = stencil_derivatives<N>(behind, HessianProjection::none, energy);
     for (std::size_t j = 0; j < 3 * N; ++j)
-      CHECK(at.hessian[12 * i + j] == Approx((to.gradient[j] - from.gradient[j]) / (2 * step)).epsilon(0).margin(1e-6 * (stiffest + steepest / length)));
+      CHECK(at.hessian[12 * i + j] == Approx((to.gradient[j] - from.gradient[j]) / (2 * step))
+                                          .epsilon(0)
+                                          .margin(1e-6 * (stiffest + steepest / length)));
   }
 }
 
-/// No net force, no net torque; a symmetric Hessian; `clamp` and `absolute` positive semidefinite, and what they should be.
+/// No net force, no net torque; a symmetric Hessian; `clamp` and `absolute` positive semidefinite, and what they should
+/// be.
 template <std::size_t N, class Energy>
 void check_structure(const Corners<N>& x, bool turns_freely, Energy energy) {
   const StencilDerivatives at = stencil_derivatives<N>(x, HessianProjection::none, energy);
@@ -81,7 +88,8 @@ void check_structure(const Corners<N>& x, bool turns_freely, Energy energy) {
     Eigen::VectorXd values = exact.eigenvalues();
     for (double& value : values) value = absolute ? std::abs(value) : std::max(value, 0.0);
     const Matrix expected = exact.eigenvectors() * values.asDiagonal() * exact.eigenvectors().transpose();
-    CHECK((hessian_of<N>(stencil_derivatives<N>(x, projection, energy)) - expected).cwiseAbs().maxCoeff() <= 1e-11 * size);
+    CHECK((hessian_of<N>(stencil_derivatives<N>(x, projection, energy)) - expected).cwiseAbs().maxCoeff() <=
+          1e-11 * size);
   }
 }
 
@@ -102,7 +110,10 @@ MembraneTerm membrane_term(Draw& draw) {
 
 }  // namespace
 
-TEST_CASE("membrane: gradient and Hessian over all corners are those of the energy, at stretched, compressed and collapsed triangles", "[property]") {
+TEST_CASE(
+    "membrane: gradient and Hessian over all corners are those of the energy, at stretched, compressed and collapsed "
+    "triangles",
+    "[property]") {
   Draw draw(1);
   for (int i = 0; i < 20; ++i) {
     const MembraneTerm term = membrane_term(draw);
@@ -116,7 +127,10 @@ TEST_CASE("membrane: gradient and Hessian over all corners are those of the ener
   }
 }
 
-TEST_CASE("stable Neo-Hookean membrane: gradient and Hessian over all corners are those of the energy, stretched and compressed", "[property]") {
+TEST_CASE(
+    "stable Neo-Hookean membrane: gradient and Hessian over all corners are those of the energy, stretched and "
+    "compressed",
+    "[property]") {
   Draw draw(6);
   for (int i = 0; i < 20; ++i) {
     MembraneTerm term = membrane_term(draw);
@@ -131,7 +145,8 @@ TEST_CASE("stable Neo-Hookean membrane: gradient and Hessian over all corners ar
   }
 }
 
-TEST_CASE("isometric bending and springs: gradient and Hessian over all vertices are those of the energy", "[property]") {
+TEST_CASE("isometric bending and springs: gradient and Hessian over all vertices are those of the energy",
+          "[property]") {
   Draw draw(7);
   for (int i = 0; i < 20; ++i) {
     const double side = 0.01;
@@ -141,18 +156,27 @@ TEST_CASE("isometric bending and springs: gradient and Hessian over all vertices
       for (double& c : p) c += draw.between(-1e-3, 1e-3);
     check_all<4>(x, side, true, [&](const auto& at) { return hinge.energy(at); });
     const double s = i % 2 == 0 ? 0 : draw.between(0.1, 0.9);
-    const SpringTerm spring{{}, {1, s - 1, -s, 0}, 10, i % 3 == 0 ? 0 : draw.between(0, 0.02), draw.between(0, 0.5), draw.between(0.005, 0.02)};
+    const SpringTerm spring{{},
+                            {1, s - 1, -s, 0},
+                            10,
+                            i % 3 == 0 ? 0 : draw.between(0, 0.02),
+                            draw.between(0, 0.5),
+                            draw.between(0.005, 0.02)};
     check_all<4>(x, side, true, [&](const auto& at) { return spring.energy(at); });
   }
 }
 
-TEST_CASE("IPC's mollifier of parallel edges: gradient and Hessian are those of the energy, at nearly parallel and at parallel edges", "[property]") {
+TEST_CASE(
+    "IPC's mollifier of parallel edges: gradient and Hessian are those of the energy, at nearly parallel and at "
+    "parallel edges",
+    "[property]") {
   Draw draw(8);
   const double r = 5e-3, side = 0.01;
   int acted = 0;
   for (int i = 0; i < 40; ++i) {
     const double sine = i % 4 == 0 ? 0 : draw.between(0.003, 0.03);
-    const Corners<4> x{{{0, 0, 0.4 * r}, {side, 0, 0.4 * r}, {0.2 * side, -0.5 * sine * side, 0}, {1.2 * side, 0.5 * sine * side, 0}}};
+    const Corners<4> x{
+        {{0, 0, 0.4 * r}, {side, 0, 0.4 * r}, {0.2 * side, -0.5 * sine * side, 0}, {1.2 * side, 0.5 * sine * side, 0}}};
     const ContactTerm term{ContactSides::edge_edge, {}, r, 10, 1, 0, compare::ContactActivation::ipc_log};
     // At parallel edges the weights of the middle of the overlap.
     const ClosestForm form = closest_form(term.sides, x);
@@ -169,12 +193,16 @@ TEST_CASE("IPC's mollifier of parallel edges: gradient and Hessian are those of 
   CHECK(acted > 20);
 }
 
-TEST_CASE("hinge: gradient and Hessian over all vertices are those of the energy, bent up to a right angle and more", "[property]") {
+TEST_CASE("hinge: gradient and Hessian over all vertices are those of the energy, bent up to a right angle and more",
+          "[property]") {
   Draw draw(2);
   for (int i = 0; i < 30; ++i) {
     const HingeTerm term{{}, 5e-7, draw.between(-1, 1), draw.between(0, 0.5), draw.between(-1, 1)};
     const double angle = draw.between(-2.5, 2.5), side = 0.01;
-    Corners<4> x{{{0, 0, 0}, {side, 0, 0}, {0.3 * side, side, 0}, {0.6 * side, -side * std::cos(angle), side * std::sin(angle)}}};
+    Corners<4> x{{{0, 0, 0},
+                  {side, 0, 0},
+                  {0.3 * side, side, 0},
+                  {0.6 * side, -side * std::cos(angle), side * std::sin(angle)}}};
     for (auto& p : x)
       for (double& c : p) c += draw.between(-1e-3, 1e-3);
     check_all<4>(x, side, true, [&](const auto& at) { return term.energy(at); });
@@ -184,13 +212,16 @@ TEST_CASE("hinge: gradient and Hessian over all vertices are those of the energy
 TEST_CASE("a hinge with a collapsed triangle exerts nothing", "[unit]") {
   const HingeTerm term{{}, 5e-7, 0.3, 0.1, 0};
   const Corners<4> x{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.5, -1, 0}}};
-  const StencilDerivatives at = stencil_derivatives<4>(x, HessianProjection::clamp, [&](const auto& v) { return term.energy(v); });
+  const StencilDerivatives at = stencil_derivatives<4>(x, HessianProjection::clamp,
+                                                       [&](const auto& v) { return term.energy(v); });
   CHECK(at.energy == 0);
   for (const double g : at.gradient) CHECK(g == 0);
   for (const double h : at.hessian) CHECK(h == 0);
 }
 
-TEST_CASE("contact: gradient and Hessian are those of the energy, for every activation and wherever the closest points lie", "[property]") {
+TEST_CASE(
+    "contact: gradient and Hessian are those of the energy, for every activation and wherever the closest points lie",
+    "[property]") {
   Draw draw(3);
   const double r = 5e-3;
   std::array<int, 5> forms{};
@@ -209,7 +240,8 @@ TEST_CASE("contact: gradient and Hessian are those of the energy, for every acti
   for (std::size_t kind = 0; kind < 4; ++kind) CHECK(forms[kind] >= 5);
 }
 
-TEST_CASE("closest points: no other points of the two faces are nearer, and the weights give the distance", "[property]") {
+TEST_CASE("closest points: no other points of the two faces are nearer, and the weights give the distance",
+          "[property]") {
   Draw draw(4);
   for (int i = 0; i < 2000; ++i) {
     Corners<4> x = random_corners<4>(draw, 1);
@@ -231,7 +263,8 @@ TEST_CASE("closest points: no other points of the two faces are nearer, and the 
   }
 }
 
-TEST_CASE("friction: gradient and Hessian are those of the energy, below and above the slip limit, and at rest", "[property]") {
+TEST_CASE("friction: gradient and Hessian are those of the energy, below and above the slip limit, and at rest",
+          "[property]") {
   Draw draw(5);
   for (int i = 0; i < 30; ++i) {
     Corners<4> x = random_corners<4>(draw, 0.01);
@@ -248,7 +281,10 @@ TEST_CASE("friction: gradient and Hessian are those of the energy, below and abo
   }
 }
 
-TEST_CASE("activations: each vanishes with its slope at r and pushes apart below; the default is C1 at r/2, Eq. 19 as printed is not", "[unit]") {
+TEST_CASE(
+    "activations: each vanishes with its slope at r and pushes apart below; the default is C1 at r/2, Eq. 19 as "
+    "printed is not",
+    "[unit]") {
   using Slope = Derivative<double, 1>;
   const double r = 5e-3, k = 10;
   for (int kind = 0; kind < 5; ++kind) {
@@ -258,13 +294,16 @@ TEST_CASE("activations: each vanishes with its slope at r and pushes apart below
     CHECK(std::abs(slope(r * (1 - 1e-9))) < 1e-7 * k * r);
     for (const double share : {0.01, 0.3, 0.49, 0.51, 0.9}) CHECK(slope(share * r) < 0);
     const double jump = std::abs(slope(0.5 * r) - slope(0.5 * r * (1 - 1e-12)));
-    if (activation == compare::ContactActivation::ogc_as_printed) CHECK(jump > 0.1 * k * r);
-    else CHECK(jump < 1e-9 * k * r);
+    if (activation == compare::ContactActivation::ogc_as_printed)
+      CHECK(jump > 0.1 * k * r);
+    else
+      CHECK(jump < 1e-9 * k * r);
   }
 }
 
 /// Printed as a difference of terms of the size of μ the energy would be lost below strains of 10⁻⁸.
-TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small strains, not the rounding of its terms", "[property]") {
+TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small strains, not the rounding of its terms",
+          "[property]") {
   MembraneTerm term;
   term.model = compare::MembraneModel::stable_neo_hookean;
   term.gradient = {{{-1, -1}, {1, 0}, {0, 1}}};
@@ -276,7 +315,8 @@ TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small st
     // G to first order: ε, ε/2, 2 ε.
     const double expected = 0.5 * size * size * (0.5 * 7 * 9 + 10 * (1 + 2 * 0.25 + 4));
     CHECK(term.energy(x) == Approx(expected).epsilon(4 * size));
-    const StencilDerivatives at = stencil_derivatives<3>(x, HessianProjection::none, [&](const auto& v) { return term.energy(v); });
+    const StencilDerivatives at = stencil_derivatives<3>(x, HessianProjection::none,
+                                                         [&](const auto& v) { return term.energy(v); });
     CHECK(at.gradient[3] == Approx(0.5 * size * (7 * 3 + 2 * 10)).epsilon(8 * size + 0x1p-50 / size));
   }
 }

@@ -1,5 +1,5 @@
-// Random stencils and the energies written out once more in plain doubles, for the tests of reference/energies: what a derivative is held against must not
-// come from the differentiation that it tests.
+// Random stencils and the energies written out once more in plain doubles, for the tests of reference/energies: what a
+// derivative is held against must not come from the differentiation that it tests.
 #pragma once
 
 #include <array>
@@ -15,7 +15,9 @@ using Point = std::array<double, 3>;
 inline Point point(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
 inline Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Point outer(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+inline Point outer(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 inline double norm(const Point& a) { return std::sqrt(inner(a, a)); }
 
 class Draw {
@@ -29,7 +31,8 @@ class Draw {
   std::mt19937 engine_;
 };
 
-/// Central differences of an energy of one point. With step s the truncation error is s²/6 times a third derivative, the rounding error 2⁻⁵³ E/s.
+/// Central differences of an energy of one point. With step s the truncation error is s²/6 times a third derivative,
+/// the rounding error 2⁻⁵³ E/s.
 template <class Energy>
 Point slope(Energy energy, const Point& at, double step) {
   Point result{};
@@ -48,7 +51,8 @@ inline double smallest_quadratic(const std::array<double, 6>& b, Draw& draw) {
   for (int i = 0; i < 200; ++i) {
     Point x{draw.between(-1, 1), draw.between(-1, 1), draw.between(-1, 1)};
     const double length = norm(x);
-    const double q = b[0] * x[0] * x[0] + b[3] * x[1] * x[1] + b[5] * x[2] * x[2] + 2 * (b[1] * x[0] * x[1] + b[2] * x[0] * x[2] + b[4] * x[1] * x[2]);
+    const double q = b[0] * x[0] * x[0] + b[3] * x[1] * x[1] + b[5] * x[2] * x[2] +
+                     2 * (b[1] * x[0] * x[1] + b[2] * x[0] * x[2] + b[4] * x[1] * x[2]);
     smallest = std::min(smallest, q / (length * length));
   }
   return smallest;

@@ -69,7 +69,8 @@ TEST_CASE("CCD: no meeting is missed on the ladders of gaps, angles, needles, ne
     ++(time == 1 ? tally.cleared : time == 0 ? tally.touching : tally.stopped);
     if (time < 1 && !exactly_meet(m.edges, m.x, m.delta, 1, 60)) ++tally.false_positives;
   }
-  WARN(cases << " cases: " << tally.cleared << " cleared, " << tally.stopped << " stopped, " << tally.touching << " without a gap that can be told from rounding; "
+  WARN(cases << " cases: " << tally.cleared << " cleared, " << tally.stopped << " stopped, " << tally.touching
+             << " without a gap that can be told from rounding; "
              << "of the last two " << tally.false_positives << " do not meet at all");
   CHECK(tally.cleared > cases / 10);
   CHECK(tally.stopped > cases / 10);
@@ -77,7 +78,8 @@ TEST_CASE("CCD: no meeting is missed on the ladders of gaps, angles, needles, ne
   CHECK(tally.false_positives < cases / 4);
 }
 
-TEST_CASE("CCD: a vertex that falls onto a triangle stops with a tenth of the gap left or less, and before it meets", "[unit]") {
+TEST_CASE("CCD: a vertex that falls onto a triangle stops with a tenth of the gap left or less, and before it meets",
+          "[unit]") {
   const Points4 x{{{0.25, 0.25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   Points4 delta{};
   delta[0] = {0, 0, -4};
@@ -90,7 +92,8 @@ TEST_CASE("CCD: a vertex that falls onto a triangle stops with a tenth of the ga
   CHECK(additive_ccd(ContactSides::point_triangle, x, delta, 1) == 0);
 }
 
-TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a common motion are not held up", "[unit]") {
+TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a common motion are not held up",
+          "[unit]") {
   const Points4 x{{{0.25, 0.25, 1e-6}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   Points4 delta{};
   delta[0] = {100, 0, 0};
@@ -101,10 +104,13 @@ TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a co
   CHECK(additive_ccd(ContactSides::point_triangle, x, delta, 0) == 1);
 }
 
-/// Their first safe step ends where rounding hides the gap, while both move apart along the connection seen there: that connection proves nothing.
+/// Their first safe step ends where rounding hides the gap, while both move apart along the connection seen there: that
+/// connection proves nothing.
 TEST_CASE("CCD: two nearly parallel edges that meet after 2e-12 of their way are stopped before", "[unit]") {
-  const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969}, {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},
-                   {0.80418212396323963, -0.18851411877550284, 0.28876038511264746}, {0.802819777349014, -0.19144398090874137, 0.28876038511262969}}};
+  const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969},
+                   {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},
+                   {0.80418212396323963, -0.18851411877550284, 0.28876038511264746},
+                   {0.802819777349014, -0.19144398090874137, 0.28876038511262969}}};
   const reference::Triple<double> first{-0.4853704120804041, 0.028829359573007807, 0.0018239962865722603};
   const reference::Triple<double> second{-0.48416185691808877, 0.030531462066612391, 0};
   const double time = additive_ccd(ContactSides::edge_edge, x, {first, first, second, second}, 0);

@@ -20,7 +20,9 @@ namespace {
 
 using Many = boost::multiprecision::cpp_bin_float_100;
 
-Many exact_barrier(const Many& gap, const Many& support) { return -(gap - support) * (gap - support) * log(gap / support); }
+Many exact_barrier(const Many& gap, const Many& support) {
+  return -(gap - support) * (gap - support) * log(gap / support);
+}
 
 /// One mesh of loose pieces, and everything that the pairs are asked with.
 struct Pieces {
@@ -43,7 +45,9 @@ Pieces pieces(State x, const std::vector<compare::Triangle>& triangles, const st
   return p;
 }
 
-BarrierSet barriers(const Pieces& p, const BarrierShape& shape) { return barriers_at(p.mesh(), shape, near_pairs(p.mesh(), p.x, p.x, shape.reach()), p.x); }
+BarrierSet barriers(const Pieces& p, const BarrierShape& shape) {
+  return barriers_at(p.mesh(), shape, near_pairs(p.mesh(), p.x, p.x, shape.reach()), p.x);
+}
 
 template <std::size_t N>
 std::array<Triple<double>, N> corners(const BarrierTerm& term, const State& x) {
@@ -66,7 +70,8 @@ double total(const Pieces& p, const BarrierShape& shape) {
 
 }  // namespace
 
-TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), from near zero to its end", "[property]") {
+TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), from near zero to its end",
+          "[property]") {
   for (const double support : {1e-6, 0.3}) {
     for (double share = 1e-12; share < 1; share *= 3) {
       const double gap = share * support;
@@ -88,7 +93,8 @@ TEST_CASE("barrier: a vertex over a triangle, its rim and its corner has one ter
   const BarrierShape shape{0.1, 0};
   const std::vector<compare::Triangle> triangle{{0, 1, 2}};
   const auto above = [&](double x, double y) {
-    return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape).terms;
+    return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape)
+        .terms;
   };
   // The edge {3, 4} points upwards: its distance to the triangle's edges is that of vertex 3, which adds to the term.
   const auto inside = above(0.25, 0.25);
@@ -119,7 +125,10 @@ TEST_CASE("barrier: merged terms have the energy of all pairs one by one", "[pro
   }
 }
 
-TEST_CASE("barrier: the pairs found with the tree are all pairs within reach, without shared vertices or a common rigid group", "[property]") {
+TEST_CASE(
+    "barrier: the pairs found with the tree are all pairs within reach, without shared vertices or a common rigid "
+    "group",
+    "[property]") {
   Draw draw(4);
   const double reach = 0.2;
   State x;
@@ -131,7 +140,9 @@ TEST_CASE("barrier: the pairs found with the tree are all pairs within reach, wi
   State to = x;
   for (auto& c : to) c = c + Triple<double>{draw.between(-0.1, 0.1), 0, draw.between(-0.1, 0.1)};
   const auto found = near_pairs(p.mesh(), x, to, reach);
-  const auto shares = [](const auto& a, const auto& b) { return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end(); };
+  const auto shares = [](const auto& a, const auto& b) {
+    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+  };
   for (const double t : {0.0, 0.5, 1.0}) {
     State at = x;
     for (std::size_t v = 0; v < at.size(); ++v) at[v] = x[v] + t * (to[v] - x[v]);
@@ -151,13 +162,17 @@ TEST_CASE("barrier: the pairs found with the tree are all pairs within reach, wi
   }
 }
 
-TEST_CASE("barrier: gradient and Hessian are those of the energy, mollified or not, with and without thickness", "[property]") {
+TEST_CASE("barrier: gradient and Hessian are those of the energy, mollified or not, with and without thickness",
+          "[property]") {
   Draw draw(5);
   int mollified = 0, lines = 0;
   for (int i = 0; i < 400; ++i) {
     const BarrierShape shape{0.5, i % 2 == 0 ? 0 : 0.05};
     const double angle = i % 4 < 2 ? draw.between(0.001, 0.02) : draw.between(0.2, 1.5);
-    State x{{0, 0, 0}, {1, 0, 0}, {0.3 - 0.5 * std::cos(angle), -0.5 * std::sin(angle), 0.2}, {0.3 + 0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.201}};
+    State x{{0, 0, 0},
+            {1, 0, 0},
+            {0.3 - 0.5 * std::cos(angle), -0.5 * std::sin(angle), 0.2},
+            {0.3 + 0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.201}};
     if (i % 3 == 0) x[2][0] += 1.1, x[3][0] += 1.1;
     const Pieces p = pieces(x, {}, {{0, 1}, {2, 3}});
     const auto terms = barriers(p, shape).terms;
@@ -175,16 +190,20 @@ TEST_CASE("barrier: gradient and Hessian are those of the energy, mollified or n
       auto ahead = at, behind = at;
       ahead[k / 3][k % 3] += step, behind[k / 3][k % 3] -= step;
       CHECK(d.gradient[k] == Approx((of(ahead) - of(behind)) / (2 * step)).epsilon(0).margin(1e-5 * stiffest * 1e-2));
-      const auto to = stencil_derivatives<4>(ahead, HessianProjection::none, of), from = stencil_derivatives<4>(behind, HessianProjection::none, of);
+      const auto to = stencil_derivatives<4>(ahead, HessianProjection::none, of),
+                 from = stencil_derivatives<4>(behind, HessianProjection::none, of);
       for (std::size_t j = 0; j < 12; ++j)
-        CHECK(d.hessian[12 * k + j] == Approx((to.gradient[j] - from.gradient[j]) / (2 * step)).epsilon(0).margin(1e-5 * stiffest));
+        CHECK(d.hessian[12 * k + j] ==
+              Approx((to.gradient[j] - from.gradient[j]) / (2 * step)).epsilon(0).margin(1e-5 * stiffest));
     }
   }
   CHECK(mollified > 20);
   CHECK(lines > 20);
 }
 
-TEST_CASE("barriers side by side have the derivatives of each alone, to the bit, mollified ones and other forms among them", "[property]") {
+TEST_CASE(
+    "barriers side by side have the derivatives of each alone, to the bit, mollified ones and other forms among them",
+    "[property]") {
   std::vector<const BarrierKernels*> all{&barrier_kernels_baseline};
   if (has_avx2()) all.push_back(&barrier_kernels_avx2);
   Draw draw(15);
@@ -218,7 +237,8 @@ TEST_CASE("barriers side by side have the derivatives of each alone, to the bit,
         of_4.push_back(x);
       }
       const auto alone = [](const auto& of, const auto& x, HessianProjection projection) {
-        return stencil_derivatives<std::tuple_size_v<std::decay_t<decltype(x)>>>(x, projection, [&](const auto& at) { return of.energy(at); });
+        return stencil_derivatives<std::tuple_size_v<std::decay_t<decltype(x)>>>(
+            x, projection, [&](const auto& at) { return of.energy(at); });
       };
       check_against_alone<2>(kernels->of_2, points, of_2, alone);
       check_against_alone<3>(kernels->of_3, lines, of_3, alone);
@@ -239,10 +259,13 @@ TEST_CASE("barrier: the energy does not jump where closest features change, para
     }
     return largest / highest;
   };
-  CHECK(largest_jump([](double t) { return pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.5 + 2 * t, 0.3, 0.05}}, {{0, 1, 2}}); }) < 0.02);
+  CHECK(largest_jump([](double t) {
+          return pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.5 + 2 * t, 0.3, 0.05}}, {{0, 1, 2}});
+        }) < 0.02);
   CHECK(largest_jump([](double t) {
           const double angle = 0.1 * (t - 0.5), low = -0.3 * std::sin(angle);
-          return pieces({{0, 0, 0}, {1, 0, 0}, {0.2, low, 0.05}, {0.2 + 0.6 * std::cos(angle), -low, 0.05}}, {}, {{0, 1}, {2, 3}});
+          return pieces({{0, 0, 0}, {1, 0, 0}, {0.2, low, 0.05}, {0.2 + 0.6 * std::cos(angle), -low, 0.05}}, {},
+                        {{0, 1}, {2, 3}});
         }) < 0.02);
 }
 

@@ -1,7 +1,8 @@
-// Do two primitives meet on a straight motion? Decided without rounding: the four points lie in one plane where a cubic of the time vanishes, and meet there
-// where polynomials of degree four have the right signs. All of them have integer coefficients once the coordinates are scaled; in Bernstein form a
-// polynomial without a change of sign in its coefficients has no root, and an interval is halved by additions alone. Halves without a root, or on the wrong
-// side, are left; what survives all halvings holds a meeting, or one that is missed by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
+// Do two primitives meet on a straight motion? Decided without rounding: the four points lie in one plane where a cubic
+// of the time vanishes, and meet there where polynomials of degree four have the right signs. All of them have integer
+// coefficients once the coordinates are scaled; in Bernstein form a polynomial without a change of sign in its
+// coefficients has no root, and an interval is halved by additions alone. Halves without a root, or on the wrong side,
+// are left; what survives all halvings holds a meeting, or one that is missed by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
 #pragma once
 
 #include <array>
@@ -91,8 +92,9 @@ using Line = std::array<Bernstein, 3>;
 struct MeetingQuestion {
   Bernstein coplanar;             ///< must vanish
   std::vector<Bernstein> inside;  ///< must not be negative
-  std::vector<Line> apart;        ///< from each vertex of the second primitive to each of the first; a direction along which all are positive parts them
-  Line along;                     ///< of two edges: the first one
+  /// from each vertex of the second primitive to each of the first; a direction along which all are positive parts them
+  std::vector<Line> apart;
+  Line along;  ///< of two edges: the first one
 };
 
 /// All of `apart` have a positive product with an integer direction, or all a negative one, all the time.
@@ -107,7 +109,8 @@ inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& di
   return positive == all || negative == all;
 }
 
-/// Any direction is a proof, so a guess may be rounded: across the first edge, towards the second. Parallel edges have no other.
+/// Any direction is a proof, so a guess may be rounded: across the first edge, towards the second. Parallel edges have
+/// no other.
 inline bool parted_across_edge(const MeetingQuestion& q) {
   using reference::operator*, reference::operator-;
   reference::Triple<double> w, u;
@@ -143,10 +146,13 @@ inline bool meets(const MeetingQuestion& q, int depth) {
   };
   for (MeetingQuestion& part : parts) part.inside.resize(q.inside.size()), part.apart.resize(q.apart.size());
   divide(q.coplanar, [](MeetingQuestion& part) -> Bernstein& { return part.coplanar; });
-  for (std::size_t k = 0; k < q.inside.size(); ++k) divide(q.inside[k], [k](MeetingQuestion& part) -> Bernstein& { return part.inside[k]; });
+  for (std::size_t k = 0; k < q.inside.size(); ++k)
+    divide(q.inside[k], [k](MeetingQuestion& part) -> Bernstein& { return part.inside[k]; });
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t k = 0; k < q.apart.size(); ++k) divide(q.apart[k][axis], [=](MeetingQuestion& part) -> Bernstein& { return part.apart[k][axis]; });
-    if (!q.along[0].empty()) divide(q.along[axis], [axis](MeetingQuestion& part) -> Bernstein& { return part.along[axis]; });
+    for (std::size_t k = 0; k < q.apart.size(); ++k)
+      divide(q.apart[k][axis], [=](MeetingQuestion& part) -> Bernstein& { return part.apart[k][axis]; });
+    if (!q.along[0].empty())
+      divide(q.along[axis], [axis](MeetingQuestion& part) -> Bernstein& { return part.along[axis]; });
   }
   return meets(parts[0], depth - 1) || meets(parts[1], depth - 1);
 }

@@ -10,7 +10,8 @@ using compare::Index;
 
 namespace {
 
-/// Two soups of triangles that cross each other, on a coarse lattice: edges in planes, ends on edges and equal corners are common.
+/// Two soups of triangles that cross each other, on a coarse lattice: edges in planes, ends on edges and equal corners
+/// are common.
 struct Soup {
   State x;
   std::vector<compare::Triangle> triangles;
@@ -31,7 +32,8 @@ Soup lattice_soup(unsigned seed, int triangles, int lattice) {
 
 }  // namespace
 
-TEST_CASE("intersections: the guard finds what the audit finds, on lattices where nearly everything is degenerate", "[agreement]") {
+TEST_CASE("intersections: the guard finds what the audit finds, on lattices where nearly everything is degenerate",
+          "[agreement]") {
   for (const int lattice : {3, 4, 8}) {
     const Soup soup = lattice_soup(static_cast<unsigned>(lattice), 60, lattice);
     const compare::Topology topology = compare::build_topology(static_cast<Index>(soup.x.size()), soup.triangles);

@@ -1,4 +1,5 @@
-// Motions of a vertex and a triangle, or of two edges, that climb towards what is hard: vanishing gaps, vanishing angles, needles, near misses, slides, speeds.
+// Motions of a vertex and a triangle, or of two edges, that climb towards what is hard: vanishing gaps, vanishing
+// angles, needles, near misses, slides, speeds.
 #pragma once
 
 #include <cmath>
@@ -34,18 +35,23 @@ class MotionLadder {
   /// 10⁰ … 10⁻ᵇᵒᵗᵗᵒᵐ, by turns.
   static double rung(int i, int bottom) { return std::pow(10.0, -(i % (bottom + 1))); }
 
-  /// In the plane z = 0, touching: the vertex in, on the rim of or beside the triangle; edges that cross, meet at an end or miss.
+  /// In the plane z = 0, touching: the vertex in, on the rim of or beside the triangle; edges that cross, meet at an
+  /// end or miss.
   void shape(PairMotion& m, int i) {
-    const double slender = i % 5 == 0 ? rung(i / 10, 12) : 1, miss = (i % 3 == 0 ? rung(i / 6, 14) : 0) * (i % 4 < 2 ? 1 : -1);
+    const double slender = i % 5 == 0 ? rung(i / 10, 12) : 1,
+                 miss = (i % 3 == 0 ? rung(i / 6, 14) : 0) * (i % 4 < 2 ? 1 : -1);
     if (m.edges) {
-      const double s = i % 3 == 0 ? miss : between(0, 1), t = i % 7 == 0 ? miss : between(0, 1), angle = slender * between(0.1, 1.5);
+      const double s = i % 3 == 0 ? miss : between(0, 1), t = i % 7 == 0 ? miss : between(0, 1),
+                   angle = slender * between(0.1, 1.5);
       m.x[0] = {-s, 0, 0}, m.x[1] = {1 - s, 0, 0};
-      m.x[2] = {-t * std::cos(angle), -t * std::sin(angle), 0}, m.x[3] = {(1 - t) * std::cos(angle), (1 - t) * std::sin(angle), 0};
+      m.x[2] = {-t * std::cos(angle), -t * std::sin(angle), 0},
+      m.x[3] = {(1 - t) * std::cos(angle), (1 - t) * std::sin(angle), 0};
       return;
     }
     m.x[1] = {0, 0, 0}, m.x[2] = {between(0.5, 1), 0, 0}, m.x[3] = {between(-0.5, 1), slender * between(0.3, 1), 0};
     const double a = i % 3 == 0 ? miss : between(0, 0.5), b = between(0, 0.5);
-    for (std::size_t k = 0; k < 2; ++k) m.x[0][k] = m.x[1][k] + a * (m.x[2][k] - m.x[1][k]) + b * (m.x[3][k] - m.x[1][k]);
+    for (std::size_t k = 0; k < 2; ++k)
+      m.x[0][k] = m.x[1][k] + a * (m.x[2][k] - m.x[1][k]) + b * (m.x[3][k] - m.x[1][k]);
   }
 
   void lift(PairMotion& m, double gap) {
@@ -54,7 +60,9 @@ class MotionLadder {
 
   /// Down by half the gap to many gaps, along the plane, and every vertex a little on its own.
   void move(PairMotion& m, int i, double gap) {
-    const double down = gap * std::pow(10.0, between(-0.4, 0.4)), slide = i % 4 == 3 ? between(0, 1) : i % 4 == 2 ? gap : 0;
+    const double down = gap * std::pow(10.0, between(-0.4, 0.4)), slide = i % 4 == 3   ? between(0, 1)
+                                                                          : i % 4 == 2 ? gap
+                                                                                       : 0;
     const double own = i % 8 < 4 ? 0 : gap * between(0, 2);
     const double turn = between(0, 6.283);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -64,14 +72,16 @@ class MotionLadder {
     }
   }
 
-  /// Turned, shrunk to the size of a cloth's triangles, moved away from the origin, given a common velocity, and rounded as the exact answer needs it.
+  /// Turned, shrunk to the size of a cloth's triangles, moved away from the origin, given a common velocity, and
+  /// rounded as the exact answer needs it.
   void place(PairMotion& m) {
     std::array<std::array<double, 3>, 3> q{};
     const double a = between(0, 6.283), b = between(0, 6.283), size = std::pow(10.0, between(-3, 0));
     q[0] = {std::cos(a), -std::sin(a) * std::cos(b), std::sin(a) * std::sin(b)};
     q[1] = {std::sin(a), std::cos(a) * std::cos(b), -std::cos(a) * std::sin(b)};
     q[2] = {0, std::sin(b), std::cos(b)};
-    const reference::Triple<double> shift{between(-1, 1), between(-1, 1), between(-1, 1)}, common{between(-1, 1), between(-1, 1), 0};
+    const reference::Triple<double> shift{between(-1, 1), between(-1, 1), between(-1, 1)},
+        common{between(-1, 1), between(-1, 1), 0};
     const auto turned = [&](const reference::Triple<double>& p, const reference::Triple<double>& offset) {
       reference::Triple<double> r;
       for (std::size_t k = 0; k < 3; ++k) {

@@ -27,7 +27,8 @@ struct Stepper {
   reference::IpcSolver solver;
   State x, v;
   std::int64_t number = 0;
-  explicit Stepper(compare::Scene of) : scene(rounded(std::move(of))), topology(build_topology(scene)), solver(scene, topology, {}) {
+  explicit Stepper(compare::Scene of)
+      : scene(rounded(std::move(of))), topology(build_topology(scene)), solver(scene, topology, {}) {
     x = reference::widened(compare::to_single(scene.mesh.positions));
     v = reference::widened(compare::to_single(scene.velocities));
   }
@@ -72,7 +73,8 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
   }
 }
 
-/// The mean over three iterations keeps a solve going after the first; what is left to do is then lost in the last bit of the positions.
+/// The mean over three iterations keeps a solve going after the first; what is left to do is then lost in the last bit
+/// of the positions.
 TEST_CASE("IPC: a cloth that is not strained falls by either rule of stopping and either membrane", "[property]") {
   for (const auto model : {compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean})
     for (const auto rule : {compare::IpcStopping::displacement, compare::IpcStopping::velocity}) {
@@ -108,7 +110,8 @@ TEST_CASE("IPC: each accepted step lowers the energy, and no state intersects", 
   CHECK(contacts > 100);
 }
 
-TEST_CASE("IPC: both stopping rules end a step where they say, and counts of iterations add up to those of the step", "[property]") {
+TEST_CASE("IPC: both stopping rules end a step where they say, and counts of iterations add up to those of the step",
+          "[property]") {
   for (const auto rule : {compare::IpcStopping::displacement, compare::IpcStopping::velocity}) {
     compare::Scene scene = drop_scene();
     scene.settings.ipc_stopping = rule;
@@ -119,7 +122,8 @@ TEST_CASE("IPC: both stopping rules end a step where they say, and counts of ite
       REQUIRE(static_cast<std::int64_t>(row.iteration_rows.size()) == row.iterations);
       std::int64_t discrete = 0, continuous = 0, broad = 0;
       for (const compare::IterationMetrics& iteration : row.iteration_rows)
-        discrete += iteration.discrete_detections, continuous += iteration.continuous_detections, broad += iteration.broad_phases;
+        discrete += iteration.discrete_detections, continuous += iteration.continuous_detections,
+            broad += iteration.broad_phases;
       CHECK(discrete == row.discrete_detections - 1);  // one at the start of the step belongs to no iteration
       CHECK(broad == row.broad_phases - 1);
       CHECK(continuous == row.continuous_detections);
@@ -174,7 +178,8 @@ TEST_CASE("IPC: prescribed vertices reach their targets where nothing is in the 
   CHECK(double{result.end.positions[0].x} == Approx(-0.02 - 0.05 * 0.2).epsilon(1e-6));
 }
 
-TEST_CASE("IPC: prescribed vertices that would go through free cloth push it along, without an intersection", "[property]") {
+TEST_CASE("IPC: prescribed vertices that would go through free cloth push it along, without an intersection",
+          "[property]") {
   compare::Scene scene;
   scene.name = "press";
   add_sheet(scene, 5, 0.04, 0, false);
@@ -201,11 +206,18 @@ TEST_CASE("IPC: a start that intersects or touches is refused with the pairs", "
   compare::Scene crossing;
   crossing.name = "crossing";
   append_body(crossing, {.name = "a", .material = heavy()}, {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}, {}});
-  append_body(crossing, {.name = "b", .material = heavy()}, {{{0.2, -0.5, 0.2}, {0.2, 0.5, 0.2}, {0.3, 0.5, 0.4}}, {{0, 1, 2}}, {}});
-  CHECK_THROWS_WITH(reference::start_ipc(crossing, {}), Contains("edge of body 'b' (vertices 0, 1) and triangle 0 of body 'a' (vertices 0, 1, 2) intersect"));
+  append_body(crossing, {.name = "b", .material = heavy()},
+              {{{0.2, -0.5, 0.2}, {0.2, 0.5, 0.2}, {0.3, 0.5, 0.4}}, {{0, 1, 2}}, {}});
+  CHECK_THROWS_WITH(
+      reference::start_ipc(crossing, {}),
+      Contains("edge of body 'b' (vertices 0, 1) and triangle 0 of body 'a' (vertices 0, 1, 2) intersect"));
   compare::Scene thick = triangle_on_plane(1e-3, heavy());
   thick.settings.ipc_thickness = 2e-3;
-  CHECK_THROWS_WITH(reference::start_ipc(thick, {}), Contains("vertex 0 of body 'block' and triangle 0 of body 'plane' (vertices 0, 1, 2; 1 in the scene) have no gap") && Contains("beyond the thickness"));
+  CHECK_THROWS_WITH(
+      reference::start_ipc(thick, {}),
+      Contains(
+          "vertex 0 of body 'block' and triangle 0 of body 'plane' (vertices 0, 1, 2; 1 in the scene) have no gap") &&
+          Contains("beyond the thickness"));
   CHECK_NOTHROW(reference::start_ipc(triangle_on_plane(1e-3, heavy()), {}));
 }
 
@@ -218,7 +230,8 @@ TEST_CASE("IPC: a time of impact of zero ends the step with the pair's name, nev
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].status == compare::step_not_converged);
   REQUIRE(rows[0].notes.size() == 2);
-  CHECK_THAT(rows[0].notes[0], Contains("held by vertex") && Contains("triangle 0 of body 'plane'") && Contains("follows the gradient"));
+  CHECK_THAT(rows[0].notes[0],
+             Contains("held by vertex") && Contains("triangle 0 of body 'plane'") && Contains("follows the gradient"));
   CHECK_THAT(rows[0].notes[1], Contains("along the gradient"));
   CHECK(simulation->snapshot().step == 0);
 }
@@ -238,7 +251,8 @@ TEST_CASE("IPC: one iteration a step is one iteration a step", "[unit]") {
 }
 
 /// Between d̂/(2h) and twice that a fall is shortened although nothing is near.
-TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alone, and the CFL-like rule does not", "[property]") {
+TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alone, and the CFL-like rule does not",
+          "[property]") {
   compare::Scene scene;
   scene.name = "fall";
   add_sheet(scene, 4, 0.3, 0, false);
@@ -253,8 +267,12 @@ TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alo
   CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.015).epsilon(1e-6));
 }
 
-/// Halvings of the line search ask for more discrete detections than iterations; the guard's broad phases are one for each trial state that lowers the energy.
-TEST_CASE("IPC: with CCD of all pairs no accepted step intersects, the guard never shortens one, and the minimiser is that of partial CCD", "[property]") {
+/// Halvings of the line search ask for more discrete detections than iterations; the guard's broad phases are one for
+/// each trial state that lowers the energy.
+TEST_CASE(
+    "IPC: with CCD of all pairs no accepted step intersects, the guard never shortens one, and the minimiser is that "
+    "of partial CCD",
+    "[property]") {
   compare::Scene scene = drop_scene();
   scene.settings.ipc_tolerance = 1e-6;
   scene.settings.ipc_ccd = compare::IpcCcd::full;
@@ -288,7 +306,8 @@ TEST_CASE("IPC: threads change no bit, and a run does not depend on those before
   CHECK(one.end.velocities == two.end.velocities);
 }
 
-TEST_CASE("IPC goes on from any snapshot to the same bits in double, whatever pattern the matrix had before", "[property]") {
+TEST_CASE("IPC goes on from any snapshot to the same bits in double, whatever pattern the matrix had before",
+          "[property]") {
   check_goes_on_from_any_snapshot(reference::start_ipc, drop_scene());
 }
 

@@ -1,4 +1,5 @@
-// The bound of a step by both rules of ipc_ccd: what bounds it by all pairs must hold what bounds it by the active ones, and whatever else comes near.
+// The bound of a step by both rules of ipc_ccd: what bounds it by all pairs must hold what bounds it by the active
+// ones, and whatever else comes near.
 #include "reference/ipc/step_bound.hpp"
 
 #include <algorithm>
@@ -18,7 +19,9 @@ namespace {
 
 /// Number in [−1, 1) that depends on the case, the vertex and the axis alone.
 double draw(int number, std::size_t vertex, std::size_t axis) {
-  const double x = std::sin(12.9898 * (number + 1) + 78.233 * static_cast<double>(vertex + 1) + 37.719 * static_cast<double>(axis + 1)) * 43758.5453;
+  const double x = std::sin(12.9898 * (number + 1) + 78.233 * static_cast<double>(vertex + 1) +
+                            37.719 * static_cast<double>(axis + 1)) *
+                   43758.5453;
   return 2 * (x - std::floor(x)) - 1;
 }
 
@@ -46,13 +49,17 @@ State moved(const State& x, double share, const State& p) {
 }
 
 bool holds(const std::vector<PrimitivePair>& pairs, const std::vector<PrimitivePair>& some) {
-  return std::all_of(some.begin(), some.end(), [&](const PrimitivePair& pair) { return std::find(pairs.begin(), pairs.end(), pair) != pairs.end(); });
+  return std::all_of(some.begin(), some.end(), [&](const PrimitivePair& pair) {
+    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+  });
 }
 
 }  // namespace
 
-TEST_CASE("IPC: CCD of all pairs misses no active pair and none that comes within the barrier's distance on the way, and its step is never the longer one",
-          "[property]") {
+TEST_CASE(
+    "IPC: CCD of all pairs misses no active pair and none that comes within the barrier's distance on the way, and its "
+    "step is never the longer one",
+    "[property]") {
   compare::Scene scene;
   add_sheet(scene, 4, 0.06, 0, false);
   add_sheet(scene, 4, 0.07, 1.2e-3, false);
@@ -68,7 +75,8 @@ TEST_CASE("IPC: CCD of all pairs misses no active pair and none that comes withi
     State x = widened(compare::to_single(scene.mesh.positions)), p(x.size());
     const double speed = number % 3 == 0 ? 2e-4 : number % 3 == 1 ? 2e-3 : 2e-2;
     for (std::size_t v = 0; v < x.size(); ++v)
-      for (std::size_t axis = 0; axis < 3; ++axis) x[v][axis] += 4e-4 * draw(number, v, axis), p[v][axis] = speed * draw(-number - 2, v, axis);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        x[v][axis] += 4e-4 * draw(number, v, axis), p[v][axis] = speed * draw(-number - 2, v, axis);
     const std::vector<PrimitivePair> active = barriers_at(mesh, shape, near_pairs(mesh, x, x, shape.reach()), x).active;
     REQUIRE(!active.empty());
     const StepBound partial = step_bound(mesh, active, x, p, shape.thickness);

@@ -1,4 +1,5 @@
-// Newton's steps against states that are known on paper. Free fall, pressed contact, sliding block and momentum stand in newton.cpp.
+// Newton's steps against states that are known on paper. Free fall, pressed contact, sliding block and momentum stand
+// in newton.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -27,8 +28,10 @@ compare::Mesh strip(compare::Index count, double a) {
   for (compare::Index i = 0; i < count; ++i)
     for (compare::Index j = 0; j < 2; ++j) {
       const compare::Index p = 3 * i + j, q = p + 1, r = p + 3, s = p + 4;
-      if ((i + j) % 2 == 0) mesh.triangles.insert(mesh.triangles.end(), {{p, q, s}, {p, s, r}});
-      else mesh.triangles.insert(mesh.triangles.end(), {{p, q, r}, {q, s, r}});
+      if ((i + j) % 2 == 0)
+        mesh.triangles.insert(mesh.triangles.end(), {{p, q, s}, {p, s, r}});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {{p, q, r}, {q, s, r}});
     }
   return mesh;
 }
@@ -36,8 +39,9 @@ compare::Mesh strip(compare::Index count, double a) {
 }  // namespace
 
 TEST_CASE("Newton: a cantilever strip sags as the hinges' moments say", "[property]") {
-  // Bent about z, a cell's four corners lie on two parallel lines, so diagonals stay flat and the edges across carry all: of energy k_b/2 · 3 w²/(w a) θ² over
-  // the width w, hence a moment (3 k_b w/a) θ. The moment at row i is the weight beyond it times its arm.
+  // Bent about z, a cell's four corners lie on two parallel lines, so diagonals stay flat and the edges across carry
+  // all: of energy k_b/2 · 3 w²/(w a) θ² over the width w, hence a moment (3 k_b w/a) θ. The moment at row i is the
+  // weight beyond it times its arm.
   const compare::Index count = 10;
   const double a = 0.01, weight = 0.2 * 9.81 * 0.01 * a, stiffness = 2e-4;
   compare::Material material;
@@ -68,7 +72,10 @@ TEST_CASE("Newton: a cantilever strip sags as the hinges' moments say", "[proper
     CHECK(-double{end.positions[v].y} == Approx(sag).epsilon(4 * slope * slope + 1e-5));
 }
 
-TEST_CASE("Newton: a sheet whose rim is stretched homogeneously takes the same stretch inside, with the energy density of its strain", "[property]") {
+TEST_CASE(
+    "Newton: a sheet whose rim is stretched homogeneously takes the same stretch inside, with the energy density of "
+    "its strain",
+    "[property]") {
   compare::Scene scene;
   scene.name = "stretch";
   compare::Material material;
@@ -102,6 +109,7 @@ TEST_CASE("Newton: a sheet whose rim is stretched homogeneously takes the same s
     CHECK(std::abs(end.positions[v].z - homogeneous[v].z) < 1e-7);
   }
   const double g = (along * along - 1) / 2, f = (across * across - 1) / 2;
-  const double energy = 0.06 * 0.06 * (material.lame_lambda / 2 * (g + f) * (g + f) + material.lame_mu * (g * g + f * f));
+  const double energy = 0.06 * 0.06 *
+                        (material.lame_lambda / 2 * (g + f) * (g + f) + material.lame_mu * (g * g + f * f));
   CHECK(rows.back().elastic_energy == Approx(energy).epsilon(1e-5));
 }

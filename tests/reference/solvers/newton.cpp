@@ -19,7 +19,8 @@ namespace {
 
 Run run(const compare::Scene& scene, std::int64_t steps) { return run_of(reference::start_newton, scene, steps); }
 
-compare::Vec3 momentum(const compare::Scene& scene, const std::vector<Vec3f>& velocity, const std::vector<double>& mass) {
+compare::Vec3 momentum(const compare::Scene& scene, const std::vector<Vec3f>& velocity,
+                       const std::vector<double>& mass) {
   compare::Vec3 sum;
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
     sum.x += mass[v] * double{velocity[v].x};
@@ -67,8 +68,10 @@ TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one 
   }
 }
 
-TEST_CASE("Newton: sheets in contact that fly together stay as they are, however many balls they cross in a step", "[property]") {
-  // 3 cm a step, a few millimetres between two detections. A guess loop that leaves vertices in contact behind pulls the sheets apart and folds them.
+TEST_CASE("Newton: sheets in contact that fly together stay as they are, however many balls they cross in a step",
+          "[property]") {
+  // 3 cm a step, a few millimetres between two detections. A guess loop that leaves vertices in contact behind pulls
+  // the sheets apart and folds them.
   compare::Scene scene;
   scene.name = "flight";
   compare::Material material;
@@ -88,12 +91,13 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
     for (const compare::IterationMetrics& iteration : row.iteration_rows)
       if (iteration.vertices_at_bound > 0) CHECK(iteration.share == 1);
   }
-  for (std::size_t v = 0; v < scene.velocities.size(); ++v) CHECK(std::abs(double{result.end.positions[v].y} - scene.mesh.positions[v].y + 0.12) < 2e-4);
+  for (std::size_t v = 0; v < scene.velocities.size(); ++v)
+    CHECK(std::abs(double{result.end.positions[v].y} - scene.mesh.positions[v].y + 0.12) < 2e-4);
 }
 
 TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast as its balls grow", "[property]") {
-  // 1 cm a step away from a patch 10 µm below the middle. The distance grows by γ_p of itself in an iteration, as long as all vertices move alike: along δ' the
-  // middle stays behind, and the sheet bends instead.
+  // 1 cm a step away from a patch 10 µm below the middle. The distance grows by γ_p of itself in an iteration, as long
+  // as all vertices move alike: along δ' the middle stays behind, and the sheet bends instead.
   compare::Scene scene;
   scene.name = "held";
   compare::Material stiff = heavy();
@@ -108,13 +112,15 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
   const Run result = run(scene, 1);
   REQUIRE(clean(result));
   CHECK(double{result.end.positions[24].y} > 0.0099);
-  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; with full balls a smooth solve takes a few more. It took 36 iterations while δ' came first.
+  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; with full balls a smooth solve takes a few more. It took 36 iterations
+  // while δ' came first.
   CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
 TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
-  // The middle of two sheets 10 µm apart lands on a patch, their rims fly on for 3 mm. Truncation alone leaves each of two facing vertices a thousandth of its way,
-  // and as little of the way that they want to go apart; damping of cut vertices (method.md §7.6) does not.
+  // The middle of two sheets 10 µm apart lands on a patch, their rims fly on for 3 mm. Truncation alone leaves each of
+  // two facing vertices a thousandth of its way, and as little of the way that they want to go apart; damping of cut
+  // vertices (method.md §7.6) does not.
   compare::Scene scene;
   scene.name = "closed";
   compare::Material material;
@@ -207,20 +213,27 @@ TEST_CASE("Newton: a pressed contact comes to rest where its force carries the w
   CHECK(result.rows.back().edge_edge_contacts == 0);
 }
 
-TEST_CASE("Newton: a block on a slope slides as friction says, or creeps below the velocity threshold where friction holds it", "[property]") {
+TEST_CASE(
+    "Newton: a block on a slope slides as friction says, or creeps below the velocity threshold where friction holds "
+    "it",
+    "[property]") {
   for (const double friction : {0.2, 0.8}) {
     compare::Material material = heavy();
     material.friction = friction;
     const double slope = 0.5, down = 9.81 * std::sin(slope), press = 9.81 * std::cos(slope);
-    compare::Scene scene = triangle_on_plane(5e-3 - corner_mass(material) * press / material.contact_stiffness, material);
+    compare::Scene scene = triangle_on_plane(5e-3 - corner_mass(material) * press / material.contact_stiffness,
+                                             material);
     scene.gravity = {down, -press, 0};
     scene.settings.newton_tolerance = 1e-7;
     const Run result = run(scene, 30);
     REQUIRE(clean(result));
-    const double time = 0.3, velocity = double{result.end.velocities[0].x}, threshold = scene.settings.friction_velocity;
+    const double time = 0.3, velocity = double{result.end.velocities[0].x},
+                 threshold = scene.settings.friction_velocity;
     // f₁(y)/1 = tan/μ has the solution y = ε_v (1 − √(1 − tan/μ)): the velocity of the creep.
-    if (std::tan(slope) < friction) CHECK(velocity == Approx(threshold * (1 - std::sqrt(1 - std::tan(slope) / friction))).epsilon(0.02));
-    else CHECK(velocity == Approx(time * (down - friction * press)).epsilon(0.02).margin(threshold));
+    if (std::tan(slope) < friction)
+      CHECK(velocity == Approx(threshold * (1 - std::sqrt(1 - std::tan(slope) / friction))).epsilon(0.02));
+    else
+      CHECK(velocity == Approx(time * (down - friction * press)).epsilon(0.02).margin(threshold));
   }
 }
 
@@ -244,7 +257,8 @@ TEST_CASE("Newton at convergence conserves momentum in a collision, friction inc
   REQUIRE(clean(result));
   CHECK(result.rows.back().edge_edge_contacts + result.rows.back().vertex_facet_contacts > 0);
   const compare::Vec3 after = momentum(scene, result.end.velocities, potential.mass());
-  const double whole = std::hypot(before.x, before.y), lost = std::hypot(after.x - before.x, after.y - before.y, after.z - before.z);
+  const double whole = std::hypot(before.x, before.y),
+               lost = std::hypot(after.x - before.x, after.y - before.y, after.z - before.z);
   double mass = 0;
   for (const double m : potential.mass()) mass += m;
   // Each step rounds positions of a few centimetres to 2⁻²⁹ m, and a velocity is made of two of them.
@@ -267,7 +281,8 @@ TEST_CASE("Newton: a step that can't converge says so, keeps the state before it
 
 TEST_CASE("Newton: a number that is not finite ends the step and keeps the state before it", "[unit]") {
   compare::Scene scene = drop_scene();
-  scene.bodies[0].material.lame_mu = std::numeric_limits<double>::quiet_NaN();  // validate refuses it; a solver must end all the same
+  // validate refuses it; a solver must end all the same
+  scene.bodies[0].material.lame_mu = std::numeric_limits<double>::quiet_NaN();
   const auto simulation = reference::start_newton(scene, {});
   const auto rows = simulation->advance(3);
   REQUIRE(rows.size() == 1);
@@ -286,13 +301,15 @@ TEST_CASE("Newton stops by the length of its steps where no residual is asked fo
     CHECK(row.iterations < scene.settings.newton_iterations);
     for (std::size_t i = 0; i + 1 < row.iteration_rows.size(); ++i) {
       const compare::IterationMetrics& iteration = row.iteration_rows[i];
-      const bool small = iteration.largest_change <= 1e-3 * scene.settings.time_step && iteration.vertices_at_bound == 0;
+      const bool small = iteration.largest_change <= 1e-3 * scene.settings.time_step &&
+                         iteration.vertices_at_bound == 0;
       CHECK(small == (iteration.iteration + 1 == row.iterations));
     }
   }
 }
 
-TEST_CASE("Newton: friction solves go on until one changes nothing, and end with friction lagged to the state itself", "[property]") {
+TEST_CASE("Newton: friction solves go on until one changes nothing, and end with friction lagged to the state itself",
+          "[property]") {
   compare::Scene scene = drop_scene();
   scene.settings.newton_tolerance = 1e-8;
   scene.settings.newton_iterations = 2000;
@@ -386,11 +403,13 @@ TEST_CASE("Newton takes every model, and refuses damping by vertex with what to 
   const Run result = run(scene, 5), plain = run(drop_scene(), 5);
   CHECK(clean(result));
   CHECK(result.rows.size() == 5);
-  // The second step finds a third, fourth and fifth set of contacts, each nearer to the solution: it must not be ended as one that alternates between two.
+  // The second step finds a third, fourth and fifth set of contacts, each nearer to the solution: it must not be ended
+  // as one that alternates between two.
   for (const compare::StepMetrics& row : result.rows) CHECK(row.residual < 1e-2);
   CHECK(result.end.positions != plain.end.positions);
   scene.settings.damping = compare::DampingForm::per_vertex;
-  CHECK_THROWS_WITH(reference::start_newton(scene, {}), Catch::Matchers::Contains("per_vertex") && Catch::Matchers::Contains("--solver vbd"));
+  CHECK_THROWS_WITH(reference::start_newton(scene, {}),
+                    Catch::Matchers::Contains("per_vertex") && Catch::Matchers::Contains("--solver vbd"));
 }
 
 TEST_CASE("a cloth that hangs on springs comes to rest where they carry its weight", "[property]") {

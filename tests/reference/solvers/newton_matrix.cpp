@@ -40,21 +40,27 @@ struct Pressed {
   }
 };
 
-Eigen::MatrixXd dense_sum(const Potential& potential, const PotentialDerivatives& derivatives, const BlockMatrix& matrix) {
+Eigen::MatrixXd dense_sum(const Potential& potential, const PotentialDerivatives& derivatives,
+                          const BlockMatrix& matrix) {
   const auto size = static_cast<Eigen::Index>(matrix.rows());
   std::vector<Eigen::Index> number(potential.mobility().size(), -1);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = 0; i < matrix.free_vertices().size(); ++i) {
     number[matrix.free_vertices()[i]] = static_cast<Eigen::Index>(3 * i);
-    for (Eigen::Index k = 0; k < 3; ++k) sum(static_cast<Eigen::Index>(3 * i) + k, static_cast<Eigen::Index>(3 * i) + k) = potential.inertia(matrix.free_vertices()[i]);
+    for (Eigen::Index k = 0; k < 3; ++k)
+      sum(static_cast<Eigen::Index>(3 * i) + k,
+          static_cast<Eigen::Index>(3 * i) + k) = potential.inertia(matrix.free_vertices()[i]);
   }
   for (std::size_t s = 0; s < potential.stencil_count(); ++s) {
     const auto vertex = potential.vertices(s);
     for (std::size_t i = 0; i < 12; ++i)
       for (std::size_t j = 0; j < 12; ++j) {
         if (vertex[i / 3] < 0 || vertex[j / 3] < 0) continue;
-        const Eigen::Index row = number[static_cast<std::size_t>(vertex[i / 3])], column = number[static_cast<std::size_t>(vertex[j / 3])];
-        if (row >= 0 && column >= 0) sum(row + static_cast<Eigen::Index>(i % 3), column + static_cast<Eigen::Index>(j % 3)) += derivatives.stencil[s].hessian[12 * i + j];
+        const Eigen::Index row = number[static_cast<std::size_t>(vertex[i / 3])],
+                           column = number[static_cast<std::size_t>(vertex[j / 3])];
+        if (row >= 0 && column >= 0)
+          sum(row + static_cast<Eigen::Index>(i % 3),
+              column + static_cast<Eigen::Index>(j % 3)) += derivatives.stencil[s].hessian[12 * i + j];
       }
   }
   return sum;
@@ -62,11 +68,13 @@ Eigen::MatrixXd dense_sum(const Potential& potential, const PotentialDerivatives
 
 }  // namespace
 
-TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition number are those of the dense matrix", "[property]") {
+TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition number are those of the dense matrix",
+          "[property]") {
   const Pressed pressed;
   Potential potential(pressed.scene, pressed.topology);
   potential.begin_step(pressed.x, pressed.x);
-  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups, compare::to_single(pressed.scene.mesh.positions), 6e-3f);
+  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups,
+                                   compare::to_single(pressed.scene.mesh.positions), 6e-3f);
   potential.set_contacts(detected.sets, pressed.x);
   potential.lag_friction(pressed.x);
   REQUIRE(potential.stencil_count() > 40);
@@ -83,7 +91,9 @@ TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition
     const std::vector<double> column = matrix.times(unit);
     unit[c] = 0;
     for (std::size_t r = 0; r < matrix.rows(); ++r)
-      CHECK(column[r] == Approx(dense(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c))).epsilon(1e-12).margin(1e-12 * dense.norm()));
+      CHECK(column[r] == Approx(dense(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)))
+                             .epsilon(1e-12)
+                             .margin(1e-12 * dense.norm()));
   }
   Factor factor;
   factor.analyze(matrix);
@@ -94,11 +104,13 @@ TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition
   CHECK(condition_number(matrix, factor) == Approx(values.maxCoeff() / values.minCoeff()).epsilon(1e-5));
 }
 
-TEST_CASE("condition numbers without friction and without contact are those of the potentials that lack them", "[property]") {
+TEST_CASE("condition numbers without friction and without contact are those of the potentials that lack them",
+          "[property]") {
   const Pressed pressed;
   Potential potential(pressed.scene, pressed.topology);
   potential.begin_step(pressed.x, pressed.x);
-  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups, compare::to_single(pressed.scene.mesh.positions), 6e-3f);
+  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups,
+                                   compare::to_single(pressed.scene.mesh.positions), 6e-3f);
   const BlockMatrix rows(potential.mobility());
   const auto condition = [&](HessianProjection projection) {
     const Eigen::MatrixXd dense = dense_sum(potential, potential.derivatives(pressed.x, projection), rows);
@@ -124,12 +136,14 @@ TEST_CASE("condition numbers without friction and without contact are those of t
   CHECK(first(potential.elastic_count()) == Approx(elastic).epsilon(1e-5));
 }
 
-TEST_CASE("a matrix that keeps the order of its steady stencils has the bits of one that sorts all of them", "[property]") {
+TEST_CASE("a matrix that keeps the order of its steady stencils has the bits of one that sorts all of them",
+          "[property]") {
   const Pressed pressed;
   Potential potential(pressed.scene, pressed.topology);
   potential.begin_step(pressed.x, pressed.x);
   BlockMatrix kept(potential.mobility());
-  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups, compare::to_single(pressed.scene.mesh.positions), 6e-3f);
+  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups,
+                                   compare::to_single(pressed.scene.mesh.positions), 6e-3f);
   REQUIRE(detected.sets.vertex_facet.size() > 3);
   PotentialDerivatives derivatives;
   for (const bool touching : {true, false, true}) {
@@ -151,7 +165,8 @@ TEST_CASE("the gradient of the potential is the slope of its energy along any di
   State target = pressed.x;
   for (auto& p : target) p[1] -= 1e-3;
   potential.begin_step(pressed.x, target);
-  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups, compare::to_single(pressed.scene.mesh.positions), 6e-3f);
+  const Detected detected = detect(pressed.scene, pressed.topology, pressed.groups,
+                                   compare::to_single(pressed.scene.mesh.positions), 6e-3f);
   potential.set_contacts(detected.sets, pressed.x);
   potential.lag_friction(pressed.x);
   std::mt19937 engine(3);
@@ -162,11 +177,13 @@ TEST_CASE("the gradient of the potential is the slope of its energy along any di
     State direction(pressed.x.size());
     for (std::size_t v = 0; v < direction.size(); ++v)
       if (potential.mobility()[v] == Mobility::free) direction[v] = {draw(engine), draw(engine), draw(engine)};
-    for (std::size_t v = 0; v < direction.size(); ++v) ahead[v] = ahead[v] + step * direction[v], behind[v] = behind[v] - step * direction[v];
+    for (std::size_t v = 0; v < direction.size(); ++v)
+      ahead[v] = ahead[v] + step * direction[v], behind[v] = behind[v] - step * direction[v];
     double slope = 0;
     const PotentialDerivatives derivatives = potential.derivatives(pressed.x, HessianProjection::none);
     for (std::size_t v = 0; v < direction.size(); ++v) slope += dot(derivatives.gradient[v], direction[v]);
-    CHECK(Potential::change(potential.terms(behind), potential.terms(ahead)) / (2 * step) == Approx(slope).epsilon(1e-4));
+    CHECK(Potential::change(potential.terms(behind), potential.terms(ahead)) / (2 * step) ==
+          Approx(slope).epsilon(1e-4));
   }
 }
 
@@ -175,14 +192,16 @@ TEST_CASE("what lies in a ball is within its bound after rounding, too", "[prope
   std::uniform_real_distribution<double> draw(-1, 1);
   Detected detected;
   for (int i = 0; i < 3000; ++i) {
-    detected.previous.push_back({static_cast<float>(draw(engine)), static_cast<float>(draw(engine)), static_cast<float>(100 * draw(engine))});
+    detected.previous.push_back(
+        {static_cast<float>(draw(engine)), static_cast<float>(draw(engine)), static_cast<float>(100 * draw(engine))});
     detected.bound.push_back(static_cast<float>(std::pow(10, -8 + 6 * std::abs(draw(engine)))));
   }
   const Balls balls(detected);
   State x, scaled;
   for (std::size_t v = 0; v < detected.bound.size(); ++v) {
     const Triple<double> centre{detected.previous[v].x, detected.previous[v].y, detected.previous[v].z};
-    const Triple<double> step = 2 * double{detected.bound[v]} * Triple<double>{draw(engine), draw(engine), draw(engine)};
+    const Triple<double> step = 2 * double{detected.bound[v]} *
+                                Triple<double>{draw(engine), draw(engine), draw(engine)};
     const Balls::Inside inside = balls.inside(v, centre + step);
     x.push_back(inside.x);
     scaled.push_back(centre + balls.share_inside(v, centre, step) * step);

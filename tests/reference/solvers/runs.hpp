@@ -26,7 +26,8 @@ inline Run run_of(StartSolver start, const compare::Scene& scene, std::int64_t s
 }
 
 inline bool clean(const Run& run) {
-  return std::all_of(run.rows.begin(), run.rows.end(), [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
+  return std::all_of(run.rows.begin(), run.rows.end(),
+                     [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
 }
 
 /// A sheet that falls askew onto a fixed one: contacts of all kinds, friction, damping, several detections a step.
@@ -46,8 +47,8 @@ inline compare::Scene drop_scene() {
   return scene;
 }
 
-/// Each step from the snapshot before it gives the bits of the run that did not stop there, with both sheets free: contacts then couple vertices that no
-/// triangle does, so that the matrix' pattern grows and shrinks.
+/// Each step from the snapshot before it gives the bits of the run that did not stop there, with both sheets free:
+/// contacts then couple vertices that no triangle does, so that the matrix' pattern grows and shrinks.
 inline void check_goes_on_from_any_snapshot(StartSolver start, compare::Scene scene) {
   scene.bodies[1].fixed = false;
   const auto whole = start(scene, {});

@@ -11,18 +11,23 @@ namespace ogc::tests {
 inline compare::Mesh sheet_mesh(compare::Index n, double side, double height) {
   compare::Mesh mesh;
   for (compare::Index i = 0; i < n; ++i)
-    for (compare::Index j = 0; j < n; ++j) mesh.positions.push_back({side * (i / (n - 1.0) - 0.5), height, side * (j / (n - 1.0) - 0.5)});
+    for (compare::Index j = 0; j < n; ++j)
+      mesh.positions.push_back({side * (i / (n - 1.0) - 0.5), height, side * (j / (n - 1.0) - 0.5)});
   for (compare::Index i = 0; i + 1 < n; ++i)
     for (compare::Index j = 0; j + 1 < n; ++j) {
       const compare::Index a = i * n + j, b = a + 1, c = a + n, d = c + 1;
-      if ((i + j) % 2 == 0) mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
-      else mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
+      if ((i + j) % 2 == 0)
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
     }
   return mesh;
 }
 
-inline void add_sheet(compare::Scene& scene, compare::Index n, double side, double height, bool fixed, const compare::Material& material = {}) {
-  append_body(scene, {.name = "sheet_" + std::to_string(scene.bodies.size()), .fixed = fixed, .material = material}, sheet_mesh(n, side, height));
+inline void add_sheet(compare::Scene& scene, compare::Index n, double side, double height, bool fixed,
+                      const compare::Material& material = {}) {
+  append_body(scene, {.name = "sheet_" + std::to_string(scene.bodies.size()), .fixed = fixed, .material = material},
+              sheet_mesh(n, side, height));
 }
 
 /// A free sheet 4 mm above a fixed one, askew and falling: contacts of all kinds from the first step on.
@@ -41,12 +46,15 @@ inline compare::Scene two_sheets() {
   return scene;
 }
 
-/// A single triangle, 1 cm wide, `height` above the inside of a fixed one, 2 m wide: three contacts of a vertex with a plane, and nothing else.
+/// A single triangle, 1 cm wide, `height` above the inside of a fixed one, 2 m wide: three contacts of a vertex with a
+/// plane, and nothing else.
 inline compare::Scene triangle_on_plane(double height, const compare::Material& material) {
   compare::Scene scene;
   scene.name = "triangle_on_plane";
-  append_body(scene, {.name = "block", .material = material}, {{{0, height, 0}, {0, height, 0.01}, {0.01, height, 0}}, {{0, 1, 2}}, {}});
-  append_body(scene, {.name = "plane", .fixed = true, .material = material}, {{{-1, 0, -1}, {-1, 0, 2}, {2, 0, -1}}, {{0, 1, 2}}, {}});
+  append_body(scene, {.name = "block", .material = material},
+              {{{0, height, 0}, {0, height, 0.01}, {0.01, height, 0}}, {{0, 1, 2}}, {}});
+  append_body(scene, {.name = "plane", .fixed = true, .material = material},
+              {{{-1, 0, -1}, {-1, 0, 2}, {2, 0, -1}}, {{0, 1, 2}}, {}});
   scene.settings.contact_radius = 5e-3;
   return scene;
 }

@@ -1,4 +1,5 @@
-// The order of Algorithm 3 in scripted runs, and the reference's own step against what physics and the method say of it.
+// The order of Algorithm 3 in scripted runs, and the reference's own step against what physics and the method say of
+// it.
 #include "reference/solvers/step.hpp"
 
 #include <algorithm>
@@ -86,7 +87,9 @@ TEST_CASE("a detection follows an iteration that cut enough, but never the last 
 }
 
 TEST_CASE("the threshold is the fraction of K rounded up, at least one vertex", "[unit]") {
-  const auto again = [](double fraction, Index moving, Index cut) { return order(settings(2, fraction), moving, {0, cut}).size() == 5; };
+  const auto again = [](double fraction, Index moving, Index cut) {
+    return order(settings(2, fraction), moving, {0, cut}).size() == 5;
+  };
   CHECK(again(0.25, 10, 3));
   CHECK_FALSE(again(0.25, 10, 2));
   CHECK(again(0.25, 8, 2));
@@ -101,10 +104,12 @@ TEST_CASE("detections by count are counted from the last detection", "[unit]") {
   compare::Settings by_count = settings(6);
   by_count.redetect_every = 2;
   CHECK(order(by_count, 100, {}) == std::vector{find, guess, sweep, sweep, find, sweep, sweep, find, sweep, sweep});
-  CHECK(order(by_count, 100, {0, 1}) == std::vector{find, guess, sweep, find, sweep, sweep, find, sweep, sweep, find, sweep});
+  CHECK(order(by_count, 100, {0, 1}) ==
+        std::vector{find, guess, sweep, find, sweep, sweep, find, sweep, sweep, find, sweep});
 }
 
-TEST_CASE("a sheet far from everything falls by h² g in the reference's own step, whatever its bounds cut", "[property]") {
+TEST_CASE("a sheet far from everything falls by h² g in the reference's own step, whatever its bounds cut",
+          "[property]") {
   compare::Scene scene = scene_of(sheet(4, 1), {0, -2, 0});
   const compare::StepOut out = step_of(scene);
   const double fall = (2 + 9.81f * double{0.01f}) * double{0.01f};
@@ -113,7 +118,8 @@ TEST_CASE("a sheet far from everything falls by h² g in the reference's own ste
   CHECK(out.events.size() > 6);
 }
 
-TEST_CASE("positions of the reference's own step obey their bounds, and its counts are those of its order", "[property]") {
+TEST_CASE("positions of the reference's own step obey their bounds, and its counts are those of its order",
+          "[property]") {
   compare::Scene scene = scene_of(sheet(4, 0.006), {0.3, -1, 0});
   compare::append_body(scene, {.name = "floor", .fixed = true, .material = {}}, sheet(4, 0));
   const compare::StepOut out = step_of(scene);

@@ -58,7 +58,17 @@ struct Question {
     edge_edge = reference::detect_edge_edge({&topology, groups, previous, r, 2 * r}).exact;
   }
   compare::SweepIn in() const {
-    return {&scene, &topology, &rest, colour, old, start, target, previous, bound, vertex_facet.contacts, edge_edge.contacts};
+    return {&scene,
+            &topology,
+            &rest,
+            colour,
+            old,
+            start,
+            target,
+            previous,
+            bound,
+            vertex_facet.contacts,
+            edge_edge.contacts};
   }
   compare::SweepOut swept() const { return reference::reference_sweep(in(), reference::SweepStencils(in())); }
   compare::SweepTruth truth(const compare::SweepOut& answer) const { return reference::sweep(in(), answer); }
@@ -80,7 +90,8 @@ void shake(std::vector<Vec3f>& points, std::mt19937& random, float size) {
 
 double distance(const Vec3& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, written out for them alone: F's columns are edges.
+/// Inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, written out for them alone: F's columns
+/// are edges.
 double energy(const Question& q, const std::vector<Vec3f>& x) {
   const compare::Material& m = q.scene.bodies[0].material;
   double sum = 0;
@@ -196,7 +207,8 @@ TEST_CASE("forces of all stencils add up to nothing where all vertices are read 
   Vec3 sum;
   double moduli = 0;
   for (Index v = 0; v < static_cast<Index>(q.old.size()); ++v) {
-    for (const reference::Term& term : reference::terms_of_vertex(in, stencils, reference::SweepPositions(in, nothing_yet, v), v).terms) {
+    for (const reference::Term& term :
+         reference::terms_of_vertex(in, stencils, reference::SweepPositions(in, nothing_yet, v), v).terms) {
       const Vec3& f = term.accepted[0].force;
       sum = {sum.x + f.x, sum.y + f.y, sum.z + f.z};
       moduli += std::hypot(f.x, f.y, f.z);
@@ -228,7 +240,10 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
   CHECK(before < 0.9 * start);
 }
 
-TEST_CASE("a contact at its radius may act or not, and the vertex is grey; a stiff one is ill-conditioned and held to its direction", "[unit]") {
+TEST_CASE(
+    "a contact at its radius may act or not, and the vertex is grey; a stiff one is ill-conditioned and held to its "
+    "direction",
+    "[unit]") {
   compare::Scene scene = scene_of({sheet(1, 0), sheet(1, 0.25)});
   for (compare::Body& body : scene.bodies) {
     body.material.membrane = compare::MembraneModel::none;

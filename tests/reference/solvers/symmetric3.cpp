@@ -27,12 +27,17 @@ TEST_CASE("eigenvectors are orthonormal and give the matrix back, over ratios up
     for (double& x : a) x = i % 3 == 0 ? std::round(2 * unit(random)) : unit(random) * std::pow(10.0, exponent(random));
     const Eigen3 e = ogc::reference::eigen_of(a);
     const double error = 1e-14 * ogc::reference::norm(a);
-    const std::array<std::array<double Vec3::*, 2>, 6> places{
-        {{&Vec3::x, &Vec3::x}, {&Vec3::x, &Vec3::y}, {&Vec3::x, &Vec3::z}, {&Vec3::y, &Vec3::y}, {&Vec3::y, &Vec3::z}, {&Vec3::z, &Vec3::z}}};
+    const std::array<std::array<double Vec3::*, 2>, 6> places{{{&Vec3::x, &Vec3::x},
+                                                               {&Vec3::x, &Vec3::y},
+                                                               {&Vec3::x, &Vec3::z},
+                                                               {&Vec3::y, &Vec3::y},
+                                                               {&Vec3::y, &Vec3::z},
+                                                               {&Vec3::z, &Vec3::z}}};
     for (std::size_t k = 0; k < 6; ++k) REQUIRE(std::abs(entry(e, places[k][0], places[k][1]) - a[k]) <= error);
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t l = 0; l < 3; ++l)
-        REQUIRE(e.axis[k].x * e.axis[l].x + e.axis[k].y * e.axis[l].y + e.axis[k].z * e.axis[l].z == Approx(k == l ? 1 : 0).margin(1e-14));
+        REQUIRE(e.axis[k].x * e.axis[l].x + e.axis[k].y * e.axis[l].y + e.axis[k].z * e.axis[l].z ==
+                Approx(k == l ? 1 : 0).margin(1e-14));
   }
 }
 

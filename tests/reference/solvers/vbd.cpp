@@ -21,8 +21,10 @@ double distance(const compare::Vec3f& a, const compare::Vec3f& b) {
 
 }  // namespace
 
-TEST_CASE("reference VBD: a vertex's force is minus the gradient of the potential with friction of the same state; its block is positive definite",
-          "[property]") {
+TEST_CASE(
+    "reference VBD: a vertex's force is minus the gradient of the potential with friction of the same state; its block "
+    "is positive definite",
+    "[property]") {
   compare::Scene scene = two_sheets();
   round_to_single(scene);
   const compare::Topology topology = build_topology(scene);
@@ -36,7 +38,8 @@ TEST_CASE("reference VBD: a vertex's force is minus the gradient of the potentia
     if (potential.mobility()[v] == reference::Mobility::free) x[v] = x[v] + moved;
   }
   potential.begin_step(start, target);
-  const reference::Detected found = reference::detect(scene, topology, rigid_groups(scene), reference::rounded(start), 8e-3F);
+  const reference::Detected found = reference::detect(scene, topology, rigid_groups(scene), reference::rounded(start),
+                                                      8e-3F);
   potential.set_contacts(found.sets, start);
   REQUIRE(potential.contacts().size() > 20);
   potential.lag_friction(x);
@@ -51,14 +54,17 @@ TEST_CASE("reference VBD: a vertex's force is minus the gradient of the potentia
     if (potential.mobility()[v] != reference::Mobility::free) continue;
     const reference::VertexSystem system = systems.at(static_cast<compare::Index>(v), {x, x, colour});
     const auto& b = system.block;
-    for (std::size_t axis = 0; axis < 3; ++axis) CHECK(std::abs(system.force[axis] + derivatives.gradient[v][axis]) <= 1e-9 * largest);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      CHECK(std::abs(system.force[axis] + derivatives.gradient[v][axis]) <= 1e-9 * largest);
     CHECK(b[0] > 0);
     CHECK(b[0] * b[3] - b[1] * b[1] > 0);
-    CHECK(b[0] * (b[3] * b[5] - b[4] * b[4]) - b[1] * (b[1] * b[5] - b[4] * b[2]) + b[2] * (b[1] * b[4] - b[3] * b[2]) > 0);
+    CHECK(b[0] * (b[3] * b[5] - b[4] * b[4]) - b[1] * (b[1] * b[5] - b[4] * b[2]) + b[2] * (b[1] * b[4] - b[3] * b[2]) >
+          0);
   }
 }
 
-TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing single-precision positions does", "[agreement]") {
+TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing single-precision positions does",
+          "[agreement]") {
   compare::Scene scene = two_sheets();
   scene.settings.iterations = 3;
   scene.settings.redetect_every = 2;
@@ -69,17 +75,21 @@ TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing 
   const auto rows = simulation->advance(1);
   REQUIRE(rows[0].status == compare::step_clean);
   CHECK(rows[0].vertex_facet_contacts + rows[0].edge_edge_contacts > 20);
-  CHECK(rows[0].discrete_detections == std::ranges::count(judged.events, compare::StepEventKind::detection, &compare::StepEvent::kind));
+  CHECK(rows[0].discrete_detections ==
+        std::ranges::count(judged.events, compare::StepEventKind::detection, &compare::StepEvent::kind));
   const compare::Snapshot end = simulation->snapshot();
-  // Coordinates below 6 cm are stored to 2⁻²⁹ m, once a colour and iteration, and a vertex hands on no more than the errors that it reads: its own stiffness
-  // is the sum of those that tie it to them.
+  // Coordinates below 6 cm are stored to 2⁻²⁹ m, once a colour and iteration, and a vertex hands on no more than the
+  // errors that it reads: its own stiffness is the sum of those that tie it to them.
   const int roundings = 3 * (1 + *std::ranges::max_element(judged.colour));
-  for (std::size_t v = 0; v < end.positions.size(); ++v) CHECK(distance(end.positions[v], judged.position[v]) <= roundings * std::sqrt(3.0) * 0x1p-29);
+  for (std::size_t v = 0; v < end.positions.size(); ++v)
+    CHECK(distance(end.positions[v], judged.position[v]) <= roundings * std::sqrt(3.0) * 0x1p-29);
 }
 
-TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, single-precision storage left out", "[property]") {
+TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, single-precision storage left out",
+          "[property]") {
   compare::Scene scene = two_sheets();
-  // Contacts that are stiff beside the inertia make it slow (at 100 N/m and 1/100 s thousands of iterations are not enough).
+  // Contacts that are stiff beside the inertia make it slow (at 100 N/m and 1/100 s thousands of iterations are not
+  // enough).
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.time_step = 1.0 / 400;
   scene.settings.iterations = 250;
@@ -90,18 +100,23 @@ TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, sin
   CHECK(rows[0].iteration_rows.front().residual > 0.5);
   CHECK(rows[0].iteration_rows.back().residual < 1e-9);
   CHECK(rows[0].residual < 1e-9);
-  CHECK(std::count_if(rows[0].iteration_rows.begin(), rows[0].iteration_rows.end(), [](const auto& row) { return row.detected == 1; }) >= 49);
+  CHECK(std::count_if(rows[0].iteration_rows.begin(), rows[0].iteration_rows.end(),
+                      [](const auto& row) { return row.detected == 1; }) >= 49);
 }
 
-/// With w² in the blocks two partners that are solved at once take the whole of their overlap away each, and what is left
-/// after as many sweeps is twelve times as much (Fig. 17).
-TEST_CASE("reference VBD: where contact is stiff a step comes as close with colours that facing vertices of equal sheets share as with others", "[property]") {
+/// With w² in the blocks two partners that are solved at once take the whole of their overlap away each, and what is
+/// left after as many sweeps is twelve times as much (Fig. 17).
+TEST_CASE(
+    "reference VBD: where contact is stiff a step comes as close with colours that facing vertices of equal sheets "
+    "share as with others",
+    "[property]") {
   compare::Scene scene;
   scene.name = "pressed";
   compare::Material material;
   material.contact_stiffness = 10;
   for (const double height : {0.0, 2.5e-3, 5e-3}) add_sheet(scene, 6, 0.05, height, false, material);
-  for (std::size_t v = 0; v < scene.velocities.size(); ++v) scene.velocities[v] = {0, v < 36 ? 0.3 : v < 72 ? 0 : -0.3, 0};
+  for (std::size_t v = 0; v < scene.velocities.size(); ++v)
+    scene.velocities[v] = {0, v < 36 ? 0.3 : v < 72 ? 0 : -0.3, 0};
   scene.settings.iterations = 75;
   scene.settings.redetect_fraction = 0;
   const auto residual = [&](const std::vector<compare::Index>& colour) {

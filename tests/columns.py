@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Checks that no line has more than 120 columns, so that a file fits beside another window. C++ and CUDA are laid out
+by .clang-format (version 14; comments by hand). Usage:
+
+    tests/columns.py ROOT         the self-test, then ROOT; one line for each finding, exit status 1 where there is any
+    tests/columns.py --self-test  only the self-test
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+MOST_COLUMNS = 120
+SOURCE_SUFFIXES = {".hpp", ".h", ".cpp", ".cu", ".cuh"}
+
+
+def too_long(path):
+    """Numbers and lengths of the lines of a text file that are too long."""
+    lines = path.read_text(encoding="utf-8").split("\n")
+    return [(number, len(line)) for number, line in enumerate(lines, 1) if len(line) > MOST_COLUMNS]
+
+
+def findings(root, names):
+    for name in sorted(names):
+        if Path(name).suffix in SOURCE_SUFFIXES and (root / name).is_file():
+            for number, length in too_long(root / name):
+                yield f"{name}:{number}: {length} columns, {MOST_COLUMNS} are allowed; run clang-format -i {name}"
+
+
+def tracked(root):
+    command = ["git", "-C", str(root), "ls-files", "--cached", "--others", "--exclude-standard"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        (root / "fits.cpp").write_text("/" * MOST_COLUMNS + "\n" + "é" * MOST_COLUMNS, encoding="utf-8")
+        (root / "long.hpp").write_text("// short\n" + "/" * (MOST_COLUMNS + 1), encoding="utf-8")
+        found = list(findings(root, ["fits.cpp", "long.hpp", "gone.cpp"]))
+        if len(found) != 1 or not found[0].startswith("long.hpp:2: 121 columns"):
+            sys.exit(f"self-test: found {found}")
+
+
+if __name__ == "__main__":
+    self_test()
+    if sys.argv[1:] != ["--self-test"]:
+        root = Path(sys.argv[1])
+        found = list(findings(root, tracked(root)))
+        print("\n".join(found) if found else "no line is too long")
+        sys.exit(1 if found else 0)
