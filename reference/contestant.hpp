@@ -11,7 +11,7 @@
 #include "reference/geometry/nearest.hpp"
 #include "reference/geometry/pair_margins.hpp"
 #include "reference/geometry/primitive_distances.hpp"
-#include "reference/solvers/minimiser.hpp"
+#include "reference/solvers/newton/minimiser.hpp"
 #include "reference/solvers/residual.hpp"
 
 namespace ogc::reference {

@@ -6,7 +6,7 @@
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/primitive_distances.hpp"
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/detection.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/mesh_zoo.hpp"
 #include "tests/reference/solvers/sheets.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "reference/solvers/newton_matrix.hpp"
+#include "reference/solvers/newton/matrix.hpp"
 
 namespace ogc::reference {
 

@@ -1,4 +1,4 @@
-#include "reference/solvers/minimiser.hpp"
+#include "reference/solvers/newton/minimiser.hpp"
 
 #include <cmath>
 

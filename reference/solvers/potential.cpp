@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "reference/energies/overlap_share.hpp"
 #include "reference/energies/rest_state.hpp"
 #include "reference/geometry/closest_points.hpp"
-#include "reference/solvers/newton_batches.hpp"
+#include "reference/solvers/potential_batches.hpp"
 
 namespace ogc::reference {
 namespace {

@@ -1,7 +1,7 @@
 // Backtracking along a direction of Newton's method (method.md §7).
 #pragma once
 
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 

@@ -2,7 +2,7 @@
 // many threads as there are cores. Both spin while they wait: on two busy cores the factorisation of 14,700 rows took
 // 2.4 times as long as with one thread. So OpenMP is kept to one here; BLAS has one unless OPENBLAS_NUM_THREADS asks
 // for more.
-#include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton/factor.hpp"
 
 #include <cstdlib>
 

@@ -1,10 +1,10 @@
-#include "reference/solvers/simulation.hpp"
+#include "reference/simulation.hpp"
 
 #include <string>
 
 #include <tbb/task_arena.h>
 
-#include "reference/solvers/newton_solver.hpp"
+#include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
 
 namespace ogc::reference {

@@ -1,12 +1,12 @@
-#include "reference/solvers/newton_matrix.hpp"
+#include "reference/solvers/newton/matrix.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <Eigen/Dense>
 
-#include "reference/solvers/newton_condition.hpp"
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/detection.hpp"
+#include "reference/solvers/newton/condition.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 

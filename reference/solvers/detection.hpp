@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 

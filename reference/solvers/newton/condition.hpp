@@ -1,7 +1,7 @@
 // Extreme eigenvalues of a factorised system by Lanczos' method on the matrix and on its inverse.
 #pragma once
 
-#include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton/factor.hpp"
 
 namespace ogc::reference {
 

@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_line_search.hpp"
+#include "reference/solvers/newton/line_search.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "reference/solvers/simulation.hpp"
+#include "reference/simulation.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -6,7 +6,7 @@
 
 #include <tbb/global_control.h>
 
-#include "reference/solvers/newton_solver.hpp"
+#include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/residual.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/runs.hpp"

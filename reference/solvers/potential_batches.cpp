@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_batches.hpp"
+#include "reference/solvers/potential_batches.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "reference/solvers/newton_solver.hpp"
+#include "reference/solvers/newton/solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "reference/solvers/newton_condition.hpp"
+#include "reference/solvers/newton/condition.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -13,10 +13,10 @@ namespace {
 using compare::HessianProjection;
 using compare::Vec3f;
 
-/// So many times as much a scaled step must lower the energy to be preferred: see the head of newton_solver.hpp.
+/// So many times as much a scaled step must lower the energy to be preferred: see the head of solver.hpp.
 constexpr double far_more = 2;
 /// So often a solve that has converged goes on although the contacts found at its result are no better than those
-/// before: see the head of newton_solver.hpp.
+/// before: see the head of solver.hpp.
 constexpr int most_judgements = 4;
 /// ‖δ_v‖/‖δ'_v‖ at most: a vertex whose ball leaves it nothing stands as good as still.
 constexpr double most_pinned = 1e6;

@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/detection.hpp"
 
 #include <algorithm>
 #include <cmath>

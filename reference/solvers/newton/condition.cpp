@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_condition.hpp"
+#include "reference/solvers/newton/condition.hpp"
 
 #include <cmath>
 #include <limits>

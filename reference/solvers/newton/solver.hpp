@@ -24,7 +24,7 @@
 //           that was not, and a share of 2⁻⁸ that lowers the energy in its seventh digit would pass for progress;
 //   scaled  δ, scaled to fit all balls. It must lower the energy twice as much as δ', which moves most vertices far and
 //           makes room for all: with no such factor sheets that fly together or are nearly closed lose the full steps
-//           that tests/reference/solvers/newton.cpp asks for;
+//           that tests/reference/solvers/newton/solver.cpp asks for;
 //   pinned  truncation takes from two near vertices that want common travel their separation, too: each keeps a share
 //           of its δ, and so of the difference of both. So springs hold cut vertices where they are, of stiffness
 //           (‖δ_v‖/‖δ'_v‖ − 1)(m_v/h² + what they had), and the system is solved and truncated again: vertices that are
@@ -46,8 +46,8 @@
 #include <optional>
 
 #include "reference/solvers/contact_step.hpp"
-#include "reference/solvers/newton_factor.hpp"
-#include "reference/solvers/newton_line_search.hpp"
+#include "reference/solvers/newton/factor.hpp"
+#include "reference/solvers/newton/line_search.hpp"
 
 namespace ogc::reference {
 

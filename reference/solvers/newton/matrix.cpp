@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_matrix.hpp"
+#include "reference/solvers/newton/matrix.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "reference/solvers/newton_measure.hpp"
+#include "reference/solvers/measure.hpp"
 
 #include <algorithm>
 #include <cmath>

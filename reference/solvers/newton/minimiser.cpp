@@ -1,10 +1,10 @@
-#include "reference/solvers/minimiser.hpp"
+#include "reference/solvers/newton/minimiser.hpp"
 
 #include <cmath>
 #include <utility>
 
-#include "reference/solvers/newton_condition.hpp"
-#include "reference/solvers/newton_line_search.hpp"
+#include "reference/solvers/newton/condition.hpp"
+#include "reference/solvers/newton/line_search.hpp"
 
 namespace ogc::reference {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "reference/energies/stencil_kernels.hpp"
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 
