@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
-#include "reference/energies/stencil_derivatives.hpp"
-#include "reference/energies/stencil_terms.hpp"
+#include "reference/energies/stencils/stencil_derivatives.hpp"
+#include "reference/energies/stencils/stencil_terms.hpp"
 #include "reference/solvers/contacts.hpp"
 
 namespace ogc::reference {

@@ -1,11 +1,11 @@
-// The stencils of a mesh in batches of one kind (energies/stencil_kernels.hpp), in parallel over the batches: each
-// stencil has its place, so neither threads nor what shares its batch changes a bit.
+// The stencils of a mesh in batches of one kind (energies/stencils/stencil_kernels.hpp), in parallel over the batches:
+// each stencil has its place, so neither threads nor what shares its batch changes a bit.
 #pragma once
 
 #include <functional>
 #include <span>
 
-#include "reference/energies/stencil_kernels.hpp"
+#include "reference/energies/stencils/stencil_kernels.hpp"
 #include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
