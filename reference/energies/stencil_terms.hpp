@@ -11,6 +11,7 @@
 #include "reference/energies/closest_form.hpp"
 #include "reference/energies/contact_activation.hpp"
 #include "reference/energies/fold.hpp"
+#include "reference/energies/solid.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/energies/strain.hpp"
 
@@ -145,6 +146,42 @@ struct SpringTermOf {
   }
 };
 using SpringTerm = SpringTermOf<double>;
+
+/// A tetrahedron: V (ψ + k ϕ(G − Gᵗ)), ψ of F by the gradients (compare/stages/tetrahedron.hpp has it by weights, whose
+/// roundings differ).
+template <class Number>
+struct TetrahedronTermOf {
+  std::array<compare::Index, 4> vertex{};
+  std::array<std::array<Number, 3>, 4> gradient{};             ///< ∇N [1/m]
+  Number volume = 0.0, lambda = 0.0, mu = 0.0, damping = 0.0;  ///< V [m³], Lamé [Pa], k = k_d/h [1]
+  SolidStrain<Number> start{};                                 ///< Gᵗ
+
+  template <class T>
+  T elastic_of(const SolidDeformation<T>& f) const {
+    return volume * solid_density(f, lambda, mu);
+  }
+  template <class T>
+  T damping_of(const SolidStrain<T>& g) const {
+    SolidStrain<T> change;
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] = g[i] - T(start[i]);
+    return volume * damping * solid_quadratic(change, lambda, mu);
+  }
+  template <class T>
+  T elastic(const std::array<Triple<T>, 4>& x) const {
+    return elastic_of(solid_deformation<T>(x, gradient));
+  }
+  template <class T>
+  T energy(const std::array<Triple<T>, 4>& x) const {
+    const SolidDeformation<T> f = solid_deformation<T>(x, gradient);
+    return damping == 0.0 ? elastic_of(f) : elastic_of(f) + damping_of(solid_strain(f));
+  }
+
+  auto numbers() { return std::tie(gradient, volume, lambda, mu, damping, start); }
+  auto numbers() const { return std::tie(gradient, volume, lambda, mu, damping, start); }
+  auto kinds() { return std::tie(); }
+  auto kinds() const { return std::tie(); }
+};
+using TetrahedronTerm = TetrahedronTermOf<double>;
 
 /// A contact: e_k g(d). The form is found where the energy is asked for.
 template <class Number>

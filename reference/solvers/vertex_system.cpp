@@ -82,15 +82,23 @@ void add_geometric(const Strain<OwnTwice>& g, const OwnTwice& elastic, VertexSys
   add_identity(std::max(0.0, geometric), sum);
 }
 
-/// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
-void add_neo_hookean(const OwnTwice& energy, const Triple<double>& normal, VertexSystem& sum) {
+/// Slope and exact second derivative.
+void add_exactly(const OwnTwice& energy, VertexSystem& sum) {
   add_force(1, energy.slope, sum);
-  Triple<double> along{};
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k) {
       std::array<double, 3> a{}, b{};
       a[i] = b[j] = 1;
       add_outer((i == j ? 1 : 2) * energy.bend(k), a, b, sum);
+    }
+}
+
+/// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
+void add_neo_hookean(const OwnTwice& energy, const Triple<double>& normal, VertexSystem& sum) {
+  add_exactly(energy, sum);
+  Triple<double> along{};
+  for (std::size_t i = 0, k = 0; i < 3; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++k) {
       along[i] += energy.bend(k) * normal[j];
       if (i != j) along[j] += energy.bend(k) * normal[i];
     }
@@ -148,6 +156,25 @@ void add_spring(const SpringTerm& term, std::size_t place, const std::array<Trip
   add_outer(term.stiffness * (1 - across + term.damping), length.slope, length.slope, sum);
 }
 
+/// The exact second derivative of the elastic part, the material part of the damping.
+void add_tetrahedron(const TetrahedronTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners,
+                     VertexSystem& sum) {
+  const SolidDeformation<OwnTwice> f = solid_deformation<OwnTwice>(with_own<OwnTwice>(corners, place), term.gradient);
+  add_exactly(term.elastic_of(f), sum);
+  if (term.damping == 0) return;
+  const SolidStrain<OwnTwice> g = solid_strain(f);
+  SolidStrain<Second<6>> by_strain;
+  for (std::size_t i = 0; i < 6; ++i) {
+    by_strain[i] = Second<6>(g[i].value);
+    by_strain[i].slope[i] = 1;
+  }
+  const Second<6> energy = term.damping_of(by_strain);
+  for (std::size_t i = 0, k = 0; i < 6; ++i) {
+    add_force(energy.slope[i], g[i].slope, sum);
+    for (std::size_t j = 0; j <= i; ++j, ++k) add_outer((i == j ? 1 : 2) * energy.bend(k), g[i].slope, g[j].slope, sum);
+  }
+}
+
 /// Of a contact's vertices those that are updated at the same time, the own one among them.
 using Updated = std::array<bool, 4>;
 
@@ -201,6 +228,7 @@ VertexSystems::VertexSystems(const Potential& potential) : potential_(potential)
   list(potential.membranes(), membranes_);
   list(potential.hinges(), hinges_);
   list(potential.springs(), springs_);
+  list(potential.tetrahedra(), tetrahedra_);
 }
 
 void VertexSystems::read_contacts() { list(potential_.contacts(), contacts_); }
@@ -223,6 +251,10 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   for (const Part& part : springs_[v]) {
     const SpringTerm& term = potential_.springs()[part.stencil];
     add_spring(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  for (const Part& part : tetrahedra_[v]) {
+    const TetrahedronTerm& term = potential_.tetrahedra()[part.stencil];
+    add_tetrahedron(term, part.place, plain_corners(term.vertex, vertex, x), sum);
   }
   for (const Part& part : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[part.stencil];

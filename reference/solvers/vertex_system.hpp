@@ -53,7 +53,7 @@ class VertexSystems {
   void list(const Terms& terms, Parts& parts) const;
 
   const Potential& potential_;
-  Parts membranes_, hinges_, springs_, contacts_;
+  Parts membranes_, hinges_, springs_, tetrahedra_, contacts_;
 };
 
 }  // namespace ogc::reference
