@@ -1,6 +1,9 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
 and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
 
+What is kept is small: rows of a long run are thinned (thinned.py), a scene is kept once for all manifests that name its
+hash, pictures have a palette, and a run that another figure keeps is not kept twice.
+
 Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits. A run made in parts
 (paper_figures.in_time) is finished where its last part is.
 """
@@ -9,6 +12,7 @@ import argparse
 import csv
 import gzip
 import hashlib
+import io
 import json
 import re
 import subprocess
@@ -16,12 +20,14 @@ import sys
 from fnmatch import fnmatch
 from pathlib import Path
 
-from paper_figures import in_time, recipes
-from paper_figures.evidence import AUDIT, NOT_RUN, RESULTS, run_at
+from paper_figures import in_time, recipes, thinned
+from paper_figures.evidence import AUDIT, NOT_RUN, RESULTS, ROWS, SCENES, EvidenceError, run_at
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-# A file above the first is no small data; the folder as a whole stays under 30 MiB. Rows above the second are kept compressed.
-LARGEST, LONG = 2 * 2**20, 2**17
+# A file above the first is no small data; tests hold the folder as a whole to 10 MB. Rows above the second are kept
+# compressed.
+LARGEST, LONG = 2**20, 2**14
+COLOURS = 256  # of a picture's palette
 
 
 class AcceptError(Exception):
@@ -106,12 +112,13 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
     if "illustration" in recipe.body:
-        return [(picture.name, picture.read_bytes()), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
+        return [(picture.name, in_palette(picture.read_bytes())), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
     outputs = [runs / path for path in recipe.outputs(scale, backend)]
     missing = [path for path in outputs if not path.is_file()]
     if missing and not incomplete:
         raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, or keep the figure without it by --incomplete")
-    found = [(f"{recipe.name}_{scale}{path.suffix}", path.read_bytes()) for path in outputs if path not in missing]
+    found = [(f"{recipe.name}_{scale}{path.suffix}", in_palette(path.read_bytes()) if path == picture else path.read_bytes())
+             for path in outputs if path not in missing]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
@@ -135,21 +142,68 @@ def compressed(name, data):
     return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
 
 
+def in_palette(picture):
+    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: a quarter of the size.
+    Throws AcceptError."""
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        image = Image.open(io.BytesIO(picture)).convert("RGB")
+    except UnidentifiedImageError as error:
+        raise AcceptError(f"a picture is no PNG ({error}): draw it again") from error
+    out = io.BytesIO()
+    image.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
 def run_files(path, stem):
-    """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
-    manifest = json.loads(path.read_text())
+    """Manifest, scene, rows, iterations and processor time of the run whose manifest is `path`."""
+    rows = path.with_name("steps.csv")
+    text = rows.read_text() if rows.is_file() else ""
+    manifest, scene = compact(json.loads(path.read_text()))
+    found = [*scene]
+    if thinned.is_long(text):
+        manifest["whole_run"] = {**thinned.whole_run(text), **costs_of(path.parent)}
+        found.append(compressed(f"{stem}_{ROWS[1]}", thinned.hundreds(text).encode()))
+    elif text:
+        found.append(compressed(f"{stem}_{ROWS[0]}", text.encode()))
+    kept = ("iterations.csv", in_time.PROCESSOR_TIME)
+    found += [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in kept if path.with_name(name).is_file()]
+    if path.with_name(AUDIT).is_file():
+        audit = json.loads(path.with_name(AUDIT).read_text())
+        audit.pop("steps", None)  # `states` counts them
+        found.append((f"{stem}_{AUDIT}", (json.dumps(audit) + "\n").encode()))
+    return [(f"{stem}_run.json", (json.dumps(manifest, indent=1) + "\n").encode()), *found]
+
+
+def compact(manifest):
+    """The manifest without folders of the machine, what settings mean, and the scene, which the file beside it holds:
+    (manifest, [(name, bytes)])."""
+    manifest = dict(manifest)
     manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
-    kept = ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT)
-    names = [name for name in kept if path.with_name(name).is_file()]
-    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
-    return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
+    manifest["settings"] = {name: {key: value for key, value in entry.items() if key != "meaning"}
+                            for name, entry in manifest.get("settings", {}).items()}
+    data = (json.dumps(manifest["scene"]) + "\n").encode()
+    digest = hashlib.sha256(data).hexdigest()[:16]
+    manifest["scene"] = {"name": manifest["scene"]["name"], "sha256": digest}
+    return manifest, [(f"../{SCENES}/{digest}.json", data)]
+
+
+def costs_of(folder):
+    """Where the time of the run's steps goes, which the thinned rows can't tell any more; nothing where every row can't."""
+    from paper_figures.step_costs import costs
+
+    try:
+        return {"step_costs": costs(run_at(folder))}
+    except EvidenceError:
+        return {}
 
 
 def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
     """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
     says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes
     the picture alone: they keep what was said of them."""
-    folder, kept, rows = Path(results) / machine, [], []
+    folder, kept, rows, scenes = Path(results) / machine, [], [], {}
     before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
     shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
     for recipe in chosen:
@@ -157,9 +211,12 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
         if missing:
             raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
         words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc, backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
-        for name, data in pieces(recipe, scale, backend, Path(runs), incomplete):
+        for name, data in unlike_others(pieces(recipe, scale, backend, Path(runs), incomplete), folder, recipe.name, rows):
+            if name.startswith(f"../{SCENES}/"):
+                scenes[folder / name] = data
+                continue
             if len(data) > LARGEST:
-                raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
+                raise AcceptError(f"{name} has {len(data) / 2**20:.2g} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
             redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
             digest = hashlib.sha256(data).hexdigest()[:16]
@@ -174,12 +231,31 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
     outdated = earlier_files(folder / "provenance.csv", rows)
     for name in outdated:
         (folder / name).unlink(missing_ok=True)
-    for path, data in kept:
+    for path, data in (*kept, *scenes.items()):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
+    drop_scenes(Path(results))
     merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"), list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
     return rows
+
+
+def unlike_others(found, folder, figure, rows):
+    """The (name, bytes) of `found` without the runs that another figure keeps: in the folder, or in `rows`, about those
+    accepted with it."""
+    others = {row["sha256"] for row in (*rows_of(folder / "provenance.csv"), *rows) if row["figure"] != figure}
+    twice = [name.removesuffix("run.json") for name, data in found
+             if name.endswith("run.json") and hashlib.sha256(data).hexdigest()[:16] in others]
+    run_file = re.compile("|".join(re.escape(stem) + r"[a-z_]+\.(json|csv)(\.gz)?" for stem in twice) or r"(?!)")
+    return [(name, data) for name, data in found if not run_file.fullmatch(name)]
+
+
+def drop_scenes(results):
+    """Removes the scenes that no accepted manifest names any more."""
+    named = {json.loads(path.read_text())["scene"].get("sha256") for path in results.glob("*/**/*run.json")}
+    for path in results.glob(f"{SCENES}/*.json"):
+        if path.stem not in named:
+            path.unlink()
 
 
 def composed(recipe, chosen, scale, backend, runs, ogc):
