@@ -22,7 +22,7 @@ from pathlib import Path
 
 HISTORY = {"CHANGELOG.md"}  # says what was
 # Documents that programs write, by those who say so. An entry that nothing cites is a finding itself.
-WRITTEN = {"counts.md": "experiments/judge_counts", "table1_paper.md": "python3 -m paper_figures.table1"}
+WRITTEN = {"counts.md": "experiments/judge_counts", "table1_paper.md": "python3 -m paper_figures.figures.table1"}
 SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply", ".pdf", ".npz"}
 
 COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may go on in the next line

@@ -20,7 +20,7 @@ except ImportError as error:
 
 
 def run_script(source, module, folder, out, option="--out"):
-    command = [sys.executable, "-m", f"paper_figures.{module}", str(folder), option, str(out)]
+    command = [sys.executable, "-m", f"paper_figures.figures.{module}", str(folder), option, str(out)]
     return subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)
 
 
@@ -79,7 +79,7 @@ def said(source, module, *words):
     sys.path.insert(0, str(source))
     before, sys.argv = sys.argv, [module, *map(str, words)]
     try:
-        runpy.run_path(f"{source}/paper_figures/{module}.py", run_name="__main__")
+        runpy.run_path(f"{source}/paper_figures/figures/{module}.py", run_name="__main__")
     except SystemExit as end:
         return end.code
     finally:

@@ -1,0 +1,356 @@
+"""Accepting results and checking new runs against them: what is no evidence is refused in words, a change that the bands don't allow is found, and what lies in results/ has its provenance.
+
+Usage: accepted.py SOURCE_DIR. Exit status 77: skipped, PyYAML is missing.
+"""
+
+import csv
+import dataclasses
+import gzip
+import hashlib
+import json
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE))
+try:
+    import yaml  # noqa: F401
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+from paper_figures.workflow import accept, check, recipes  # noqa: E402
+from paper_figures.workflow.evidence import RESULTS, Evidence, RunEvidence  # noqa: E402
+
+SPHERE = "h200/sphere_cuda"
+LIMIT = 30 * 2**20
+
+
+def run_evidence(stem):
+    return RunEvidence(RESULTS / f"{stem}_run.json", RESULTS / f"{stem}_steps.csv", stem)
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.runs = Path(self.scratch.name) / "runs"
+        self.results = Path(self.scratch.name) / "results"
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def make_run(self, folder, rows=lambda text: text, **changes):
+        """A copy of an accepted run as a run folder, changed."""
+        folder = self.runs / folder
+        folder.mkdir(parents=True)
+        manifest = json.loads((RESULTS / f"{SPHERE}_run.json").read_text())
+        (folder / "run.json").write_text(json.dumps({**manifest, **changes}))
+        (folder / "steps.csv").write_text(rows((RESULTS / f"{SPHERE}_steps.csv").read_text()))
+        return folder
+
+
+def scaled(column, factor):
+    """A function that multiplies a column of steps.csv."""
+    def change(text):
+        head, *rows = list(csv.reader(text.splitlines()))
+        at = next(i for i, name in enumerate(head) if name.partition("[")[0].strip() == column)
+        lines = [",".join(row[:at] + [repr(float(row[at]) * factor)] + row[at + 1:]) for row in rows]
+        return "\n".join([",".join(head), *lines]) + "\n"
+    return change
+
+
+class Checking(Scratch):
+    def said(self, **options):
+        self.make_run("fig18-paper-cuda/run", **options)
+        lines, met = check.check(self.runs)
+        return met, next(line for line in lines if line.startswith("fig18-paper-cuda/run"))
+
+    def test_no_manifest_names_a_folder_of_the_machine_that_made_it(self):
+        for path in sorted((SOURCE / "paper_figures/results").rglob("*run.json")):
+            manifest = json.loads(path.read_text())
+            for key in ("command", "from_state"):
+                self.assertNotRegex(manifest.get(key, ""), r"(?<![^\s=])/\S", f"{path.name}: {key}")
+
+    def test_the_same_program_must_give_the_same_bits(self):
+        self.assertEqual(self.said(), (True, "fig18-paper-cuda/run/run.json: the bits of h200/sphere_cuda_profile_run.json"))
+
+    def test_other_bits_of_the_same_program_are_found(self):
+        met, words = self.said(final_hash="0" * 16)
+        self.assertFalse(met)
+        self.assertRegex(words, "NOT the bits of the accepted run")
+
+    def test_another_program_is_held_to_the_bands(self):
+        met, words = self.said(commit="f" * 40, final_hash="0" * 16)
+        self.assertTrue(met, words)
+        self.assertIn("within the bands of", words)
+
+    def test_a_mean_outside_its_band_is_named(self):
+        for column, band in check.bands().items():
+            for factor, good in ((1 + 0.9 * band, True), (1 + 1.1 * band, False), (1 - 1.1 * band, False)):
+                with self.subTest(column=column, factor=factor):
+                    met, words = self.said(commit="f" * 40, rows=scaled(column, factor))
+                    shutil.rmtree(self.runs)
+                    self.assertEqual(met, good, words)
+                    self.assertEqual(f"mean {column}" in words, not good, words)
+
+    def test_a_failed_audit_an_unfinished_run_and_missing_steps_are_not_met(self):
+        for changes, words in (({"guarantee_kept": False, "status": "failed: intersection"}, "its audit FAILED"), ({"status": "running"}, "not finished"),
+                               ({"commit": "f" * 40, "rows": lambda text: "\n".join(text.splitlines()[:50]) + "\n"}, "49 steps, not 100")):
+            met, said = self.said(**changes)
+            shutil.rmtree(self.runs)
+            self.assertFalse(met)
+            self.assertIn(words, said)
+
+    def test_runs_that_no_accepted_result_is_about_are_said_to_be_so(self):
+        self.make_run("other/run", scale="smoke", scene={"name": "nothing", "bodies": []})
+        lines, met = check.check(self.runs)
+        self.assertTrue(met)
+        self.assertRegex(lines[0], "1 runs, none of which an accepted result")
+
+    def test_illustrations_are_the_same_data(self):
+        (self.runs / "illustrations").mkdir(parents=True)
+        (self.results / "m").mkdir(parents=True)
+        for name in ("fig07", "fig02_models"):
+            (self.results / f"m/{name}.json.gz").write_bytes(gzip.compress(b"{}"))
+            for data, good in ((b"{}", True), (b"{ }", False)):
+                (self.runs / f"illustrations/{name}.json").write_bytes(data)
+                self.assertEqual([met for _, met in check.compare_illustrations(self.runs, self.results)], [good])
+            (self.runs / f"illustrations/{name}.json").unlink()
+
+    def test_a_claim_at_a_smaller_scale_is_held_to_its_band_moved_to_the_accepted_number(self):
+        claim = {"id": "s.c", "scene": "s", "value": 5, "band": [4.5, 5.5], "measure": {"table": "fig99", "column": "n", "where": {"kind": "a"}}, "run": {"scale": "paper"}}
+        for accepted, ours, good in ((1.59, 1.59, True), (1.59, 1.7, True), (1.59, 1.8, False), (1.59, 1.4, False), (1.59, "nan", False), ("nan", "nan", True), ("nan", 3, True)):
+            for folder, number in ((self.results, accepted), (self.runs / "fig99-small-cpu", ours)):
+                folder.mkdir(parents=True, exist_ok=True)
+                name = "fig99_small.csv" if folder == self.results else "fig99.csv"
+                (folder / name).write_text(f"kind,n,commit,device\na,{number},c,d\n")
+            found = list(check.compare_smaller(claim, Evidence(self.runs), Evidence(self.results)))
+            self.assertEqual([met for _, met in found], [good], found)
+
+    def test_a_band_that_says_nothing_at_another_scale_is_not_moved(self):
+        claim = {"value": 5, "band": [4, 6], "measure": {"table": "fig99", "column": "n"}}
+        self.assertTrue(check.movable(claim))
+        self.assertTrue(check.movable({**claim, "band": [5, 5]}))
+        for changes in ({"band": [0, 5]}, {"band": [1, None]}, {"band": "stored"}, {"value": 0}, {"measure": {"steps": "wall", "statistic": "mean"}}, {"measure": {"scene": "vertices"}}):
+            self.assertFalse(check.movable({**claim, **changes}), changes)
+
+    def test_the_bands_are_what_the_accepted_pairs_say(self):
+        document = json.loads(check.BANDS.read_text())
+        self.assertEqual(document["factor"], 3)
+        for name, entry in document["columns"].items():
+            means = [[sum(run_evidence(stem).column(name)) for stem in pair] for pair in document["pairs"]]
+            self.assertAlmostEqual(entry["spread"], max(abs(b / a - 1) for a, b in means), delta=5e-5, msg=name)
+
+
+class Accepting(Scratch):
+    BOOK = recipes.load()
+
+    def accept(self, *names):
+        return accept.accept([self.BOOK[name] for name in names], "paper", "cuda", self.runs, "machine", "no program", self.results)
+
+    def finished(self, **changes):
+        folder = self.make_run("fig18-paper-cuda/run", **changes)
+        (folder.parent / "fig18.png").write_bytes(b"picture")
+
+    def test_data_picture_and_provenance_are_kept(self):
+        self.finished(command="/somewhere/build/default/ogc run cloth_on_sphere --from-state=/else/where/frame.h5 --out fig18-paper-cuda/run", from_state="/else/where/frame.h5")
+        self.accept("fig18")
+        kept = self.results / "machine"
+        self.assertEqual({path.name for path in kept.iterdir()}, {"fig18_paper.png", "fig18_paper_run.json", "fig18_paper_steps.csv", "provenance.csv", "durations.csv"})
+        manifest = json.loads((kept / "fig18_paper_run.json").read_text())
+        self.assertEqual(manifest["command"], "ogc run cloth_on_sphere --from-state=frame.h5 --out fig18-paper-cuda/run")
+        self.assertEqual(manifest["from_state"], "frame.h5")
+        with (kept / "provenance.csv").open(newline="") as file:
+            rows = {row["file"]: row for row in csv.DictReader(file)}
+        self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
+
+    def test_an_audit_after_the_run_is_kept_and_one_that_failed_is_refused(self):
+        for clean in (True, False):
+            self.finished(audited_states="0", guarantee_kept="not checked")
+            (self.runs / "fig18-paper-cuda/run/audit.json").write_text(json.dumps({"states": 101, "clean": clean}))
+            if clean:
+                self.accept("fig18")
+                self.assertEqual(Evidence(self.results).runs[0].audit_in_words, "101 states audited, 100 steps")
+            else:
+                with self.assertRaisesRegex(accept.AcceptError, "failed its audit"):
+                    self.accept("fig18")
+            shutil.rmtree(self.runs)
+
+    def test_runs_without_logs_of_steps_took_what_their_manifests_say(self):
+        self.finished(started="2026-11-22T10:00:00Z", ended="2026-11-22T10:01:30Z")
+        self.accept("fig18")
+        self.assertEqual((self.results / "machine/durations.csv").read_text().splitlines()[1:], ["fig18,paper,cuda,90.0,machine"])
+
+    def test_a_picture_is_of_its_own_backend_where_later_windows_on_the_cpu_lie_beside_its_run(self):
+        self.finished(ended="2026-11-22T10:00:00Z")
+        self.make_run("fig18-paper-cuda/cpu_0", backend="cpu", device="16 threads", ended="2026-11-22T11:00:00Z")
+        rows = {row["file"]: row["device"] for row in self.accept("fig18")}
+        self.assertEqual(set(rows), {"fig18_paper.png", *(f"fig18_paper/{run}_{what}" for run in ("run", "cpu_0") for what in ("run.json", "steps.csv"))})
+        self.assertRegex(rows["fig18_paper.png"], "H200")
+
+    def test_a_missing_movie_is_refused_unless_said_so(self):
+        folder = self.make_run("fig11-paper-cuda/run")
+        (folder.parent / "fig11.png").write_bytes(b"picture")
+        with self.assertRaisesRegex(accept.AcceptError, "fig11.mp4 is missing"):
+            self.accept("fig11")
+        accept.accept([self.BOOK["fig11"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True)
+        self.assertEqual({path.name for path in (self.results / "machine").glob("fig11*")}, {"fig11_paper.png", "fig11_paper_run.json", "fig11_paper_steps.csv"})
+
+    def test_files_of_an_earlier_acceptance_of_the_figure_go(self):
+        """Else the runs of two programs lie in one folder, and claims are judged by either."""
+        for name in ("first", "second"):
+            for run in (name, "both"):
+                self.make_run(f"fig17-paper-cuda/{run}")
+            (self.runs / "fig17-paper-cuda/fig17.png").write_bytes(b"picture")
+            self.accept("fig17")
+            shutil.rmtree(self.runs)
+        self.finished()
+        self.accept("fig18")
+        kept = self.results / "machine"
+        self.assertEqual({path.name for path in (kept / "fig17_paper").iterdir()}, {f"{run}_{what}" for run in ("second", "both") for what in ("run.json", "steps.csv")})
+        with (kept / "provenance.csv").open(newline="") as file:
+            files = {row["file"] for row in csv.DictReader(file)}
+        self.assertEqual(files, {path.relative_to(kept).as_posix() for path in kept.rglob("*") if path.is_file()} - {"provenance.csv", "durations.csv"})
+
+    def test_of_a_figure_that_says_so_only_some_runs_are_kept_and_all_are_checked(self):
+        for run, commit in (("runs/activation=ogc", "a"), ("newton_ipc_log", "a"), ("runs/activation=cubic", "a"), ("vbd_ipc_log_kappa2", "a")):
+            self.make_run(f"fig21-paper-cuda/{run}", commit=commit * 40)
+        (self.runs / "fig21-paper-cuda/fig21.png").write_bytes(b"picture")
+        self.accept("fig21")
+        kept = {path.name for path in (self.results / "machine/fig21_paper").iterdir()}
+        self.assertEqual(kept, {f"{run}_{what}" for run in ("activation=ogc", "newton_ipc_log") for what in ("run.json", "steps.csv")})
+        self.make_run("fig21-paper-cuda/vbd_ogc_weak", commit="b" * 40)
+        with self.assertRaisesRegex(accept.AcceptError, "mixes runs of commits"):
+            self.accept("fig21")
+
+    def test_long_rows_are_kept_compressed_and_read_again(self):
+        self.finished()
+        rows = (self.runs / "fig18-paper-cuda/run/steps.csv").read_text()
+        last = rows.splitlines(keepends=True)[-1]
+        (self.runs / "fig18-paper-cuda/run/steps.csv").write_text(rows + last * (accept.LARGEST // len(last)))
+        self.accept("fig18")
+        self.assertTrue((self.results / "machine/fig18_paper_steps.csv.gz").is_file())
+        new, old = check.runs_in(self.runs)[0], Evidence(self.results).runs[0]
+        self.assertEqual(new.columns["kinetic_energy"], old.columns["kinetic_energy"])
+        self.assertGreater(len(old.column("step")), 100)
+
+    def test_what_is_no_evidence_is_refused_in_words_and_nothing_is_written(self):
+        for changes, words in (({"dirty": True}, "uncommitted changes"), ({"guarantee_kept": False}, "failed its audit"), ({"status": "running"}, "not finished")):
+            self.finished(**changes)
+            with self.assertRaisesRegex(accept.AcceptError, words):
+                self.accept("fig18")
+            shutil.rmtree(self.runs)
+        self.assertFalse(self.results.exists())
+
+    def test_a_mixture_of_commits_and_a_missing_picture_are_refused(self):
+        for number, commit in enumerate("ab"):
+            self.make_run(f"fig17-paper-cuda/run_{number}", commit=commit * 40)
+        with self.assertRaisesRegex(accept.AcceptError, "mixes runs of commits aaaaaaaaaa, bbbbbbbbbb: remove it"):
+            self.accept("fig17")
+        with self.assertRaisesRegex(accept.AcceptError, "fig12.png is missing: make it with experiments/reproduce fig12"):
+            self.make_run("fig12-paper-cuda/run")
+            self.accept("fig12")
+
+    def in_parts(self, *statuses):
+        for number, status in enumerate(statuses):
+            folder = self.make_run(f"fig18_solvers-paper-cpu/ipc/part_{number:02d}", status=status)
+            (folder / "processor_time.json").write_text('{"user [s]": 1, "system [s]": 0}')
+        (folder.parent.parent / "fig18_solvers.png").write_bytes(b"picture")
+        return accept.accept([self.BOOK["fig18_solvers"]], "paper", "cpu", self.runs, "machine", "no program", self.results)
+
+    def test_a_run_in_parts_is_accepted_where_its_last_part_is_finished(self):
+        self.in_parts("interrupted", "interrupted", "finished")
+        kept = {path.name for path in (self.results / "machine/fig18_solvers_paper").iterdir()}
+        self.assertEqual(kept, {f"ipc_part_{number:02d}_{name}" for number in range(3) for name in ("run.json", "steps.csv", "processor_time.json")})
+
+    def test_a_run_in_parts_that_did_not_reach_its_end_is_refused(self):
+        for statuses, which in ((("interrupted", "interrupted"), "01"), (("running", "finished"), "00"), (("interrupted", "failed: no convergence"), "01")):
+            with self.assertRaisesRegex(accept.AcceptError, f"ipc_part_{which} is not finished"):
+                self.in_parts(*statuses)
+            shutil.rmtree(self.runs)
+        self.assertFalse(self.results.exists())
+
+    def test_half_a_figure_is_not_taken_for_a_whole_one(self):
+        self.finished()
+        (self.runs / "fig18-paper-cuda/fig18.csv").write_text(f"activation,status\nogc,finished\ncubic,{accept.NOT_RUN}\nquadratic,{accept.NOT_RUN}\n")
+        with self.assertRaisesRegex(accept.AcceptError, "fig18 was drawn without cubic, quadratic: run them"):
+            self.accept("fig18")
+        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True, by_hand="script --without")
+        self.assertTrue((self.results / "machine/fig18_paper.csv").is_file())
+        self.assertIn(",script --without,", (self.results / "machine/provenance.csv").read_text())
+
+    def test_a_picture_of_other_figures_runs_leaves_how_these_are_made_as_it_was(self):
+        teaser = dataclasses.replace(self.BOOK["fig01"], body={**self.BOOK["fig01"].body, "of": ["fig18"]})
+        (self.runs / "fig01-paper-cuda").mkdir(parents=True)
+        (self.runs / "fig01-paper-cuda/fig01.png").write_bytes(b"both")
+
+        def redo_after(*recipes, by_hand):
+            accept.accept(recipes, "paper", "cuda", self.runs, "machine", "no program", self.results, by_hand=by_hand)
+            return {row["file"]: row["redo"] for row in accept.rows_of(self.results / "machine/provenance.csv")}
+
+        self.finished()
+        redo_after(self.BOOK["fig18"], by_hand="on the device")
+        found = redo_after(teaser, self.BOOK["fig18"], by_hand="the teaser")
+        self.assertEqual((found["fig01_paper.png"], found["fig18_paper.png"], found["fig18_paper_run.json"]), ("the teaser", "on the device", "on the device"))
+        shutil.rmtree(self.runs / "fig18-paper-cuda")
+        self.finished(final_hash="another")  # what was said is of another run
+        found = redo_after(teaser, self.BOOK["fig18"], by_hand="the teaser")
+        self.assertEqual(found["fig18_paper_run.json"], "experiments/reproduce fig18 --scale paper --backend cuda")
+
+    def test_runs_of_the_same_name_in_different_folders_stay_apart(self):
+        for name in ("twist/whole", "knot/whole"):
+            folder = self.make_run(f"table1-paper-cuda/{name}")
+        (folder.parent.parent / "table1_paper.csv").write_text("scene\n")
+        self.accept("table1")
+        self.assertEqual({path.name for path in (self.results / "machine/table1_paper").glob("*run.json")}, {"twist_whole_run.json", "knot_whole_run.json"})
+
+    def test_rows_of_other_figures_stay(self):
+        table = self.results / "t.csv"
+        self.results.mkdir()
+        accept.merge(table, ("file", "n"), [{"file": "b", "n": 1}, {"file": "a", "n": 1}], ("file",))
+        accept.merge(table, ("file", "n"), [{"file": "b", "n": 2}], ("file",))
+        self.assertEqual(table.read_text(), "file,n\na,1\nb,2\n")
+
+
+class Kept(unittest.TestCase):
+    """The accepted results that are there."""
+
+    def test_every_file_of_a_provenance_is_there_unchanged(self):
+        for path in RESULTS.glob("*/provenance.csv"):
+            with path.open(newline="") as file:
+                for row in csv.DictReader(file):
+                    data = (path.parent / row["file"]).read_bytes()
+                    self.assertEqual(hashlib.sha256(data).hexdigest()[:16], row["sha256"], row["file"])
+                    self.assertNotIn("dirty", row["commit"])
+
+    def test_every_file_of_the_two_cores_has_a_provenance(self):
+        """In the table, or, where it was not made by the workflow in one go, in words in the README."""
+        folder = RESULTS / "two_cores"
+        with (folder / "provenance.csv").open(newline="") as file:
+            known = {row["file"] for row in csv.DictReader(file)}
+        words = (folder / "README.md").read_text()
+        there = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+        told = {path for path in there if path.suffix in (".png", ".csv") and (f"`{path.stem}.png`" in words or f"`{path.name}`" in words)}
+        unknown = {path.as_posix() for path in there - told if path.as_posix() not in known}
+        self.assertLessEqual(unknown, {"README.md", "provenance.csv", "durations.csv"})
+
+    def test_all_of_them_are_small(self):
+        self.assertLess(sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()), LIMIT)
+
+    def test_no_manifest_names_a_folder_of_the_machine(self):
+        for path in RESULTS.rglob("*run.json"):
+            self.assertNotRegex(json.loads(path.read_text())["command"], r"(^|\s|=)/", path)
+
+
+class Figures(unittest.TestCase):
+    def test_a_script_makes_the_picture_that_the_workflow_waits_for(self):
+        for recipe in recipes.load().values():
+            if "script" in recipe.body and "run" not in recipe.body and "of" not in recipe.body:
+                text = (SOURCE / f"paper_figures/figures/{recipe.body['script']}.py").read_text()
+                self.assertIn(f'"{recipe.name}.png"', text, recipe.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
