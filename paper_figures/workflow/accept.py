@@ -20,7 +20,7 @@ from pathlib import Path
 
 from paper_figures.workflow import recipes
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
-from paper_figures.workflow.kept import AcceptError, in_palette, run_files
+from paper_figures.workflow.kept import AcceptError, bytes_of, run_files
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
 LARGEST = 2**20  # bytes of a file; tests hold the folder as a whole to 10 MB
@@ -99,13 +99,12 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
     if "illustration" in recipe.body:
-        return [(picture.name, in_palette(picture.read_bytes())), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
+        return [(picture.name, bytes_of(picture)), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
     outputs = [runs / path for path in recipe.outputs(scale, backend)]
     missing = [path for path in outputs if not path.is_file()]
     if missing and not incomplete:
         raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, or keep the figure without it by --incomplete")
-    found = [(f"{recipe.name}_{scale}{path.suffix}", in_palette(path.read_bytes()) if path == picture else path.read_bytes())
-             for path in outputs if path not in missing]
+    found = [(f"{recipe.name}_{scale}{path.suffix}", bytes_of(path)) for path in outputs if path not in missing]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]

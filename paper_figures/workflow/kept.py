@@ -29,6 +29,11 @@ def compressed(name, data):
     return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
 
 
+def bytes_of(path):
+    """What is kept of a figure's file: of a picture one with a palette."""
+    return in_palette(path.read_bytes()) if path.suffix == ".png" else path.read_bytes()
+
+
 def in_palette(picture):
     """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: a quarter of the size.
     Throws AcceptError."""

@@ -82,6 +82,10 @@ class Hundreds:
         cells = [(kind, cell) for kind, cell in zip(self._columns["of"], self._columns[name]) if kind == quantity]
         return [float(cell or "nan") for _, cell in cells[:math.ceil(self.count / BLOCK)]]
 
+    def of_rows(self):
+        """How many rows each hundred has: the last may have fewer."""
+        return [int(n) for kind, n in zip(self._columns["of"], self._columns["rows"]) if kind == QUANTITIES[0]]
+
     def mean(self, name):
         if self.count == self._whole["rows"]:
             return self._whole["mean"].get(name, math.nan)
