@@ -26,7 +26,7 @@ from paper_figures.workflow import whole_runs  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS  # noqa: E402
 
 DOCUMENTS = ("README.md", "fast/PERFORMANCE.md", "reference/README.md", "paper_figures/results/h200/README.md",
-             "paper_figures/results/two_cores/README.md")
+             "paper_figures/results/two_cores/README.md", "tests/mutants/README.md")
 SHORT = {"sphere": "cloth_on_sphere"}  # names of scenes in documents, where they are not the scenes' own
 NOT_OURS = ("floor", "quoted")
 LINK = re.compile(r"\[[^\]]*\]\(([^)#]*\.csv)\)")
@@ -104,7 +104,7 @@ def faults(text, folder):
                     if not is_among(found, values, SCALES))
 
 
-def held(text, folder):
+def held(text):
     """(place in the text, number) of each number of a table that is held to a file."""
     for above, titles, lines in tables(text):
         if not LINK.search(above):
@@ -124,13 +124,15 @@ class Documents(unittest.TestCase):
             self.assertEqual(list(faults(text, (SOURCE / name).parent)), [], name)
 
     def test_a_wrong_number_is_found_wherever_it_is_planted(self):
+        tried = 0
         for name in DOCUMENTS:
             text, folder = (SOURCE / name).read_text(), (SOURCE / name).parent
-            found = list(held(text, folder))
-            self.assertGreater(len(found), 12, name)
+            found = list(held(text))
             missed = [number for at, number in found if not list(faults(planted(text, at, number), folder))]
+            tried += len(found)
             # One digit may make another number of the row.
-            self.assertLess(len(missed), 0.1 * len(found), f"{name}: {missed}")
+            self.assertLessEqual(len(missed), 0.1 * len(found), f"{name}: {missed}")
+        self.assertGreater(tried, 300)
 
     def test_a_wrong_number_in_a_sentence_is_found(self):
         words = "It takes 1.85 ms in `twist` ([rows](whole_runs.csv)).\n"
