@@ -43,7 +43,6 @@ NOT_RUN = {
     r"--cases \d{6,}|ogc compare( |$)(?!.*(--problem|truncate))": "minutes; the judge's own tests ask every stage",
     r"data=input": "a data set that is not part of this repository",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
-    r"paper_figures\.\w+\.(device_runs|fig17|accept)": "runs of the paper's size",
     r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
