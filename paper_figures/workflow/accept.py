@@ -1,8 +1,7 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
 and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits. A run made in parts
-(paper_figures.workflow.in_time) is finished where its last part is.
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
 """
 
 import argparse
@@ -16,8 +15,9 @@ import sys
 from fnmatch import fnmatch
 from pathlib import Path
 
-from paper_figures.workflow import in_time, recipes
-from paper_figures.workflow.evidence import AUDIT, NOT_RUN, RESULTS, run_at
+from paper_figures.workflow import recipes
+from paper_figures.workflow.evidence import NOT_RUN, RESULTS, run_at
+from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
 # A file above the first is no small data; the folder as a whole stays under 30 MiB. Rows above the second are kept compressed.
@@ -45,21 +45,15 @@ def manifest_at(path):
     return {**manifest, "guarantee_kept": run.guarantee_kept} if run and run.afterwards else manifest
 
 
-def check(name, manifest, earlier_part=False):
-    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did. A part that others
-    went on from was interrupted."""
+def check(name, manifest):
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed,
+    but no audit did."""
     if manifest.get("dirty") is not False:
         raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
     if manifest.get("guarantee_kept") is False:
         raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted result")
-    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton", *(["interrupted"] if earlier_part else []))):
+    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
         raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run experiments/reproduce again, it goes on where it was")
-
-
-def next_part(name):
-    """The name of the part that goes on where the part of this name was stopped; of another run, a name that no run has."""
-    run, part, number = name.rpartition("part_")
-    return f"{run}part_{int(number) + 1:02d}" if part and number.isdigit() else ""
 
 
 def program(ogc):
@@ -75,9 +69,8 @@ def origin(recipe, folder, ogc, backend=None):
     """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by `backend`, where there is one: windows on the
     CPU beside it are not what the picture shows."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
-    names = {name for name, _ in runs}
     for name, manifest in runs:
-        check(f"{folder.name}/{name}", manifest, next_part(name) in names)
+        check(f"{folder.name}/{name}", manifest)
     if not runs:
         return {**program(ogc), "device": "exact reference", "ended": ""}
     commits = sorted({manifest["commit"] for _, manifest in runs})
@@ -139,7 +132,7 @@ def run_files(path, stem):
     """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
     manifest = json.loads(path.read_text())
     manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
-    kept = ("steps.csv", "iterations.csv", in_time.PROCESSOR_TIME, AUDIT)
+    kept = ("steps.csv", "iterations.csv", PROCESSOR_TIME, AUDIT)
     names = [name for name in kept if path.with_name(name).is_file()]
     rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
