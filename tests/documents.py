@@ -212,15 +212,15 @@ PLANTED = {
     "`python3 -m paper_figures.nothing --x`": "no module",
     "```sh\nexperiments/reproduce fig12 --scal smoke\n```": "--scal",
     "`experiments/reproduce fig99`": "fig99",
-    "`experiments/table1 PROGRAM OUT --windw 3`": "--windw",
+    "`python3 -m paper_figures.workflow.runner --windw 3`": "--windw",
     "`experiments/bundle --strip`": "--strip",
     "`tests/mutants.py BUILD --stagez a`": "--stagez",
     "```sh\nfrobnicate --all\n```": "nobody parses this",
 }
 SOUND = (
     "```sh\nX=1 ogc audit my.obj > out.txt   # words --nonsense\nogc run twist \\\n  --scale smoke\n```",
-    "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`", "`experiments/table1 PROGRAM OUT --window 3 twist`",
-    "`python3 -m paper_figures.workflow.verdicts --write`", "`python3 -m paper_figures.workflow.device_runs`",
+    "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`", "`python3 -m paper_figures.workflow.runner --window 3 twist`",
+    "`python3 -m paper_figures.workflow.verdicts --write`", "`python3 -m paper_figures.workflow.runner`",
     "## What is not there yet\n\n`ogc view my.obj`\n",
 )
 

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.workflow import commands, in_time
+from paper_figures.workflow import commands
 from paper_figures.workflow.common import baseline_arguments, ipc_windows, label
-from paper_figures.figures.fig18_solvers import Joined
 from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
@@ -110,8 +109,6 @@ def draw(runs, out):
 def runs_of(arguments):
     """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
     folder = Path(arguments.folder)
-    if arguments.parts:
-        return [*(Joined(in_time.parts(folder / name)) for name in ("ipc", "vbd")), *(Run(window) for window in sorted(folder.glob("ipc_*")))]
     ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
     ogc = run_job(arguments.ogc, ours, folder)
     if arguments.without_ipc:
@@ -126,7 +123,6 @@ def runs_of(arguments):
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--without-ipc", action="store_true", help="OGC's run, and those of IPC that are there: makes none")
-    parser.add_argument("--parts", action="store_true", help="draw what paper_figures.workflow.in_time --scene large_radius_twist has made, and run nothing")
     options = parser.parse_args()
     try:
         print("\n".join(draw(runs_of(options), Path(options.folder) / "fig02.png")))

@@ -1,11 +1,6 @@
 """Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames of
-the first run, and the ratios beside the paper's, each with the threads and devices that it is of.
-
-VBD-OGC on CUDA is a fourth curve where its run lies in the folder (or with --cuda). Where a command may last so long only, the runs are made in parts:
-
-    python3 -m paper_figures.workflow.device_runs --program bundle/ogc --out runs --seconds 300 fig18_solvers     # there; again until it says finished
-    python3 -m paper_figures.figures.fig18_solvers runs/fig18_solvers-paper-cpu --scale paper                    # at home, after --unpack: draws them
-    python3 -m paper_figures.workflow.accept h200 fig18_solvers --scale paper --runs runs
+the first run, and the ratios beside the paper's, each with the threads and devices that it is of. VBD-OGC on CUDA is a
+fourth curve where its run lies in the folder (or with --cuda).
 """
 
 import json
@@ -14,35 +9,18 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.workflow import in_time
-from paper_figures.workflow.common import baseline_arguments, options_of
+from paper_figures.workflow import commands
+from paper_figures.workflow.common import baseline_arguments
 from paper_figures.workflow.common import label as solver_of
 from paper_figures.figures.fig18_cloth_on_sphere import CAMERA
 from paper_figures.workflow.evidence import CLAIMS
-from paper_figures.workflow.runs import provenance, run_once, write_table
+from paper_figures.workflow.jobs import PROCESSOR_TIME
+from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import draw_frames
 
 SCENE = "cloth_on_sphere"
-
-
-class Joined(Run):
-    """Parts of one run (paper_figures.workflow.in_time) as one run: steps that a later part made again are the later part's."""
-
-    def __init__(self, folders):
-        super().__init__(folders[0])
-        frames = {path.name: path for path in self.frames}
-        for folder in folders[1:]:
-            part = Run(folder)
-            keep = self.steps["step"] < part.steps["step"][0]
-            self.steps = {name: np.concatenate([values[keep], part.steps[name]]) for name, values in self.steps.items()}
-            frames.update({path.name: path for path in part.frames})
-            self.manifest["status"] = part.status
-        self.frames = [frames[name] for name in sorted(frames)]
-        used = [json.loads((folder / in_time.PROCESSOR_TIME).read_text()) for folder in folders if (folder / in_time.PROCESSOR_TIME).is_file()]
-        if len(used) == len(folders):
-            self.processor_ms = 1e3 * sum(sum(part.values()) for part in used)  # of the program, start and audit included
 
 
 def label(run):
@@ -55,10 +33,16 @@ def detections(run):
     return run.column("discrete_detections") + run.column("continuous_detections")
 
 
+def processor_ms(run):
+    """Of the program, start and audit included; not-a-number where nobody measured it."""
+    path = run.folder / PROCESSOR_TIME
+    return 1e3 * sum(json.loads(path.read_text()).values()) if path.is_file() else np.nan
+
+
 def processor_times(run):
     """Of each step [ms]: the whole run's, where it was measured, shared out by time on the clock. Else not-a-number."""
     wall = run.column("wall")
-    return wall * getattr(run, "processor_ms", np.nan) / np.sum(wall)
+    return wall * processor_ms(run) / np.sum(wall)
 
 
 def claimed(run):
@@ -119,7 +103,7 @@ def rows(runs):
         wall = run.column("wall")
         row = {**provenance(run), "steps": len(wall), "of steps": int(run.setting("steps")),
                "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)), "worst [ms]": float(wall.max()),
-               "processor time [ms]": getattr(run, "processor_ms", np.nan) / len(wall), "iterations a step": float(np.mean(run.column("iterations"))),
+               "processor time [ms]": processor_ms(run) / len(wall), "iterations a step": float(np.mean(run.column("iterations"))),
                "detections an iteration": float(np.sum(detections(run)) / np.sum(run.column("iterations")))}
         for kind in ("vertex_facet_contacts", "edge_edge_contacts", "broad_phases", "discrete_detections", "continuous_detections"):
             row[f"{kind.replace('_', ' ')} a step"] = float(np.mean(run.column(kind)))
@@ -137,7 +121,7 @@ def draw(runs, out):
     grid = figure.add_gridspec(3, 4, height_ratios=[0.9, 1, 1])
     draw_frames(figure, [grid[0, i] for i in range(4)], runs[0], [round(f * runs[0].setting("steps")) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
     linear, logarithmic, counts = figure.add_subplot(grid[1, :2]), figure.add_subplot(grid[1, 2:]), figure.add_subplot(grid[2, :2])
-    by_processor = all(run.manifest["backend"] == "cpu" and hasattr(run, "processor_ms") for run in runs)
+    by_processor = all(run.manifest["backend"] == "cpu" and np.isfinite(processor_ms(run)) for run in runs)
     for run, dash in zip(runs, style.DASHES):
         for axes in (linear, logarithmic):
             axes.plot(run.column("step"), processor_times(run) if by_processor else run.column("wall"), dash, label=label(run))
@@ -155,31 +139,22 @@ def draw(runs, out):
     style.save(figure, out)
 
 
-def run_of(folder, name, ogc, base):
-    """The run of one solver: made in parts before, or made once now. Throws RunError where parts don't reach the end."""
-    made = in_time.parts(folder / name)
-    if not made:
-        return run_once(ogc, [*base, *in_time.SOLVERS[name]], folder / name)
-    if not in_time.ended(folder / name):
-        raise RunError(f"{folder / name} has not reached its end: call paper_figures.workflow.in_time again to go on, or draw what there is with --parts")
-    return Joined(made)
-
-
 def runs_of(arguments):
-    """IPC's run first; VBD's on CUDA where it lies in the folder or is asked for."""
-    folder, base = Path(arguments.folder), [SCENE, *options_of(arguments), "--audit", "end"]
-    if arguments.parts:
-        found = [Joined(in_time.parts(folder / name)) for name in in_time.SOLVERS if in_time.parts(folder / name)]
-        if not found:
-            raise RunError(f"{folder} has no parts; make them with: python3 -m paper_figures.workflow.in_time {folder}")
-        return found
-    return [run_of(folder, name, arguments.ogc, base) for name in in_time.SOLVERS if name != "vbd_cuda" or arguments.cuda or (folder / name).is_dir()]
+    """IPC's run first; VBD's on CUDA where it lies in the folder or is asked for. With --made those that there are."""
+    folder = Path(arguments.folder)
+    made = [name for name in commands.SOLVERS if (folder / name / "run.json").is_file()]
+    if arguments.made and not made:
+        raise RunError(f"{folder} has no run; leave --made out, and they are made")
+    if arguments.made:
+        return [Run(folder / name) for name in made]
+    jobs = commands.solvers(arguments.scale, arguments.cuda or "vbd_cuda" in made, arguments.membrane)
+    return [run_job(arguments.ogc, job, folder) for job in jobs]
 
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0])
     parser.add_argument("--cuda", action="store_true", help="VBD-OGC on CUDA, too")
-    parser.add_argument("--parts", action="store_true", help="draw what paper_figures.workflow.in_time has made in the folder, and run nothing")
+    parser.add_argument("--made", action="store_true", help="draw the runs that there are, whole or not, and make none")
     options = parser.parse_args()
     try:
         found = runs_of(options)

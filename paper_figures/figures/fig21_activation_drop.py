@@ -27,7 +27,6 @@ from paper_figures.workflow import commands
 from paper_figures.figures import contact_forces
 from paper_figures.workflow.accept import not_run
 from paper_figures.workflow.runs import iterations, provenance, run_job, write_table
-from paper_figures.workflow.timed_runs import Limit, RunFailure, make
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
@@ -59,23 +58,13 @@ class Solved:
         return [run for run in (self.run, self.newton, self.double, self.single) if run]
 
 
-def made(ogc, job, folder):
-    """The run of a job that may fail."""
-    print(" ".join(job.command(ogc, folder)), file=sys.stderr, flush=True)
-    try:
-        make(ogc, job, folder, Limit())
-    except RunFailure as error:
-        raise RunError(str(error)) from error
-    return Run(folder / job.name)
-
-
 def solved(folder, ogc, scale, variant, backend):
-    run = made(ogc, commands.ablation(scale, variant), folder)
+    run = run_job(ogc, commands.ablation(scale, variant), folder)
     if run.status != "finished":
         if variant in PAPER:
             raise RunError(f"{run.folder} is not finished ({run.status}); its last lines say why")
         return Solved(run)
-    newton = made(ogc, commands.by_newton(scale, variant), folder)
+    newton = run_job(ogc, commands.by_newton(scale, variant), folder)
     if not commands.compared(variant):
         return Solved(run, newton)
     return Solved(

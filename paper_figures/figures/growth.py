@@ -1,9 +1,8 @@
-"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads of the CPU: runs, table and picture.
-Not in the paper.
+"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads of
+the CPU: runs, table and picture. Not in the paper.
 
-Timed are steps FIRST to STEPS; those before let lists grow and contacts settle. The exponent is the slope of a straight line through the logarithms of the medians,
-by least squares, over all sizes and over the larger half. What makes the runs needs Python's own library alone (device_runs does so on a lent machine); the picture
-needs matplotlib.
+Timed are the steps from FIRST on; those before let lists grow and contacts settle. The exponent is the slope of a
+straight line through the logarithms of the medians, by least squares, over all sizes and over the larger half.
 """
 
 import argparse
@@ -13,39 +12,12 @@ import statistics
 import sys
 from pathlib import Path
 
-from paper_figures.workflow import layers
+from paper_figures.workflow import commands
 from paper_figures.workflow.device_memory import taken
 from paper_figures.workflow.evidence import run_at
-from paper_figures.workflow.timed_runs import STOPPED, Job, Limit, RunFailure, make, usable
+from paper_figures.workflow.jobs import MEMORY, RunFailure
 
-SIDES = {"smoke": (6, 8, 12), "small": (10, 15, 22, 32), "paper": (32, 46, 68, 100, 147, 215, 316)}
-SIDE_OF_THREADS = {"smoke": 8, "small": 22, "paper": 46}
-FIRST, STEPS = 5, 14
-
-
-def job_of(name, side, *more):
-    return Job(name, more, scene=f"scenes/{side}/scene.json")
-
-
-def sizes(scale, backend):
-    """A run a size, audited at its end."""
-    return [job_of(f"{backend}_{layers.vertices(side)}", side, "--backend", backend, "--audit", "end") for side in SIDES[scale]]
-
-
-def threads(scale, cores):
-    """The same run by one thread, two, four … up to all cores; nothing but the time may differ."""
-    numbers = sorted({*(2**k for k in range(cores.bit_length()) if 2**k <= cores), cores})
-    return [job_of(f"threads_{n}", SIDE_OF_THREADS[scale], "--threads", n, "--audit", "off") for n in numbers]
-
-
-def scenes_of(jobs):
-    """A function of (program, folder) that writes the scene files of the jobs, where they are missing."""
-    def write(program, folder):
-        for scene in sorted({job.scene for job in jobs}):
-            path = folder / scene
-            if not path.is_file():
-                layers.write(program, path.parent, int(path.parent.name), STEPS)
-    return write
+FIRST = 5
 
 
 def row_of(name, run, memory):
@@ -72,7 +44,7 @@ def table(folder):
     for path in sorted(folder.glob("*/run.json"), key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
         run = run_at(path.parent)
         if run and run.manifest["status"] == "finished":
-            rows.append(row_of(path.parent.name, run, taken(folder / f"{path.parent.name}_device_memory.json")))
+            rows.append(row_of(path.parent.name, run, taken(folder / f"{path.parent.name}{MEMORY}")))
     return rows
 
 
@@ -137,31 +109,23 @@ def draw(rows, out):
     style.save(figure, out)
 
 
-def runs_made(folder, program, jobs):
-    """Makes what is missing."""
-    for job in jobs:
-        if not usable(folder / job.name, job.command(program, folder)):
-            scenes_of([job])(program, folder)
-            if make(program, job, folder, Limit()) == STOPPED:
-                raise RunFailure(f"{job.name} was stopped")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=SIDES)
+    parser.add_argument("--scale", default="small", choices=commands.SIDES)
     parser.add_argument("--backend", action="append", choices=["cpu", "cuda"], help="repeatable (default: cpu)")
-    parser.add_argument("--made", action="store_true", help="draw the runs that there are (by device_runs), and make none")
+    parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
     options = parser.parse_args()
     try:
         if not options.made:
-            backends = dict.fromkeys(options.backend or ["cpu"])
-            over_sizes = [job for backend in backends for job in sizes(options.scale, backend)]
-            runs_made(options.folder, options.ogc, [*over_sizes, *threads(options.scale, os.cpu_count() or 1)])
+            over_sizes = [job for backend in dict.fromkeys(options.backend or ["cpu"])
+                          for job in commands.sizes(options.scale, backend)]
+            for job in [*over_sizes, *commands.threads(options.scale, os.cpu_count() or 1)]:
+                job.make(options.ogc, options.folder)
         rows = table(options.folder)
         if not rows:
-            raise RunFailure(f"{options.folder} holds no finished run; leave --made out, or unpack what device_runs packed there")
+            raise RunFailure(f"{options.folder} holds no finished run; leave --made out, and they are made")
         from paper_figures.workflow.runs import write_table
         write_table(options.folder / "growth.csv", rows)
         draw(rows, options.folder / "growth.png")

@@ -2,45 +2,20 @@
 same energy, contacts and friction fixed: three scenes, each from a state of its own run by the same backend
 (`ogc minimise --help` says what is measured). Not in the paper.
 
-Runs and table need Python's own library alone, so that a bare machine with the program can make them; the picture needs
-matplotlib and is left out with --no-picture.
+Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
 """
 
 import argparse
 import csv
-import subprocess
 import sys
 from pathlib import Path
 
-from paper_figures.workflow.timed_runs import Job, Limit, RunFailure, make
+from paper_figures.workflow import commands
+from paper_figures.workflow.jobs import RunFailure
 
-# The state after this step: cloths in the middle of their impact and at Fig. 17's step, twist after its first turn,
-# before triangles collapse (fast/PERFORMANCE.md): afterwards the energy is not convex between the two states.
-STEPS = {"smoke": {"cloth_on_sphere": 22, "three_cloths_on_sphere": 22, "twist": 600},
-         "small": {"cloth_on_sphere": 40, "three_cloths_on_sphere": 39, "twist": 1200},
-         "paper": {"cloth_on_sphere": 50, "three_cloths_on_sphere": 49, "twist": 1200}}
 DISTANCES = {"bound_by_gradient [m]": "bound by ‖∇E‖/λ", "bound_by_energy [m]": "bound by √(2 ΔE/λ)",
              "largest_distance [m]": "largest distance of a vertex", "rms_distance [m]": "root mean square",
              "rounding [m]": "half of a float's spacing"}
-
-
-def job_of(scene, step, scale, backend):
-    """The run to the state before the step that is looked at; profiled, so that nobody takes its times for a result."""
-    return Job(scene, (scene, "--scale", scale, "--backend", backend, "--steps", step, "--set", f"frame_steps={step}",
-                       "--audit", "end", "--profile"))
-
-
-def measured(folder, ogc, scale, backend):
-    """Makes what is missing of the runs, and the table. Throws RunFailure."""
-    frames = []
-    for scene, step in STEPS[scale].items():
-        make(ogc, job_of(scene, step, scale, backend), folder, Limit())
-        frames.append(folder / scene / "frames" / f"frame_{step:06d}.h5")
-    command = [str(ogc), "minimise", *map(str, frames), "--backend", backend, "--csv", str(folder / "minimiser.csv")]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        raise RunFailure(f"{' '.join(command)}: exit status {done.returncode}")
-    return done.stdout
 
 
 def rows_of(table):
@@ -70,12 +45,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=STEPS)
+    parser.add_argument("--scale", default="small", choices=commands.MINIMISER_STEPS)
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
     options = parser.parse_args()
     try:
-        print(measured(options.folder, options.ogc, options.scale, options.backend), end="")
+        for job in commands.minimiser(options.scale, options.backend):
+            job.make(options.ogc, options.folder)
+        print(options.folder / "minimiser.csv")
     except RunFailure as error:
         sys.exit(f"minimiser: {error}")
     if not options.no_picture:

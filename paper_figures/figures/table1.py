@@ -1,4 +1,4 @@
-"""Table 1, cloth rows: ours beside the paper's, as CSV, Markdown and HTML, from the runs that experiments/table1 makes (OUT/ROW/whole… and OUT/ROW/cpu_SHARE).
+"""Table 1, cloth rows: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
 Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the average, not in the maximum, and
 counted. The CPU's average is that of its windows, each with the same weight. With several whole runs each number is the median of theirs. The standard library is enough.
@@ -14,6 +14,7 @@ from pathlib import Path
 
 from paper_figures.workflow.device_memory import taken
 from paper_figures.workflow.evidence import CLAIMS, NOT_RUN, EvidenceError, columns_of, run_at
+from paper_figures.workflow.jobs import MEMORY
 
 ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m", "dress", "robot_shirt")
 WINDOWS = 5  # on the CPU, of each row
@@ -116,14 +117,14 @@ def rows_of(folder):
     for scene in ROWS:
         whole, windows = runs_below(Path(folder) / scene, "whole*"), runs_below(Path(folder) / scene, "cpu_*")
         if whole:
-            memory = taken(Path(folder) / f"{scene}_device_memory.json")
+            memory = taken(Path(folder) / scene / f"whole{MEMORY}")
             rows.append(device_row(scene, whole, memory, residuals(Path(folder) / scene)))
         if windows:
             rows.append(cpu_row(scene, windows, whole[-1].manifest["settings"]["steps"]["value"] if whole else ""))
         if windows and not whole:
             rows.append(dict.fromkeys(rows[-1], "") | {"scene": scene, "scale": rows[-1]["scale"], "status": NOT_RUN, "commit": "-"})
     if not rows:
-        raise EvidenceError(f"{folder} holds no run of Table 1: make them with experiments/table1 PROGRAM {folder}")
+        raise EvidenceError(f"{folder} holds no run of Table 1: make them with experiments/reproduce table1, or with paper_figures.workflow.runner")
     return rows
 
 
@@ -177,7 +178,7 @@ def write(rows, out):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("runs", help="folder that experiments/table1 filled")
+    parser.add_argument("runs", help="folder of these runs, table1-SCALE-BACKEND")
     parser.add_argument("--out", help="where the table goes, for accepted results paper_figures/results/MACHINE (default: the folder of the runs)")
     options = parser.parse_args()
     try:

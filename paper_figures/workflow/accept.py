@@ -3,8 +3,7 @@ and the time it took in durations.csv. `experiments/reproduce … --accept MACHI
 
 What is kept is small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits. A run made in parts
-(paper_figures.workflow.in_time) is finished where its last part is.
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
 """
 
 import argparse
@@ -38,21 +37,15 @@ def manifest_at(path):
     return {**manifest, "guarantee_kept": run.guarantee_kept} if run and run.afterwards else manifest
 
 
-def check(name, manifest, earlier_part=False):
-    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed, but no audit did. A part that others
-    went on from was interrupted."""
+def check(name, manifest):
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed,
+    but no audit did."""
     if manifest.get("dirty") is not False:
         raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
     if manifest.get("guarantee_kept") is False:
         raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted result")
-    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton", *(["interrupted"] if earlier_part else []))):
+    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
         raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run experiments/reproduce again, it goes on where it was")
-
-
-def next_part(name):
-    """The name of the part that goes on where the part of this name was stopped; of another run, a name that no run has."""
-    run, part, number = name.rpartition("part_")
-    return f"{run}part_{int(number) + 1:02d}" if part and number.isdigit() else ""
 
 
 def program(ogc):
@@ -68,9 +61,8 @@ def origin(recipe, folder, ogc, backend=None):
     """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by `backend`, where there is one: windows on the
     CPU beside it are not what the picture shows."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
-    names = {name for name, _ in runs}
     for name, manifest in runs:
-        check(f"{folder.name}/{name}", manifest, next_part(name) in names)
+        check(f"{folder.name}/{name}", manifest)
     if not runs:
         return {**program(ogc), "device": "exact reference", "ended": ""}
     commits = sorted({manifest["commit"] for _, manifest in runs})

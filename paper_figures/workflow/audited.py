@@ -9,15 +9,14 @@ import argparse
 import json
 import os
 import signal
-import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures.workflow.evidence import AUDIT
+from paper_figures.workflow.jobs import AUDIT, CALL_AGAIN, FINISHED, KEPT, STOPPED, Limit, RunFailure, command_in
 
-CALL_AGAIN = 75
 INTERRUPTED = (130, -signal.SIGINT)
 
 
@@ -46,15 +45,13 @@ def left_over(run, steps, folder):
     return folder
 
 
-def ask(program, run, seconds):
-    """(what `ogc audit RUN --json` says, exit status), asked to stop after so many seconds."""
-    process = subprocess.Popen([str(program), "audit", str(run), "--json"], stdout=subprocess.PIPE, text=True)
-    try:
-        out, _ = process.communicate(timeout=seconds)
-    except subprocess.TimeoutExpired:
-        process.send_signal(signal.SIGINT)
-        out, _ = process.communicate()
-    return json.loads(out) if out.strip() else {}, process.returncode
+def ask(program, run, limit, folder):
+    """(what `ogc audit RUN --json` says, exit status), asked to stop at the limit; `folder` is for what it prints."""
+    said = folder / "said.json"
+    status, _ = command_in([program, "audit", run, "--json"], limit, folder / "errors", said)
+    text = said.read_text()
+    sys.stderr.write((folder / "errors").read_text())
+    return json.loads(text) if text.strip() else {}, status
 
 
 def together(before, said, seconds, frames):
@@ -68,16 +65,17 @@ def together(before, said, seconds, frames):
             "intersecting_steps": [*before.get("intersecting_steps", []), *wrong], "steps": [*before["steps"], *steps]}
 
 
-def audit(program, run, seconds=None):
+def audit(program, run, limit=Limit()):
     """Exit status, and what is known now; kept in RUN/audit.json."""
     run = Path(run).resolve()
     before, begun = found_before(run), time.monotonic()
     if before["complete"]:
         return (0 if before["clean"] else 1), before
     with tempfile.TemporaryDirectory() as folder:
-        said, status = ask(program, left_over(run, set(before["steps"]), Path(folder)), seconds)
+        shown = left_over(run, set(before["steps"]), Path(folder))
+        said, status = ask(program, shown, limit, Path(folder))
     if not said.get("states"):
-        return (CALL_AGAIN if said or status in INTERRUPTED else 2), before
+        return (CALL_AGAIN if said or limit.left() == 0 or status in INTERRUPTED else 2), before
     found = together(before, said, time.monotonic() - begun, len(list((run / "frames").glob("frame_*"))))
     partial = run / f"{AUDIT}.partial"
     partial.write_text(json.dumps(found) + "\n")
@@ -95,6 +93,32 @@ def in_words(found):
     return f"{found['states']} states audited in {found['seconds']:.1f} s: {words}{rest}"
 
 
+@dataclass(frozen=True)
+class Audit:
+    """The job that audits the stored states of the finished run `of`."""
+
+    of: str
+    on_device = False
+
+    @property
+    def name(self):
+        return f"{self.of}_{AUDIT}"
+
+    def make(self, program, root, limit=Limit(), _shown=False):
+        if found_before(root / self.of)["complete"] and found_before(root / self.of)["clean"]:
+            return KEPT
+        if limit.left() == 0:
+            return STOPPED
+        status, found = audit(program, root / self.of, limit)
+        if status in (1, 2):
+            raise RunFailure(f"{program} audit {root / self.of}: exit status {status}\n  {in_words(found)}")
+        return STOPPED if status == CALL_AGAIN else FINISHED
+
+    def results(self, _root, _frames, _last):
+        """None of its own: what it found lies beside the run's manifest."""
+        return iter(())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="ogc")
@@ -103,7 +127,7 @@ def main():
     options = parser.parse_args()
     if not (options.run / "run.json").is_file():
         parser.error(f"{options.run} is no run folder: it has no run.json")
-    status, found = audit(options.program, options.run, options.seconds)
+    status, found = audit(options.program, options.run, Limit(options.seconds))
     print(in_words(found))
     sys.exit(status)
 

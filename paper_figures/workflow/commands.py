@@ -1,12 +1,15 @@
-"""The runs of the figures that are made of several, as data: their scripts draw them, device_runs makes them where nothing but Python itself is installed.
+"""The runs of figures and tables that are made of several, as data: their scripts draw them, the runner makes them where
+nothing but Python itself is installed.
 
-Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are those of `ogc run`; `backend` is that of VBD in
-single precision, all else runs on the CPU.
+Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are those
+of `ogc run`; `backend` is that of VBD in single precision, all else runs on the CPU.
 """
 
 from dataclasses import dataclass
 
-from paper_figures.workflow.timed_runs import Job, Step
+from paper_figures.workflow import layers
+from paper_figures.workflow.audited import Audit
+from paper_figures.workflow.jobs import Command, Job, Share, Step
 
 TWIST, THREE_CLOTHS, ONE_ITERATION, ACTIVATIONS = "large_radius_twist", "three_cloths_on_sphere", "one_iteration_drop", "activation_drop"
 NEO_HOOKEAN = "stable_neo_hookean"  # of IPC's runs and of those beside them (compare/deviations.md)
@@ -152,3 +155,131 @@ def activations(scale, backend):
     for variant in VARIANTS:
         solved = [by_vbd(scale, variant), by_vbd_on(scale, variant, backend)] if compared(variant) else []
         yield [ablation(scale, variant), by_newton(scale, variant), *solved]
+
+
+# Table 1: each row's whole run, its audit, one step from five of its states, and windows on the CPU from the same.
+# Steps between stored, audited states: as many as go into 1/60 s, one where a step is longer than half of that.
+FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
+               "robot_shirt": 10}
+SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
+
+
+def of_data(row, data):
+    """The dress is a stand-in without the data of Codimensional IPC."""
+    return ("--set", f"data={data}") if data and row == "dress" else ()
+
+
+def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data=""):
+    """So many times the row's scene to its end, or to step `steps`; the audit comes after the run, in time of its own,
+    or beside it (`audit`: every, frame, end, off)."""
+    beside = "off" if audit == "afterwards" else audit
+    options = (*(("--steps", steps) if steps else ()), *of_data(row, data), "--set", f"frame_steps={FRAME_STEPS[row]}")
+    for number in range(1, runs + 1):
+        name = f"{row}/whole" + (f"_{number}" if number > 1 else "")
+        yield Job(name, (row, "--scale", scale, "--backend", backend, "--audit", beside, *options))
+        if audit == "afterwards":
+            yield Audit(name)
+
+
+def from_states(row, kind, more_steps, scale, options, data=""):
+    """So many steps from five states of the row's whole run, without frames of their own."""
+    every = ("--audit", "off", "--set", "frame_steps=1000000", *of_data(row, data), *options)
+    for share in SHARES:
+        state = (f"{row}/whole", Share(share, FRAME_STEPS[row]))
+        yield Job(f"{row}/{kind}_{share}", (row, "--scale", scale, *every), state, more_steps, pictured=False)
+
+
+def residuals(row, scale, backend, data=""):
+    """One step whose residual is measured. A row an iteration has the contacts of the last detection, and takes the
+    reference a second at 100,000 vertices; of the million vertices nothing is measured."""
+    if row == "fifty_layers_1m":
+        return []
+    options = ("--backend", backend, "--residual", *(() if row == "fifty_layers" else ("--iterations",)))
+    return from_states(row, "residual", 1, scale, options, data)
+
+
+def cpu_windows(row, steps, scale, data=""):
+    return from_states(row, "cpu", steps, scale, ("--backend", "cpu"), data)
+
+
+# Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball it
+# would never slow down. OGC's force jumps at block boundaries, so that a step may never get there: after 100 iterations it
+# ends as it is, as a step of VBD does.
+NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "redetect_fraction=0", "newton_iterations=100")
+SOLVERS = {"ipc": ("--solver", "ipc", "--profile"),  # the baseline
+           "newton": ("--solver", "newton", "--profile", *(word for value in NEWTON_AS_IPC for word in ("--set", value))),
+           "vbd": (), "vbd_cuda": ("--backend", "cuda")}
+
+
+def solvers(scale, cuda=False, membrane=NEO_HOOKEAN):
+    """Fig. 18: the same run by each solver, with its processor time; one after the other, because each wants all cores."""
+    base = ("cloth_on_sphere", *shared(scale, membrane), "--audit", "end")
+    return [Job(name, (*base, *options), processor_time=True) for name, options in SOLVERS.items()
+            if cuda or name != "vbd_cuda"]
+
+
+# Growth: time a step over the number of vertices at one contact density, and over threads.
+SIDES = {"smoke": (6, 8, 12), "small": (10, 15, 22, 32), "paper": (32, 46, 68, 100, 147, 215, 316)}
+SIDE_OF_THREADS = {"smoke": 8, "small": 22, "paper": 46}
+GROWTH_STEPS = 14
+
+
+def sizes(scale, backend):
+    """A run a size, audited at its end."""
+    return [Job(f"{backend}_{layers.vertices(side)}", ("--backend", backend, "--audit", "end"),
+                scene=layers.Stack(side, GROWTH_STEPS)) for side in SIDES[scale]]
+
+
+def threads(scale, cores):
+    """The same run by one thread, two, four … up to all cores; nothing but the time may differ."""
+    numbers = sorted({*(2**k for k in range(cores.bit_length()) if 2**k <= cores), cores})
+    scene = layers.Stack(SIDE_OF_THREADS[scale], GROWTH_STEPS)
+    return [Job(f"threads_{n}", ("--threads", n, "--audit", "off"), scene=scene) for n in numbers]
+
+
+# Distances to Newton's minimiser, of the state after this step: cloths in the middle of their impact and at Fig. 17's
+# step, twist after its first turn, before triangles collapse (fast/PERFORMANCE.md): afterwards the energy is not convex
+# between the two states.
+MINIMISER_STEPS = {"smoke": {"cloth_on_sphere": 22, "three_cloths_on_sphere": 22, "twist": 600},
+                   "small": {"cloth_on_sphere": 40, "three_cloths_on_sphere": 39, "twist": 1200},
+                   "paper": {"cloth_on_sphere": 50, "three_cloths_on_sphere": 49, "twist": 1200}}
+
+
+def minimiser(scale, backend):
+    """Runs to the state that is looked at, profiled, so that nobody takes their times for a result, and the table."""
+    steps = MINIMISER_STEPS[scale]
+    for scene, step in steps.items():
+        options = ("--steps", step, "--set", f"frame_steps={step}", "--audit", "end", "--profile")
+        yield Job(scene, (scene, "--scale", scale, "--backend", backend, *options))
+    frames = [f"{{root}}/{scene}/frames/frame_{step:06d}.h5" for scene, step in steps.items()]
+    words = ("minimise", *frames, "--backend", backend, "--csv", "{root}/minimiser.csv")
+    yield Command("minimiser", words, "minimiser.csv", tuple(steps))
+
+
+# Smaller measurements beside Table 1 (fast/PERFORMANCE.md).
+def sphere(scale, backend):
+    """Fig. 18's scene audited twice, which must give the same bits, then timed, by stage, too, and on the CPU."""
+    base = ("cloth_on_sphere", "--scale", scale, "--set", "frame_steps=5")
+    kinds = {"audited": ("--audit", "every"), "audited_again": ("--audit", "every"), "timed": ("--audit", "off"),
+             "profiled": ("--audit", "off", "--profile")}
+    yield from (Job(kind, (*base, "--backend", backend, *options)) for kind, options in kinds.items())
+    yield Job("on_the_cpu", (*base, "--backend", "cpu", "--audit", "off"))
+
+
+def beginning_of_twist(scale, backend, steps=1200):
+    base = ("twist", "--scale", scale, "--steps", steps, "--backend", backend)
+    yield Job("audited", (*base, "--audit", "frame"))
+    yield Job("timed", (*base, "--audit", "off", "--set", "frame_steps=100"))
+
+
+def strict(scale, backends):
+    """By a program of the strict build: the same bits on every backend (python3 -m plots.agreement RUN RUN)."""
+    base = ("cloth_on_sphere", "--scale", scale, "--set", "frame_steps=1", "--audit", "off")
+    return [Job(backend, (*base, "--backend", backend)) for backend in backends]
+
+
+def sanitized(backend):
+    """A short run watched by each tool of CUDA's."""
+    words = ("cloth_on_sphere", "--scale", "smoke", "--steps", 12, "--profile", "--audit", "off", "--backend", backend)
+    return [Job(tool, words, under=("compute-sanitizer", "--tool", tool, "--error-exitcode", "9"))
+            for tool in ("memcheck", "racecheck", "initcheck")]

@@ -18,13 +18,13 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 
+from paper_figures.workflow.jobs import AUDIT
 from paper_figures.workflow.thinned import Hundreds
 
 ROOM = Path(__file__).parent.parent  # paper_figures
 RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
 SCENES = "scenes"  # folder below the results: the scenes of accepted manifests, each named by its hash
 ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
-AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.workflow.audited)
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
 
 

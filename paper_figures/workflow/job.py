@@ -1,17 +1,19 @@
-"""Runs the command of one step with a log; where it fails, shows the command and the log's last lines. Beside the log it writes how long the command took.
+"""Runs the command of one step of the workflow with a log; where it fails, shows the command and the log's last lines.
+Beside the log it writes how long the command took.
 
-Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is removed first, if it is a run folder.
-Where OGC_EVENTS names a file, it is told there when the step begins and how it ends (progress.py), by the log's name.
+Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is
+removed first, if it is a run folder. Where OGC_EVENTS names a file, it is told there when the step begins and how it ends
+(progress.py), by the log's name.
 """
 
 import json
 import os
 import shlex
-import shutil
-import subprocess
 import sys
 import time
 from pathlib import Path
+
+from paper_figures.workflow.jobs import command_in, last_lines, remove
 
 LINES = 20
 EVENTS = "OGC_EVENTS"
@@ -19,9 +21,8 @@ EVENTS = "OGC_EVENTS"
 
 def clear(output):
     """A run folder that holds an earlier attempt goes as a whole: `ogc` starts from nothing."""
-    folder = Path(output).parent
-    if Path(output).name == "run.json" and folder.is_dir():
-        shutil.rmtree(folder)
+    if Path(output).name == "run.json":
+        remove(Path(output).parent)
 
 
 def tell(**event):
@@ -36,18 +37,16 @@ def run(log, output, command):
     clear(output)
     log = Path(log)
     tell(what="begins", step=log.stem)
-    log.parent.mkdir(parents=True, exist_ok=True)
     begun = time.monotonic()
-    with log.open("w") as file:
-        status = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+    status, _ = command_in(command, log=log)
     if status == 0 and Path(output).is_file():
         seconds = round(time.monotonic() - begun, 2)
         log.with_name(log.name + ".json").write_text(json.dumps({"command": command, "seconds": seconds}))
         tell(what="ends", step=log.stem, seconds=seconds)
         return 0
-    last = "\n  ".join(log.read_text(errors="replace").splitlines()[-LINES:])
     why = f"exit status {status}" if status else f"no {output}"
-    words = f"FAILED ({why}): {shlex.join(command)}\n  {last}\n  (the whole log: {log.resolve()})"
+    whole = f"(the whole log: {log.resolve()})"
+    words = f"FAILED ({why}): {shlex.join(command)}\n  {last_lines(log, LINES)}\n  {whole}"
     tell(what="fails", step=log.stem, words=words)
     print(words, file=sys.stderr)
     return status or 1

@@ -8,8 +8,9 @@ import io
 import json
 import re
 
-from paper_figures.workflow import in_time, thinned
-from paper_figures.workflow.evidence import AUDIT, ROWS, SCENES, EvidenceError, run_at
+from paper_figures.workflow import thinned
+from paper_figures.workflow.evidence import ROWS, SCENES, EvidenceError, run_at
+from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
 
 LONG = 2**15  # bytes of rows; more are kept compressed
 COLOURS = 256  # of a picture's palette
@@ -59,7 +60,7 @@ def run_files(path, stem):
         found.append(compressed(f"{stem}_{ROWS[1]}", thinned.hundreds(text).encode()))
     elif text:
         found.append(compressed(f"{stem}_{ROWS[0]}", text.encode()))
-    kept = ("iterations.csv", in_time.PROCESSOR_TIME)
+    kept = ("iterations.csv", PROCESSOR_TIME)
     found += [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in kept if path.with_name(name).is_file()]
     if path.with_name(AUDIT).is_file():
         audit = json.loads(path.with_name(AUDIT).read_text())

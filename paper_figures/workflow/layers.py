@@ -15,6 +15,7 @@ import random
 import struct
 import subprocess
 from array import array
+from dataclasses import dataclass
 from pathlib import Path
 
 LAYERS = 10
@@ -92,3 +93,21 @@ def write(program, folder, side, steps):
     path = folder / "scene.json"
     path.write_text(json.dumps(scene, indent=1))
     return path
+
+
+@dataclass(frozen=True)
+class Stack:
+    """The scene of so many steps as a file below the folder of the runs (jobs.Job)."""
+
+    side: int
+    steps: int
+
+    @property
+    def path(self):
+        return f"scenes/{self.side}/scene.json"
+
+    def write(self, program, root):
+        """Where it is missing."""
+        path = root / self.path
+        if not path.is_file():
+            write(program, path.parent, self.side, self.steps)

@@ -20,12 +20,15 @@ from pathlib import Path
 
 import yaml
 
+from paper_figures.workflow import parts
+
 HERE = Path(__file__).parent
 ROOM = HERE.parent
 FIGURES, RESULTS, ROOT = ROOM / "figures", ROOM / "results", ROOM.parent
 SCALES = ("smoke", "small", "paper")
 PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
+RUNS = ("commands.py", "layers.py")  # what runs are made of, where a figure has several
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends", "missing", "kept"}
@@ -148,7 +151,7 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         drawn = [f"{name}-{scale}-{backend}/run" for name in recipe.body["of"]]
         return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots), (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
-    made_by = (*script, *(str(HERE / name) for name in ("commands.py", "layers.py")))
+    made_by = (*script, *(str(HERE / name) for name in RUNS))
     return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
 
 
@@ -166,11 +169,11 @@ def _sweep(recipe, scale, backend, ogc, python, plots):
 
 
 def _table(recipe, scale, backend, ogc, python):
-    """A row's last run is its output, because experiments/table1 goes on where it was cut off."""
-    here, script = recipe.folder(scale, backend), str(ROOT / "experiments/table1")
-    window = () if scale == "paper" else ("--window", "20")
-    options = ("--scale", scale, "--backend", backend, *window)
-    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100.json", (PROGRAM, script), (script, ogc, here, row, *options), int(backend == "cuda"), all_cores=True)
+    """A row's last run is its output: the others are gone on with where they were cut off."""
+    here, scripts = recipe.folder(scale, backend), tuple(str(HERE / name) for name in RUNS)
+    runner = (python, "-m", "paper_figures.workflow.runner", "--program", ogc, "--out", ".", "--scale", scale)
+    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100/run.json", (PROGRAM, *scripts),
+                 (*runner, "--backend", backend, row, f"windows_{row}"), int(backend == "cuda"), all_cores=True)
             for row in recipe.body["rows"]]
     gather = Step(recipe.name, recipe.picture(scale, backend), (*(row.output for row in rows), str(FIGURES / "table1.py")), (python, "-m", "paper_figures.figures.table1", here))
     return [*rows, gather]
@@ -191,8 +194,8 @@ def program_stamp(runs, ogc):
 
 
 def seconds_of(recipe, scale, backend, runs):
-    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that found them done was quick. Runs that were brought
-    from a machine where there was no workflow (device_runs) have no logs of steps: what they took alone."""
+    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that
+    found them done was quick. Unpacked runs have no logs of steps: what they took alone."""
     logs = [log for log in (runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc")) if log.is_file()]
     of_runs = sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json")))
     if 0 < len(logs) < len(steps(recipe, scale, backend, "ogc")) or not (logs or of_runs):
@@ -245,22 +248,39 @@ def table(recipes, scale, backend, runs):
     return lines
 
 
-def main():
+def arguments():
     parser = argparse.ArgumentParser(description="Lists the figures (used by experiments/reproduce).")
     parser.add_argument("--scale", default="small", choices=SCALES)
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=ROOT / "runs", type=Path)
     parser.add_argument("--check-names", nargs="*", help="only say whether there are such figures")
     parser.add_argument("--pictures", nargs="*", help="the file that each figure ends in")
-    arguments = parser.parse_args()
+    parser.add_argument("--with-runs", nargs="*", help="those of the figures whose runs the runner makes")
+    parser.add_argument("--stamp", metavar="OGC", help="only say in the folder of the runs which program it is")
+    return parser.parse_args()
+
+
+def asked(options):
+    """Lines that answer what main was asked. Throws RecipeError."""
+    book, scale, backend = load(), options.scale, options.backend
+    if options.stamp:
+        program_stamp(options.runs, options.stamp)
+        return []
+    if options.check_names is not None:
+        choose(options.check_names, book, backend)
+        return []
+    if options.pictures is not None:
+        return [str(options.runs / recipe.picture(scale, backend)) for recipe in choose(options.pictures, book, backend)]
+    if options.with_runs is not None:
+        there = {part.recipe for part in parts.book(parts.Wanted(scale, backend)).values()}
+        return [recipe.name for recipe in choose(options.with_runs, book, backend) if recipe.name in there]
+    return table(book, scale, backend, options.runs)
+
+
+def main():
     try:
-        recipes = load()
-        if arguments.check_names is not None:
-            choose(arguments.check_names, recipes, arguments.backend)
-        elif arguments.pictures is not None:
-            print("\n".join(str(arguments.runs / r.picture(arguments.scale, arguments.backend)) for r in choose(arguments.pictures, recipes, arguments.backend)))
-        else:
-            print("\n".join(table(recipes, arguments.scale, arguments.backend, arguments.runs)))
+        for line in asked(arguments()):
+            print(line)
     except RecipeError as error:
         print(f"reproduce: {error}", file=sys.stderr)
         sys.exit(2)

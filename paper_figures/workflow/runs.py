@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.workflow.timed_runs import Job, Limit, RunFailure, make
+from paper_figures.workflow.jobs import Job, RunFailure
 from plots.run_folder import Run, RunError
 
 
@@ -29,7 +29,7 @@ def run_once(ogc, arguments, folder):
 def run_job(ogc, job, folder):
     """The run of a job (paper_figures.workflow.commands) below `folder`. Throws RunError."""
     try:
-        make(ogc, job, Path(folder), Limit(), shown=True)
+        job.make(ogc, Path(folder), shown=True)
     except RunFailure as error:
         raise RunError(str(error)) from error
     return Run(Path(folder) / job.name)
@@ -47,12 +47,6 @@ def iterations(run, step):
     if not len(values):
         raise RunError(f"{path} has no row of step {step}")
     return Iterations({name: values[:, i] for i, name in enumerate(names)})
-
-
-def last_frame(run):
-    if not run.frames:
-        raise RunError(f"{run.folder} has no frame")
-    return run.frames[-1]
 
 
 def provenance(run):

@@ -1,6 +1,7 @@
-"""Fig. 18 of the solvers from small runs: one made in parts is drawn as one, VBD on CUDA where its run lies in the folder, with each ratio beside the paper's.
+"""Fig. 18 of the solvers from small runs: VBD on CUDA where its run lies in the folder, each ratio beside the paper's.
 
-Usage: fig18_solvers.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h5py is missing. The run on CUDA is a fixture: VBD's run on the CPU with another backend in its manifest.
+Usage: fig18_solvers.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h5py is missing. The run on CUDA is a
+fixture: VBD's run on the CPU with another backend in its manifest.
 """
 
 import csv
@@ -21,9 +22,9 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import in_time  # noqa: E402
+from paper_figures.workflow import commands  # noqa: E402
+from plots.run_folder import Run  # noqa: E402
 
-BASE = ["cloth_on_sphere", "--scale", "smoke", "--set", "membrane=stable_neo_hookean", "--audit", "end"]
 FIRST, STEPS = 12, 30
 THREADS = f"{len(os.sched_getaffinity(0))} threads"
 
@@ -40,8 +41,8 @@ class Solvers(unittest.TestCase):
         holder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(holder.cleanup)
         cls.made = Path(holder.name) / "made"
-        for name in ("ipc", "newton", "vbd"):
-            in_time.run_for(OGC, [*BASE, *in_time.SOLVERS[name]], cls.made / name, 100)
+        for job in commands.solvers("smoke"):
+            job.make(OGC, cls.made)
 
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -49,17 +50,12 @@ class Solvers(unittest.TestCase):
         self.folder = Path(holder.name) / "fig18_solvers-smoke-cpu"
         shutil.copytree(self.made, self.folder)
 
-    def cut_vbd(self):
-        """VBD's run as if it had been stopped after its first steps."""
-        shutil.rmtree(self.folder / "vbd")
-        part = self.folder / "vbd/part_00"
-        subprocess.run([OGC, "run", *BASE, "--steps", str(FIRST), "--out", part], check=True, capture_output=True)
-        change(part / "run.json", status="interrupted")
-        (part / in_time.PROCESSOR_TIME).write_text('{"user [s]": 1, "system [s]": 0}')
-
     def on_cuda(self):
         shutil.copytree(self.folder / "vbd", self.folder / "vbd_cuda")
-        change(self.folder / "vbd_cuda/part_00/run.json", backend="cuda", device="no GPU: a fixture")
+        command = json.loads((self.folder / "vbd/run.json").read_text())["command"]
+        job = commands.solvers("smoke", cuda=True)[-1]
+        change(self.folder / "vbd_cuda/run.json", backend="cuda", device="no GPU: a fixture",
+               command=" ".join([command.split()[0], *job.words(self.folder)]))
 
     def draw(self, *words):
         command = [sys.executable, "-m", "paper_figures.figures.fig18_solvers", self.folder, "--ogc", OGC, "--scale", "smoke", *words]
@@ -86,27 +82,30 @@ class Solvers(unittest.TestCase):
                          [("ipc", "cpu", "30"), ("newton", "cpu", "30"), ("vbd", "cpu", "30"), ("vbd", "cuda", "30")])
 
     def test_runs_on_different_numbers_of_threads_are_said_to_be_so(self):
-        change(self.folder / "vbd/part_00/run.json", device="999 threads")
+        change(self.folder / "vbd/run.json", device="999 threads")
         said = self.draw().stdout
         self.assertRegex(said, rf"IPC \({THREADS}\) takes .* that VBD-OGC \(999 threads\) takes")
         self.assertIn(f"NOT ON THE SAME CORES ({', '.join(sorted([THREADS, '999 threads']))})", said)
 
     def test_the_ratio_is_that_of_the_rows(self):
-        runs = {name: fig18_solvers.Joined(in_time.parts(self.folder / name)) for name in ("ipc", "vbd")}
+        runs = {name: Run(self.folder / name) for name in ("ipc", "vbd")}
         found = {measured.partition(" of ")[0]: ratio for _, ratio, measured, _ in fig18_solvers.ratios(list(runs.values()))}
         self.assertAlmostEqual(found["time on the clock"], runs["ipc"].column("wall").sum() / runs["vbd"].column("wall").sum())
-        self.assertAlmostEqual(found["processor time"], runs["ipc"].processor_ms / runs["vbd"].processor_ms)
+        self.assertAlmostEqual(found["processor time"], fig18_solvers.processor_ms(runs["ipc"]) / fig18_solvers.processor_ms(runs["vbd"]))
 
-    def test_a_run_in_parts_is_drawn_when_it_has_reached_its_end(self):
-        self.cut_vbd()
-        refused = self.draw()
-        self.assertNotEqual(refused.returncode, 0)
-        self.assertIn("vbd has not reached its end: call paper_figures.workflow.in_time again", refused.stderr)
-        self.assertTrue(in_time.run_for(OGC, BASE, self.folder / "vbd", 100))
-        self.assertEqual(len(in_time.parts(self.folder / "vbd")), 2)
-        self.assertEqual(self.draw().returncode, 0)
-        vbd = self.rows()[-1]
-        self.assertEqual((vbd["solver"], vbd["steps"], vbd["of steps"]), ("vbd", "30", "30"))
+    def test_runs_that_were_stopped_are_drawn_as_far_as_they_came(self):
+        vbd = self.folder / "vbd"
+        rows = (vbd / "steps.csv").read_text().splitlines(keepends=True)
+        (vbd / "steps.csv").write_text("".join(rows[:FIRST + 1]))
+        change(vbd / "run.json", status="interrupted")
+        shutil.rmtree(self.folder / "newton")
+        said = self.draw("--made").stdout
+        self.assertRegex(said, rf"of {FIRST} steps that VBD-OGC \({THREADS}\), first {FIRST} of 30 steps takes")
+        self.assertEqual([(row["solver"], row["steps"], row["of steps"]) for row in self.rows()],
+                         [("ipc", "30", "30"), ("vbd", str(FIRST), "30")])
+        shutil.rmtree(self.folder / "ipc")
+        shutil.rmtree(vbd)
+        self.assertIn("has no run; leave --made out", self.draw("--made").stderr)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from pathlib import Path
 OGC, SOURCE = Path(sys.argv.pop(2)).resolve(), Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 from paper_figures.figures import minimiser  # noqa: E402
+from paper_figures.workflow import commands  # noqa: E402
 
 
 class Table(unittest.TestCase):
@@ -27,7 +28,7 @@ class Table(unittest.TestCase):
             done = self.made(folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             rows = minimiser.rows_of(folder / "minimiser.csv")
-            self.assertEqual({row["scene"]: int(row["step [1]"]) - 1 for row in rows}, minimiser.STEPS["smoke"])
+            self.assertEqual({row["scene"]: int(row["step [1]"]) - 1 for row in rows}, commands.MINIMISER_STEPS["smoke"])
             for row in rows:
                 distance, bounds = float(row["largest_distance [m]"]), ("bound_by_energy [m]", "bound_by_gradient [m]")
                 self.assertEqual((row["reached_floor"], row["newton_converged"]), ("yes", "yes"))

@@ -6,7 +6,6 @@ Usage: table1.py SOURCE_DIR OGC. The standard library is enough.
 import csv
 import json
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -18,8 +17,9 @@ SOURCE, OGC = Path(sys.argv[1]), sys.argv[2]
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 from paper_figures.figures import table1  # noqa: E402
-from paper_figures.workflow import accept, audited  # noqa: E402
+from paper_figures.workflow import accept, audited, commands  # noqa: E402
 from paper_figures.workflow.evidence import Evidence, EvidenceError, run_at  # noqa: E402
+from paper_figures.workflow.jobs import Limit  # noqa: E402
 
 
 def make_run(folder, backend, rows, first=1, **changes):
@@ -86,7 +86,7 @@ class Known(unittest.TestCase):
             self.assertIn("RTX 4090", path.read_text())
 
     def test_what_does_not_belong_together_is_refused(self):
-        with self.assertRaisesRegex(EvidenceError, "experiments/table1"):
+        with self.assertRaisesRegex(EvidenceError, "experiments/reproduce table1"):
             table1.rows_of(self.folder)
         make_run(self.folder / "twist/whole", "cuda", [(1, 10, 0)])
         make_run(self.folder / "twist/whole_2", "cuda", [(1, 10, 0), (1, 10, 0)])
@@ -145,7 +145,7 @@ class Afterwards(unittest.TestCase):
         for status, states, words in ((75, 2, "not all yet"), (75, 4, "not all yet"), (0, 5, "no intersection"),
                                       (0, 5, "no intersection")):
             os.environ["OGC_SLOW"] = "yes" if status else ""
-            ended, found = audited.audit(self.program, run, 0.5 if status else None)
+            ended, found = audited.audit(self.program, run, Limit(0.5 if status else None))
             self.assertEqual((ended, found["states"]), (status, states))
             self.assertIn(words, audited.in_words(found))
         self.assertEqual(found["steps"], [0, 5, 10, 15, 20])
@@ -178,11 +178,8 @@ class Afterwards(unittest.TestCase):
 class Frames(unittest.TestCase):
     def test_every_row_stores_a_state_in_a_60th_of_a_second(self):
         """As many steps as go into it, at least one."""
-        text = (SOURCE / "experiments/table1").read_text()
-        table = re.search(r"frame_steps_of\(\) \{(.*?)\*\)", text, re.S)[1]
-        steps = {row: int(n) for rows, n in re.findall(r"([\w|]+)\) echo (\d+)", table) for row in rows.split("|")}
-        self.assertEqual(set(steps), set(table1.ROWS))
-        for row, n in steps.items():
+        self.assertEqual(set(commands.FRAME_STEPS), set(table1.ROWS))
+        for row, n in commands.FRAME_STEPS.items():
             results = SOURCE / "paper_figures/results/h200"
             path, = [*results.glob(f"table1_paper/{row}_whole_run.json"), *results.glob(f"{row}_run.json")]
             time_step = json.loads(path.read_text())["settings"]["time_step"]["value"]
@@ -190,50 +187,52 @@ class Frames(unittest.TestCase):
 
 
 class Real(unittest.TestCase):
-    def call(self, *words):
-        return subprocess.run([str(SOURCE / "experiments/table1"), OGC, *words], capture_output=True, text=True, timeout=250)
+    def call(self, folder, *words):
+        command = [sys.executable, "-m", "paper_figures.workflow.runner", "--program", OGC, "--out", folder, *words]
+        return subprocess.run(command, cwd=SOURCE, capture_output=True, text=True, timeout=250, check=False)
 
-    def test_the_runs_are_made_in_one_command_and_gone_on_with_where_they_were_cut_off(self):
+    def test_a_run_that_was_killed_is_gone_on_with_and_all_make_the_table(self):
         with tempfile.TemporaryDirectory() as folder:
-            words = [folder, "--backend", "cpu", "--scale", "smoke", "--window", "3", "cloth_on_sphere", "twist"]
-            limited = self.call(*words, "--seconds", "4")
-            self.assertEqual((limited.returncode, limited.stderr), (75, ""), "less time than a run is worth beginning with")
-            twist = Path(folder) / "twist/whole"
-            cut = subprocess.Popen([OGC, "run", "twist", "--scale", "smoke", "--set", "frame_steps=5", "--checkpoint", "0", "--out", str(twist)],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            rows = ("cloth_on_sphere", "windows_cloth_on_sphere", "twist", "windows_twist")
+            words = [folder, "--backend", "cpu", "--scale", "smoke", "--window", "3", *rows]
+            there = Path(folder) / "table1-smoke-cpu"
+            twist = there / "twist/whole"
+            job = next(commands.whole_runs("twist", "smoke", "cpu"))
+            command = [OGC, *job.words(there)]
+            cut = subprocess.Popen([*command, "--checkpoint", "0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             while cut.poll() is None and not (twist / "checkpoint.h5").is_file():
                 time.sleep(0.01)
             cut.kill()
             was_cut = cut.wait() != 0
+            manifest = json.loads((twist / "run.json").read_text())
+            said = manifest["command"].replace(" --checkpoint 0", "")
+            (twist / "run.json").write_text(json.dumps({**manifest, "command": said}, indent=2))
             whole = self.call(*words)
-            self.assertEqual(whole.returncode, 0, whole.stderr)
+            self.assertEqual(whole.returncode, 0, whole.stdout + whole.stderr)
             self.assertEqual("resumed" in json.loads((twist / "run.json").read_text()), was_cut)
-            paths = table1.write(table1.rows_of(folder), folder)
-            with paths[0].open(newline="") as file:
-                rows = list(csv.DictReader(file))
-            # The whole runs are of the CPU here, so each scene has two rows of it: the run, then the windows.
-            self.assertEqual([row["scene"] for row in rows], ["twist", "twist", "cloth_on_sphere", "cloth_on_sphere"])
-            self.assertEqual([row["runs"] for row in rows], ["1", "5", "1", "5"])
-            self.assertEqual({row["steps"] for row in rows[1::2]}, {"15"})
-            self.assertEqual(rows[2]["steps"], rows[2]["of steps"])
-            for name in ("twist", "cloth_on_sphere"):
-                run = Path(folder) / name / "whole"
-                frames, found = len(list((run / "frames").iterdir())), json.loads((run / "audit.json").read_text())
-                self.assertEqual((found["states"], found["clean"], found["complete"]), (frames, True, True), name)
-            sphere = rows[2]
-            for column in (table1.STALE, table1.FRESH):
-                found = [float(text.split(": ")[1]) for text in sphere[column].split("; ")]
-                self.assertEqual((len(found), min(found) > 0), (5, True), column)
-            self.assertEqual(sphere["audited states"], f"{frames}, no intersection")
-            self.assertGreater(float(sphere["audit [s]"]), 0)
-            self.assertEqual(json.loads((run / "run.json").read_text())["audit"], "off", "its time is the steps' alone")
+            self.check_table(there)
             again = self.call(*words)
-            self.assertEqual((again.returncode, again.stdout), (0, ""))
+            self.assertEqual([line.split()[3] for line in again.stdout.splitlines()], ["kept"] * 4)
 
-    def test_wrong_words_exit_2(self):
-        self.assertEqual(self.call("/nowhere", "--windw", "3").returncode, 2)
-        self.assertEqual(self.call("/nowhere", "twisted").returncode, 2)
-        self.assertEqual(self.call().returncode, 2)
+    def check_table(self, there):
+        with table1.write(table1.rows_of(there), there)[0].open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        # The whole runs are of the CPU here, so each scene has two rows of it: the run, then the windows.
+        self.assertEqual([row["scene"] for row in rows], ["twist", "twist", "cloth_on_sphere", "cloth_on_sphere"])
+        self.assertEqual([row["runs"] for row in rows], ["1", "5", "1", "5"])
+        self.assertEqual({row["steps"] for row in rows[1::2]}, {"15"})
+        self.assertEqual(rows[2]["steps"], rows[2]["of steps"])
+        for name in ("twist", "cloth_on_sphere"):
+            run = there / name / "whole"
+            frames, found = len(list((run / "frames").iterdir())), json.loads((run / "audit.json").read_text())
+            self.assertEqual((found["states"], found["clean"], found["complete"]), (frames, True, True), name)
+        sphere = rows[2]
+        for column in (table1.STALE, table1.FRESH):
+            found = [float(text.split(": ")[1]) for text in sphere[column].split("; ")]
+            self.assertEqual((len(found), min(found) > 0), (5, True), column)
+        self.assertEqual(sphere["audited states"], f"{frames}, no intersection")
+        self.assertGreater(float(sphere["audit [s]"]), 0)
+        self.assertEqual(json.loads((run / "run.json").read_text())["audit"], "off", "its time is the steps' alone")
 
 
 if __name__ == "__main__":

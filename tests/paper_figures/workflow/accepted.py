@@ -325,22 +325,20 @@ class Accepting(Scratch):
             self.make_run("fig12-paper-cuda/run")
             self.accept("fig12")
 
-    def in_parts(self, *statuses):
-        for number, status in enumerate(statuses):
-            folder = self.make_run(f"fig18_solvers-paper-cpu/ipc/part_{number:02d}", status=status)
-            (folder / "processor_time.json").write_text('{"user [s]": 1, "system [s]": 0}')
-        (folder.parent.parent / "fig18_solvers.png").write_bytes(picture())
-        return accept.accept([self.BOOK["fig18_solvers"]], "paper", "cpu", self.runs, "machine", "no program", self.results)
+    def solved(self, status):
+        folder = self.make_run("fig18_solvers-paper-cpu/ipc", status=status)
+        (folder / "processor_time.json").write_text('{"user [s]": 1, "system [s]": 0}')
+        (folder.parent / "fig18_solvers.png").write_bytes(picture())
+        recipe = self.BOOK["fig18_solvers"]
+        return accept.accept([recipe], "paper", "cpu", self.runs, "machine", "no program", self.results)
 
-    def test_a_run_in_parts_is_accepted_where_its_last_part_is_finished(self):
-        self.in_parts("interrupted", "interrupted", "finished")
-        kept = {path.name for path in (self.results / "machine/fig18_solvers_paper").iterdir()}
-        self.assertEqual(kept, {f"ipc_part_{number:02d}_{name}" for number in range(3) for name in ("run.json", "steps.csv", "processor_time.json")})
+    def test_processor_time_is_kept_of_a_run_that_has_it(self):
+        self.assertIn("fig18_solvers_paper_processor_time.json", {row["file"] for row in self.solved("finished")})
 
-    def test_a_run_in_parts_that_did_not_reach_its_end_is_refused(self):
-        for statuses, which in ((("interrupted", "interrupted"), "01"), (("running", "finished"), "00"), (("interrupted", "failed: no convergence"), "01")):
-            with self.assertRaisesRegex(accept.AcceptError, f"ipc_part_{which} is not finished"):
-                self.in_parts(*statuses)
+    def test_a_run_that_was_stopped_is_refused(self):
+        for status in ("interrupted", "running", "failed: no convergence"):
+            with self.assertRaisesRegex(accept.AcceptError, "ipc is not finished"):
+                self.solved(status)
             shutil.rmtree(self.runs)
         self.assertFalse(self.results.exists())
 

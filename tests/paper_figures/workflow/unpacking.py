@@ -24,7 +24,7 @@ def member(name, data=b"x", kind=tarfile.REGTYPE, link="", size=None):
 
 
 def sound():
-    """What `device_runs --pack` writes: folders, files, a link from a figure to its run."""
+    """Folders, files, a link from a figure to its run."""
     return [member("a", b"", tarfile.DIRTYPE), member("a/run/run.json", b"{}"), member("a/run/frames/f.h5", b"12345"),
             member("fig/run", b"", tarfile.SYMTYPE, "../a/run")]
 
@@ -96,11 +96,11 @@ class Unpacking(unittest.TestCase):
     def test_the_command_says_what_it_refuses_and_ends_with_1(self):
         pieces = self.folder / "pieces"
         pieces.mkdir()
-        (pieces / "runs_00").write_bytes(self.packed([*sound(), REFUSED["../x"]]).read_bytes())
-        command = [sys.executable, "-m", "paper_figures.workflow.device_runs", "--out", self.out, "--unpack", pieces]
+        (pieces / "runs_01.tar.gz").write_bytes(self.packed([*sound(), REFUSED["../x"]]).read_bytes())
+        command = [sys.executable, "-m", "paper_figures.workflow.runner", "--out", self.out, "--unpack", pieces]
         said = subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True, check=False)
         self.assertEqual(said.returncode, 1)
-        words = f"device_runs: {pieces}: '../x' would be written outside the folder; nothing is unpacked"
+        words = f"runner: {pieces}: '../x' would be written outside the folder; nothing is unpacked"
         self.assertIn(words, said.stderr)
         self.assertEqual(list(self.out.iterdir()), [])
 
