@@ -10,6 +10,7 @@
 
 namespace ogc::reference {
 
+/// What a detection found, and where.
 struct Detected {
   ContactSets sets;
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
@@ -42,6 +43,7 @@ class Balls {
     Triple<double> x;
     bool cut = false;
   };
+  /// Where the ball lets this vertex go.
   Inside inside(std::size_t vertex, const Triple<double>& x) const;
   /// The largest share in [0, 1] of `step` that stays in the ball.
   double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
