@@ -146,7 +146,7 @@ bool ClosedSurface::in_outward_block(Face face, const Vec3f& x, float contact_ra
   return in_block(mesh_, face, x, contact_radius) && outward(face, x);
 }
 
-Place ClosedSurface::locate(const Vec3f& x) const {
+PointLocation ClosedSurface::locate(const Vec3f& x) const {
   const ExactVector p = exact(x);
   int winding = 0;
   for (std::size_t t = 0; t < mesh_.topology.triangles.size(); ++t) {

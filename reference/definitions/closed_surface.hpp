@@ -7,7 +7,7 @@
 namespace ogc::reference {
 
 /// Where a point lies. A surface that passes through itself covers some places more than once.
-struct Place {
+struct PointLocation {
   bool on_surface = false;
   /// how often the surface winds around the point, counted with the orientation; 0 on the surface, where it jumps
   int winding = 0;
@@ -37,7 +37,7 @@ class ClosedSurface {
 
   /// By the signed crossings of a ray whose direction is (1, ε, ε²) for a vanishing ε: no direction meets an edge, and
   /// no point is an exception.
-  Place locate(const Vec3f& x) const;
+  PointLocation locate(const Vec3f& x) const;
 
   /// The surface itself.
   const Complex& mesh() const { return mesh_; }

@@ -80,13 +80,13 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
 }  // namespace
 
 template <class Terms>
-void VertexSystems::list(const Terms& terms, Parts& parts) const {
-  parts.assign(potential_.mobility().size(), {});
+void VertexSystems::list(const Terms& terms, Incidences& incidences) const {
+  incidences.assign(potential_.mobility().size(), {});
   for (std::size_t i = 0; i < terms.size(); ++i)
     for (std::size_t k = 0; k < terms[i].vertex.size() && terms[i].vertex[k] >= 0; ++k) {
       const auto v = static_cast<std::size_t>(terms[i].vertex[k]);
       if (potential_.mobility()[v] == Mobility::free)
-        parts[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
+        incidences[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
     }
 }
 
@@ -105,26 +105,26 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     sum.force[axis] = inertia * (potential_.target()[v][axis] - x.old[v][axis]);
   add_identity(inertia, sum.block);
-  for (const Part& part : membranes_[v]) {
-    const MembraneTerm& term = potential_.membranes()[part.stencil];
-    add_membrane(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  for (const Incidence& incidence : membranes_[v]) {
+    const MembraneTerm& term = potential_.membranes()[incidence.stencil];
+    add_membrane(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
-  for (const Part& part : hinges_[v]) {
-    const HingeTerm& term = potential_.hinges()[part.stencil];
-    add_hinge(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  for (const Incidence& incidence : hinges_[v]) {
+    const HingeTerm& term = potential_.hinges()[incidence.stencil];
+    add_hinge(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
-  for (const Part& part : springs_[v]) {
-    const SpringTerm& term = potential_.springs()[part.stencil];
-    add_spring(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  for (const Incidence& incidence : springs_[v]) {
+    const SpringTerm& term = potential_.springs()[incidence.stencil];
+    add_spring(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
-  for (const Part& part : contacts_[v]) {
-    const ContactTerm& term = potential_.contacts()[part.stencil];
+  for (const Incidence& incidence : contacts_[v]) {
+    const ContactTerm& term = potential_.contacts()[incidence.stencil];
     Updated updated{};
     for (std::size_t k = 0; k < 4; ++k) {
       const Index u = term.vertex[k];
       updated[k] = u == vertex || (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
     }
-    add_contact(potential_, term, updated, part.place, plain_corners(term.vertex, vertex, x), sum);
+    add_contact(potential_, term, updated, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
   return sum;
 }

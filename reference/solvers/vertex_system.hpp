@@ -44,16 +44,16 @@ class VertexSystems {
 
  private:
   /// A stencil and the vertex's place in it.
-  struct Part {
+  struct Incidence {
     std::uint32_t stencil = 0;
     std::uint8_t place = 0;
   };
-  using Parts = std::vector<std::vector<Part>>;  ///< by vertex; empty where not free
+  using Incidences = std::vector<std::vector<Incidence>>;  ///< by vertex; empty where not free
   template <class Terms>
-  void list(const Terms& terms, Parts& parts) const;
+  void list(const Terms& terms, Incidences& incidences) const;
 
   const Potential& potential_;
-  Parts membranes_, hinges_, springs_, contacts_;
+  Incidences membranes_, hinges_, springs_, contacts_;
 };
 
 }  // namespace ogc::reference
