@@ -22,7 +22,8 @@ from pathlib import Path
 
 HISTORY = {"CHANGELOG.md"}  # says what was
 # Documents that programs write, by those who say so. An entry that nothing cites is a finding itself.
-WRITTEN = {"counts.md": "experiments/judge_counts", "table1_paper.md": "python3 -m paper_figures.table1"}
+WRITTEN = {"counts.md": "the part judge of paper_figures.workflow.runner",
+           "table1_paper.md": "python3 -m paper_figures.figures.table1"}
 SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply", ".pdf", ".npz"}
 
 COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may go on in the next line
@@ -180,7 +181,7 @@ SOUND = {
     "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; compare/deviations.md, §5.1.3.\n",
     "fast/a.py": '# method.md, 4. And method.md, "Contact": README.md is the start.\n',
     "reference/README.md": "In `compare/method.md`, \"In bold\", and [a](../compare/method.md).\n",
-    "experiments/judge_counts": 'writes counts.md and "table1_paper.md"\n',
+    "experiments/counts": 'writes counts.md and "table1_paper.md"\n',
 }
 # File that changes, its text, where the finding is and what it says.
 PLANTED = (

@@ -25,7 +25,7 @@ STATED = {
     **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"),
                     ("PyVista draws without a screen", r"import pyvista")),
 }
-IMPORTED_AS = {"PyYAML": "yaml", "vtk": "vtkmodules"}
+IMPORTED_AS = {"PyYAML": "yaml", "pillow": "PIL", "vtk": "vtkmodules"}
 INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
 IMPORT = re.compile(r"^\s*(?:import|from)\s+(\w+)|-m (\w+)", re.M)
 EXECUTOR = re.compile(r"^executor: (\w+)", re.M)
@@ -122,7 +122,7 @@ def main(arguments):
         return 2
     root = Path(arguments[0])
     names = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True, check=True).stdout.split()
-    kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle|measure|table1))$")
+    kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle))$")
     texts = filter(kinds.search, names)
     ours = {"experiments/dependencies.sh", "plots/requirements.txt", "tests/packages.py"}
     there = (name for name in texts if name not in ours and (root / name).is_file())

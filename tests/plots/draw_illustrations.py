@@ -66,7 +66,7 @@ def main(source, program):
         folder = Path(name)
         run(program, "illustrate", "--out", folder)
         assert {path.stem for path in folder.glob("*.json")} == FIGURES
-        drawn = run(sys.executable, "-m", "paper_figures.illustrations", folder, cwd=source).split()
+        drawn = run(sys.executable, "-m", "paper_figures.figures.illustrations", folder, cwd=source).split()
         assert {Path(path).stem for path in drawn} == FIGURES, drawn
         for path in drawn:
             check_picture(Path(path))

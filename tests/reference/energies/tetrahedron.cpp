@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "reference/energies/stencil_derivatives.hpp"
 #include "reference/energies/stencil_terms.hpp"
+#include "reference/energies/stencils/stencil_derivatives.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/energies/side_by_side.hpp"
 #include "tests/reference/energies/stencils.hpp"
@@ -66,7 +66,7 @@ TEST_CASE("tetrahedron: the stage's force and block are the derivatives of Newto
       TetrahedronTerm term = unit_term(damping);
       const Corners<4> x = shape(draw, i % 5), start = shape(draw, 0);
       term.start = solid_strain(solid_deformation<double>(start, term.gradient));
-      const StencilDerivatives all = stencil_derivatives<4>(x, compare::HessianProjection::none,
+      const StencilDerivatives all = stencil_derivatives<4>(x, HessianProjection::none,
                                                             [&](const auto& at) { return term.energy(at); });
       const compare::ForceAnswer answer = tetrahedron(question_of(term, x, start));
       // The sixth is rounded to single precision: 2⁻²⁵ of what it multiplies.
@@ -108,7 +108,7 @@ TEST_CASE("tetrahedron: blocks are positive definite at every F, and the forces 
     CHECK(b[0] * b[3] - b[1] * b[1] > 0);
     CHECK(b[0] * (b[3] * b[5] - b[4] * b[4]) - b[1] * (b[1] * b[5] - b[4] * b[2]) + b[2] * (b[1] * b[4] - b[3] * b[2]) >
           0);
-    const StencilDerivatives all = stencil_derivatives<4>(x, compare::HessianProjection::none,
+    const StencilDerivatives all = stencil_derivatives<4>(x, HessianProjection::none,
                                                           [&](const auto& at) { return term.energy(at); });
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double sum = 0;
@@ -129,10 +129,9 @@ TEST_CASE("tetrahedra side by side give the bits of tetrahedra alone", "[propert
       corners.push_back(shape(draw, static_cast<int>(i) % 5));
     }
     for (const StencilKernels* kernels : kernels_of_this_machine())
-      check_against_alone<4>(kernels->tetrahedra, terms, corners,
-                             [](const auto& term, const Corners<4>& x, compare::HessianProjection projection) {
-                               return stencil_derivatives<4>(x, projection,
-                                                             [&](const auto& at) { return term.energy(at); });
-                             });
+      check_against_alone<4>(
+          kernels->tetrahedra, terms, corners, [](const auto& term, const Corners<4>& x, HessianProjection projection) {
+            return stencil_derivatives<4>(x, projection, [&](const auto& at) { return term.energy(at); });
+          });
   }
 }
