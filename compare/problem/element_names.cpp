@@ -111,8 +111,10 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
 }
 
 std::string ElementNames::tetrahedron(Index t, const Tetrahedron& corners) const {
-  const Part& part = part_of(corners[0]);
-  const Index local = t < part.first_tetrahedron ? t : t - part.first_tetrahedron;
+  static const Part none;
+  const auto after = std::ranges::upper_bound(parts_, t, {}, &Part::first_tetrahedron);  // as part_of_triangle
+  const Part& part = after == parts_.begin() ? none : *(after - 1);
+  const Index local = t - part.first_tetrahedron;
   const std::string in_scene = local == t ? "" : std::to_string(t) + " in the scene";
   if (part.source == nullptr) return name("tetrahedron " + std::to_string(local), part, {vertices(corners), in_scene});
   const MeshSource& source = *part.source;

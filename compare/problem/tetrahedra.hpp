@@ -1,5 +1,5 @@
 // Tetrahedra: which faces they have, which of these are the surface, and on which side their volume lies
-// (method.md §8.6).
+// (method.md §8).
 #pragma once
 
 #include <span>

@@ -141,6 +141,27 @@ void check_isolated_vertices(const MeshCheck& check) {
   }
 }
 
+/// 6V below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) that may be above 2⁶⁰ m, n_k the normal of twice a face's area.
+bool is_sliver(const std::vector<Vec3>& positions, const Tetrahedron& corners) {
+  const auto edge = [&](Index from, Index to) {
+    const Vec3 &p = positions[at(from)], &q = positions[at(to)];
+    return Vec3{q.x - p.x, q.y - p.y, q.z - p.z};
+  };
+  const auto outer = [](const Vec3& a, const Vec3& b) {
+    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  double largest = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Triangle face = opposite_face(corners, k);
+    const Vec3 normal = outer(edge(face[0], face[1]), edge(face[0], face[2]));
+    largest = std::max(largest, normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+  }
+  const Vec3 normal = outer(edge(corners[0], corners[2]), edge(corners[0], corners[3])),
+             first = edge(corners[0], corners[1]);
+  const double six_volumes = first.x * normal.x + first.y * normal.y + first.z * normal.z;
+  return !(six_volumes >= 0x1p-80) || largest > 0x1p60 * 6 * six_volumes;
+}
+
 }  // namespace
 
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -173,7 +194,8 @@ void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positio
     if (!std::ranges::all_of(check.mesh.tetrahedra[t], usable)) continue;
     const int side = orientation(rest_positions[at(a)], rest_positions[at(b)], rest_positions[at(c)],
                                  rest_positions[at(d)]);
-    if (side == 0) flat.add(tetrahedron_name(check, t));
+    if (side == 0 || (side > 0 && is_sliver(rest_positions, check.mesh.tetrahedra[t])))
+      flat.add(tetrahedron_name(check, t));
     if (side < 0) inverted.add(tetrahedron_name(check, t));
   }
 }

@@ -29,7 +29,8 @@ void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions,
 /// Faces that more than two tetrahedra have, or two on one side, and tetrahedra that stand twice; indices are valid.
 void check_tetrahedra(const MeshCheck& check);
 
-/// Tetrahedra that are flat or inverted at their rest positions, decided exactly; positions are numbers of single
+/// Tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so little
+/// that their rest data are beyond the limits of compare/stages/tetrahedron.hpp. Positions are numbers of single
 /// precision, indices are valid.
 void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
 

@@ -23,7 +23,9 @@ namespace ogc::compare {
 /// With `per_vertex` damping the energy is the elastic part alone; with B, its block, and moved = x₀ − xᵗ₀ the force is
 /// less k B moved, and the block (1 + k) B.
 ///
-/// Lengths are 0 or at least 2⁻³⁰ m; Σ w_k < 0, as of a shape with volume.
+/// Lengths are 0 or at least 2⁻³⁰ m; |w_k| ≤ 2⁶⁰ m, 2⁻⁷⁰ ≤ i ≤ 2⁸⁰ /m³, which validation of a scene keeps, and Σ w_k <
+/// 0, as of a shape with volume. No tetrahedron has grown so far that a product of these overflows: i L³ ≤ 2³⁰, L the
+/// longest length now and at the start, and with damping of strain no component of a gradient times L is above 2²⁰.
 struct TetrahedronCase {
   std::array<Vec3f, 4> corner;                     ///< x [m]
   std::array<Vec3f, 4> start;                      ///< xᵗ [m], of Gᵗ

@@ -98,7 +98,7 @@ TEST_CASE("MSH 2.2 and 4.1 hold nodes by tag and tetrahedra; what else they hold
   CHECK(old.mesh.triangles == boundary_triangles(old.mesh.tetrahedra));
   CHECK(ElementNames(old.source).tetrahedron(0, {0, 1, 2, 3}) == "tetrahedron 7 (vertices 1, 2, 3, 4; line 18)");
   CHECK(ElementNames(old.source).vertex(3) == "vertex 4 (line 10)");
-  CHECK(ElementNames(fresh.source).tetrahedron(0, {0, 1, 2, 3}) == "tetrahedron 7 (vertices 1, 2, 3, 9; line 25)");
+  CHECK(ElementNames(fresh.source).tetrahedron(0, {0, 1, 2, 3}) == "tetrahedron 7 (vertices 1, 2, 3, 9; line 26)");
 }
 
 TEST_CASE("a written MSH comes back bit for bit, and so does a scene with a solid", "[unit]") {
@@ -138,7 +138,7 @@ TEST_CASE("each thing that is wrong with an MSH is named with its line", "[unit]
   CHECK_THAT(error_of(replaced(new_format, "1e-1", "nan")), Contains("line 19: 'nan' is no finite coordinate"));
 }
 
-TEST_CASE("E and nu stand in place of Lamé constants, and what format 2 reserves is refused by name", "[unit]") {
+TEST_CASE("E and nu stand in place of the constants of Lame, and what format 2 reserves is refused by name", "[unit]") {
   const Scratch scratch;
   const std::filesystem::path file = write_scene(scratch.folder(), solid_scene());
   const std::string text = read_bytes(file);
@@ -153,7 +153,7 @@ TEST_CASE("E and nu stand in place of Lamé constants, and what format 2 reserve
     }
     return std::string();
   };
-  const std::string lame = "\"solid_mu\": 10000,\n        \"solid_lambda\": 10000,";
+  const std::string lame = "\"solid_mu\": 10000.0,\n        \"solid_lambda\": 10000.0,";
   CHECK(with(lame, R"("solid_young": 2e4, "solid_poisson": 0.4,)").empty());
   CHECK_THAT(with(lame, R"("solid_young": 2e4, "solid_poisson": 0.5,)"),
              Contains("/bodies/0/material/solid_poisson: is 0.5; give a number from 0 to 0.4999"));

@@ -111,6 +111,13 @@ TEST_CASE("each sort of problem of a solid is named with its tetrahedron", "[uni
     mesh.positions[4] = {1.0 / 4, 1.0 / 4, 1.0 / 2};
     check_only(validate(scene_of(mesh)), "tetrahedron 1 of body 'block'", "is flat at rest");
   }
+  SECTION("as good as flat at rest: its rest data would overflow") {
+    for (Vec3& p : mesh.positions) p = {0x1p16 * p.x, 0x1p16 * p.y, 0x1p16 * p.z};
+    mesh.tetrahedra.resize(1);
+    mesh.positions.resize(4);
+    mesh.positions[3] = {0x1p16, 0x1p16, 0x1p-46};
+    check_only(validate(scene_of(mesh)), "tetrahedron 0 of body 'block'", "is flat at rest");
+  }
   SECTION("inverted at rest") {
     mesh.positions[4] = {0.125, 0.125, 0.125};
     check_only(validate(scene_of(mesh)), "tetrahedron 1 of body 'block'", "is inverted at rest");
@@ -139,7 +146,7 @@ TEST_CASE("each sort of problem of a solid is named with its tetrahedron", "[uni
     append_body(scene, {.name = "other", .material = {}}, mesh);
     scene.mesh.tetrahedra[3][0] = 4;
     CHECK_THAT(describe(validate(scene)),
-               Contains("tetrahedron 1 of body 'block'") && Contains("has vertices of another body"));
+               Contains("tetrahedron 1 of body 'other'") && Contains("has vertices of another body"));
   }
   SECTION("density, moduli and damping out of range") {
     Scene scene = scene_of(mesh);

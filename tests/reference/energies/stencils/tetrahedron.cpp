@@ -7,7 +7,7 @@
 #include "reference/energies/stencil_terms.hpp"
 #include "reference/energies/stencils/stencil_derivatives.hpp"
 #include "tests/catch.hpp"
-#include "tests/reference/energies/side_by_side.hpp"
+#include "tests/reference/energies/stencils/side_by_side.hpp"
 #include "tests/reference/energies/stencils.hpp"
 
 using namespace ogc;
