@@ -77,8 +77,8 @@ struct Settings {
 
 /// One row of the table of settings.
 struct SettingInfo {
-  std::string_view name, unit, meaning;
-  double minimum, maximum;  ///< inclusive
+  std::string_view name, unit, meaning;  ///< "contact_radius", "m", one line
+  double minimum, maximum;               ///< inclusive
   std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*,
                ContactActivation Settings::*, DampingForm Settings::*, IpcAdaptation Settings::*,
                IpcStopping Settings::*, IpcCcd Settings::*>

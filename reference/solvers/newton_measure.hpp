@@ -2,7 +2,7 @@
 // feeds an iteration.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/solvers/newton_detection.hpp"
 
 namespace ogc::reference {
