@@ -22,7 +22,7 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// Whether the extension is one of a mesh file that can be read, in capitals or not.
 bool is_mesh_file(const std::filesystem::path& path);
 
-enum class PlyEncoding { ascii, binary };
+enum class PlyEncoding { ascii, binary };  ///< how a PLY file is written
 
 /// Writes by extension: .obj, .ply, or .msh, the only one that holds tetrahedra and holds nothing else. Coordinates are
 /// printed so that reading gives the same double (OBJ, MSH, ascii) or stored as double (binary). Throws InputError for

@@ -11,9 +11,9 @@
 
 namespace ogc::compare {
 
-/// From format 2 on bodies may have tetrahedra, and materials `solid_…`. A body's `contact` (surface) and
-/// `orientations` and the scene's `body_pairs` (empty) are reserved: a reader refuses what it does not simulate by
-/// name.
+/// A newer file is refused by name. From format 2 on bodies may have tetrahedra, and materials `solid_…`. A body's
+/// `contact` (surface) and `orientations` and the scene's `body_pairs` (empty) are reserved: a reader refuses what it
+/// does not simulate by name.
 inline constexpr int scene_format_version = 2;
 
 /// Young's modulus [Pa] and Poisson's ratio [1] that stand in place of Lamé constants: within these both constants are
@@ -26,7 +26,7 @@ Scene read_scene(const std::filesystem::path& file);
 
 /// What a scene file says beyond the scene.
 struct SceneFile {
-  Scene scene;
+  Scene scene;                     ///< as it was read, valid or not
   MeshSources sources;             ///< where the bodies' elements stand in their files
   std::vector<std::string> notes;  ///< a sentence about whatever was taken otherwise than it stands
 };

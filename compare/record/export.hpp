@@ -7,7 +7,7 @@
 
 namespace ogc::compare {
 
-enum class ExportFormat { obj, ply, vtp, vtu };
+enum class ExportFormat { obj, ply, vtp, vtu };  ///< of a sequence of meshes
 
 /// "obj", "ply", "vtp" or "vtu". Throws InputError that lists them.
 ExportFormat parse_export_format(std::string_view text);

@@ -84,7 +84,7 @@ int call_activation(void* function, CallArrays& a) {
 }
 
 constexpr std::array truncate_outputs{OutputInfo{"position", Element::number, 3, Per::item},
-                                      OutputInfo{"exceeded", Element::byte, 1, Per::item}};
+                                      OutputInfo{"cut", Element::byte, 1, Per::item}};
 int call_truncate(void* function, CallArrays& a) {
   const ogc_truncate_in in{a.sizes.cases, a.in(), a.in(), a.in()};
   ogc_truncate_out out{a.out(), a.out()};
