@@ -43,7 +43,6 @@ NOT_RUN = {
     r"--cases \d{6,}|ogc compare( |$)(?!.*(--problem|truncate))": "minutes; the judge's own tests ask every stage",
     r"data=input": "a data set that is not part of this repository",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
-    r"paper_figures\.\w+\.(runner|fig17|accept)": "runs of the paper's size",
     r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
@@ -221,7 +220,7 @@ PLANTED = {
 SOUND = (
     "```sh\nX=1 ogc audit my.obj > out.txt   # words --nonsense\nogc run twist \\\n  --scale smoke\n```",
     "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`", "`python3 -m paper_figures.workflow.runner --window 3 twist`",
-    "`python3 -m paper_figures.workflow.verdicts --write`", "`experiments/reproduce fig12 --time-limit 500 --pack packed`",
+    "`python3 -m paper_figures.workflow.verdicts --write`", "`python3 -m paper_figures.workflow.runner`",
     "## What is not there yet\n\n`ogc view my.obj`\n",
 )
 

@@ -25,7 +25,7 @@ STATED = {
     **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"),
                     ("PyVista draws without a screen", r"import pyvista")),
 }
-IMPORTED_AS = {"PyYAML": "yaml", "vtk": "vtkmodules"}
+IMPORTED_AS = {"PyYAML": "yaml", "pillow": "PIL", "vtk": "vtkmodules"}
 INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
 IMPORT = re.compile(r"^\s*(?:import|from)\s+(\w+)|-m (\w+)", re.M)
 EXECUTOR = re.compile(r"^executor: (\w+)", re.M)

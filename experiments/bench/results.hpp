@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output.hpp"
+#include "experiments/program/output.hpp"
 
 namespace ogc::experiments {
 

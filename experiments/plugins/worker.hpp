@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
-#include "experiments/commands.hpp"
 #include "experiments/plugins/stages.hpp"
+#include "experiments/program/commands.hpp"
 
 namespace ogc::experiments {
 

@@ -1,6 +1,8 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
 and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
 
+What is kept is small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
+
 Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
 """
 
@@ -16,21 +18,11 @@ from fnmatch import fnmatch
 from pathlib import Path
 
 from paper_figures.workflow import recipes
-from paper_figures.workflow.evidence import NOT_RUN, RESULTS, run_at
-from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
+from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
+from paper_figures.workflow.kept import AcceptError, bytes_of, run_files
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-# A file above the first is no small data; the folder as a whole stays under 30 MiB. Rows above the second are kept compressed.
-LARGEST, LONG = 2 * 2**20, 2**17
-
-
-class AcceptError(Exception):
-    """Why a figure's files can't become accepted results; the message says which, and what to do."""
-
-
-def relative(text):
-    """A command without the folders of absolute paths: they say nothing on another machine."""
-    return re.sub(r"(?<![^\s=])/\S*/", "", text)
+LARGEST = 2**20  # bytes of a file; tests hold the folder as a whole to 10 MB
 
 
 def manifests(folder):
@@ -99,12 +91,12 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
     if "illustration" in recipe.body:
-        return [(picture.name, picture.read_bytes()), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
+        return [(picture.name, bytes_of(picture)), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
     outputs = [runs / path for path in recipe.outputs(scale, backend)]
     missing = [path for path in outputs if not path.is_file()]
     if missing and not incomplete:
         raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, or keep the figure without it by --incomplete")
-    found = [(f"{recipe.name}_{scale}{path.suffix}", path.read_bytes()) for path in outputs if path not in missing]
+    found = [(f"{recipe.name}_{scale}{path.suffix}", bytes_of(path)) for path in outputs if path not in missing]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
@@ -123,26 +115,11 @@ def run_name(path, folder):
     return "_".join(part for part in path.parent.relative_to(folder).parts if part != "runs")
 
 
-def compressed(name, data):
-    """(name, data) as they are kept: long rows with gzip, which evidence.py reads as well."""
-    return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
-
-
-def run_files(path, stem):
-    """Manifest, rows, iterations and processor time of the run whose manifest is `path`."""
-    manifest = json.loads(path.read_text())
-    manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
-    kept = ("steps.csv", "iterations.csv", PROCESSOR_TIME, AUDIT)
-    names = [name for name in kept if path.with_name(name).is_file()]
-    rows = [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in names]
-    return [(f"{stem}_run.json", (json.dumps(manifest, indent=2) + "\n").encode()), *rows]
-
-
 def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
     """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
     says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes
     the picture alone: they keep what was said of them."""
-    folder, kept, rows = Path(results) / machine, [], []
+    folder, kept, rows, scenes = Path(results) / machine, [], [], {}
     before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
     shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
     for recipe in chosen:
@@ -150,9 +127,12 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
         if missing:
             raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
         words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc, backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
-        for name, data in pieces(recipe, scale, backend, Path(runs), incomplete):
+        for name, data in unlike_others(pieces(recipe, scale, backend, Path(runs), incomplete), folder, recipe.name, rows):
+            if name.startswith(f"../{SCENES}/"):
+                scenes[folder / name] = data
+                continue
             if len(data) > LARGEST:
-                raise AcceptError(f"{name} has {len(data) / 2**20:.1f} MiB: accepted results are small data")
+                raise AcceptError(f"{name} has {len(data) / 2**20:.2g} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
             redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
             digest = hashlib.sha256(data).hexdigest()[:16]
@@ -167,12 +147,31 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
     outdated = earlier_files(folder / "provenance.csv", rows)
     for name in outdated:
         (folder / name).unlink(missing_ok=True)
-    for path, data in kept:
+    for path, data in (*kept, *scenes.items()):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
+    drop_scenes(Path(results))
     merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"), list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
     return rows
+
+
+def unlike_others(found, folder, figure, rows):
+    """The (name, bytes) of `found` without the runs that another figure keeps: in the folder, or in `rows`, about those
+    accepted with it."""
+    others = {row["sha256"] for row in (*rows_of(folder / "provenance.csv"), *rows) if row["figure"] != figure}
+    twice = [name.removesuffix("run.json") for name, data in found
+             if name.endswith("run.json") and hashlib.sha256(data).hexdigest()[:16] in others]
+    run_file = re.compile("|".join(re.escape(stem) + r"[a-z_]+\.(json|csv)(\.gz)?" for stem in twice) or r"(?!)")
+    return [(name, data) for name, data in found if not run_file.fullmatch(name)]
+
+
+def drop_scenes(results):
+    """Removes the scenes that no accepted manifest names any more."""
+    named = {json.loads(path.read_text())["scene"].get("sha256") for path in results.glob("*/**/*run.json")}
+    for path in results.glob(f"{SCENES}/*.json"):
+        if path.stem not in named:
+            path.unlink()
 
 
 def composed(recipe, chosen, scale, backend, runs, ogc):

@@ -10,7 +10,6 @@
 import gzip
 import json
 import math
-import statistics
 import sys
 from pathlib import Path
 
@@ -32,14 +31,15 @@ def bands(path=BANDS):
 
 def counterpart(run, accepted):
     """The newest accepted run of the same question, one of the same program and machine first."""
-    alike = [old for old in accepted if all(run.manifest.get(key) == old.manifest.get(key) for key in QUESTION) and started_alike(run, old)]
+    alike = [old for old in accepted if question(run) == question(old) and run.first_step == old.first_step]
     same = [old for old in alike if all(run.manifest.get(key) == old.manifest.get(key) for key in SAME_BITS)]
     return (same or alike or [None])[-1]
 
 
-def started_alike(run, old):
-    """Whether both began at the same step: at the scene's start, or at the same frame of another run."""
-    return run.column("step")[0] == old.column("step")[0]
+def question(run):
+    """What a run was asked: of settings their values, whatever words explain them."""
+    asked = {key: run.manifest.get(key) for key in QUESTION}
+    return {**asked, "settings": {name: entry["value"] for name, entry in asked["settings"].items()}}
 
 
 def differences(run, old, allowed):
@@ -51,12 +51,12 @@ def differences(run, old, allowed):
         return [f"not finished (status: {m.get('status', 'unknown')})"]
     if all(m.get(key) == kept.get(key) for key in SAME_BITS) and not m.get("dirty"):
         return [] if m["final_hash"] == kept["final_hash"] else [f"NOT the bits of the accepted run ({m['final_hash']}, not {kept['final_hash']}), although program and machine are the same"]
-    steps = len(run.column("step")), len(old.column("step"))
+    steps = run.step_count, old.step_count
     if steps[0] != steps[1]:
         return [f"{steps[0]} steps, not {steps[1]}"]
     found = []
     for name, band in allowed.items():
-        new, before = statistics.fmean(run.column(name)), statistics.fmean(old.column(name))
+        new, before = run.mean(name), old.mean(name)
         if abs(new - before) > band * abs(before):
             found.append(f"mean {name} {new:.4g}, accepted {before:.4g}: more than {100 * band:.1f} % apart")
     return found

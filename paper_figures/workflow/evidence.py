@@ -1,7 +1,10 @@
 """What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a judgement needs no package.
 
-A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`, `X_steps.csv`, long ones as `X_steps.csv.gz`); a table is `figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit
-and a device in each row. Runs that are unfinished, of a changed tree, or that failed their audit are no evidence.
+A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`; of an accepted
+result `X_steps.csv`, of a long one `X_hundreds.csv`, see thinned.py; compressed ones end in `.gz`); a table is
+`figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit and a device in each row. An accepted manifest names its scene by
+the hash of `results/scenes/HASH.json`. Runs that are unfinished, of a changed tree, or that failed their audit are no
+evidence.
 """
 
 import copy
@@ -16,9 +19,12 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 
 from paper_figures.workflow.jobs import AUDIT
+from paper_figures.workflow.thinned import Hundreds
 
 ROOM = Path(__file__).parent.parent  # paper_figures
 RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
+SCENES = "scenes"  # folder below the results: the scenes of accepted manifests, each named by its hash
+ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
 
 
@@ -46,19 +52,20 @@ class Columns(Mapping):
         with (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="") as file:
             names, *rows = [row for row in csv.reader(file) if row]
         rows = [row for row in rows if len(row) == len(names)]
-        self._texts = dict(zip((name.partition("[")[0].strip() for name in names), zip(*rows) if rows else [()] * len(names)))
+        names = [name.partition("[")[0].strip() for name in names]
+        self.texts = dict(zip(names, zip(*rows) if rows else [()] * len(names)))
         self._numbers = {}
 
     def __getitem__(self, name):
         if name not in self._numbers:
-            self._numbers[name] = [float(text or "nan") for text in self._texts[name]]
+            self._numbers[name] = [float(text or "nan") for text in self.texts[name]]
         return self._numbers[name]
 
     def __iter__(self):
-        return iter(self._texts)
+        return iter(self.texts)
 
     def __len__(self):
-        return len(self._texts)
+        return len(self.texts)
 
 
 @lru_cache(maxsize=None)
@@ -72,11 +79,23 @@ def is_driven(body):
     return body["fixed"] or body.get("prescribed_vertices") == body["vertex_count"]
 
 
+def manifest_at(path):
+    """The manifest with its scene, wherever that is kept. Throws EvidenceError where it is not."""
+    manifest = json.loads(path.read_text())
+    digest = manifest.get("scene", {}).get("sha256")
+    if digest is None:
+        return manifest
+    scene = next((way for folder in path.parents if (way := folder / SCENES / f"{digest}.json").is_file()), None)
+    if scene is None:
+        raise EvidenceError(f"{path}: its scene {digest}.json is in no folder {SCENES} above it: accept the run again")
+    return {**manifest, "scene": json.loads(scene.read_text())}
+
+
 class RunEvidence:
     """A run: its manifest, and the columns of its rows without units."""
 
     def __init__(self, manifest, rows, source):
-        self.manifest, self.rows, self.source = json.loads(Path(manifest).read_text()), Path(rows), source
+        self.manifest, self.rows, self.source = manifest_at(Path(manifest)), Path(rows), source
         afterwards = Path(manifest).with_name(Path(manifest).name.removesuffix("run.json") + AUDIT)
         self.afterwards = json.loads(afterwards.read_text()) if afterwards.is_file() else {}
 
@@ -85,10 +104,46 @@ class RunEvidence:
         about = self.rows.stat()
         return columns_of(self.rows, (about.st_mtime_ns, about.st_size))
 
+    @cached_property
+    def thinned(self):
+        """Statistics of a run whose rows are thinned; None where every row is there."""
+        if ROWS[1] not in self.rows.name:
+            return None
+        return Hundreds(self.columns.texts, self.manifest["whole_run"])
+
     def column(self, name):
-        if name not in self.columns:
+        """A number for each step. Throws EvidenceError where there is no such column, or no row of every step."""
+        if self.thinned:
+            raise EvidenceError(f"{self.source} keeps a row of each hundred steps: ask for its mean, largest or course")
+        return self._checked(name, self.columns)[name]
+
+    def _checked(self, name, columns):
+        if name not in columns:
             raise EvidenceError(f"{self.source} has no column '{name}'; it has: {', '.join(self.columns)}")
-        return self.columns[name]
+        return columns
+
+    @property
+    def step_count(self):
+        return self.thinned.count if self.thinned else len(self.column("step"))
+
+    @property
+    def first_step(self):
+        """The number of the first row's step; None where there is no row. A thinned run begins at 1 or says so."""
+        if self.thinned:
+            return self.thinned.of("smallest", "step")[0]
+        return next(iter(self.column("step")), None)
+
+    def mean(self, name):
+        return self._checked(name, self.thinned).mean(name) if self.thinned else statistics.fmean(self.column(name))
+
+    def largest(self, name):
+        return self._checked(name, self.thinned).largest(name) if self.thinned else max(self.column(name))
+
+    def course(self, name):
+        """(steps, values): of every row, or of each hundredth."""
+        if self.thinned:
+            return self.thinned.of("row", "step"), self._checked(name, self.thinned).of("row", name)
+        return self.column("step"), self.column(name)
 
     @property
     def usable(self):
@@ -117,14 +172,14 @@ class RunEvidence:
 
     @property
     def audit_in_words(self):
-        return f"{self.audited_states} states audited, {len(self.column('step'))} steps"
+        return f"{self.audited_states} states audited, {self.step_count} steps"
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane,
         activation, redetect_fraction (rounded to single precision in the manifest), and steps: so many from the
         scene's start, not a window."""
         m = self.manifest
-        special = {"steps": lambda n: self.column("step")[:1] == [1] and len(self.column("step")) >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
+        special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
                    "redetect_fraction": lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
@@ -134,11 +189,20 @@ class RunEvidence:
 
     def first(self, steps):
         """The run up to this step: beyond the end of its scene a run is no evidence of it."""
-        if len(self.column("step")) <= steps:
+        if self.step_count <= steps:
             return self
         cut = copy.copy(self)
+        if self.thinned:
+            cut.thinned = self._cut(steps)
+            return cut
         cut.columns = {name: self.columns[name][:steps] for name in self.columns}
         return cut
+
+    def _cut(self, steps):
+        try:
+            return self.thinned.first(steps)
+        except ValueError as error:
+            raise EvidenceError(f"{self.source}: {error}: accept a run of {steps} steps") from error
 
     @property
     def membranes(self):
@@ -178,8 +242,9 @@ def runs_in(folder):
     """Every run below `folder` that has rows, finished or not, by the name of its manifest."""
     found = []
     for path in sorted(Path(folder).rglob("*run.json")):
-        rows = path.with_name(path.name.removesuffix("run.json") + "steps.csv")
-        kept = [way for way in (rows, rows.with_name(rows.name + ".gz")) if way.is_file()]
+        stem = path.name.removesuffix("run.json")
+        ways = (path.with_name(stem + rows + suffix) for rows in ROWS for suffix in ("", ".gz"))
+        kept = [way for way in ways if way.is_file()]
         if kept:
             found.append(RunEvidence(path, kept[0], path.relative_to(folder).as_posix()))
     return found
@@ -301,9 +366,9 @@ def value_of(run, spec):
     if "guarantee" in spec:
         return 0 if run.guarantee_kept else 1
     if "simulated" in spec:
-        return len(run.column("step")) * m["settings"]["time_step"]["value"]
+        return run.step_count * m["settings"]["time_step"]["value"]
     if "real_time" in spec:
-        return 1e3 * m["settings"]["time_step"]["value"] / statistics.fmean(run.column(spec["real_time"]))
+        return 1e3 * m["settings"]["time_step"]["value"] / run.mean(spec["real_time"])
     raise EvidenceError(f"a claim measures {json.dumps(spec)}, which nobody knows how to")
 
 
@@ -322,7 +387,16 @@ def _count(scene, moving, what):
 
 def _statistic(run, spec):
     names = spec["steps"] if isinstance(spec["steps"], list) else [spec["steps"]]
-    values = [sum(row) for row in zip(*(run.column(name) for name in names))]
-    kinds = {"mean": statistics.fmean, "max": max, "sum": sum, "max over mean": lambda v: max(v) / statistics.fmean(v),
-             "sum over": lambda v: sum(v) / sum(run.column(spec["over"]))}
-    return kinds[spec["statistic"]](values)
+    mean = sum(run.mean(name) for name in names)
+    kind = spec["statistic"]
+    if kind in ("max", "max over mean"):
+        largest = _largest(run, names)
+        return largest if kind == "max" else largest / mean
+    return {"mean": mean, "sum": mean * run.step_count}[kind] if kind != "sum over" else mean / run.mean(spec["over"])
+
+
+def _largest(run, names):
+    """The largest of the sums of columns."""
+    if len(names) == 1:
+        return run.largest(names[0])
+    return max(sum(row) for row in zip(*(run.column(name) for name in names)))

@@ -209,7 +209,8 @@ def curves(run):
     figure.subplots_adjust(left=0.07, right=0.98, bottom=0.09, top=0.98, wspace=0.18, hspace=0.25)
     panels = (("wall", "time a step [ms]", 1), ("discrete_detections", "detections a step", 1), ("edge_edge_contacts", "edge–edge contacts", 1), ("smallest_distance", "smallest distance [mm]", 1e3))
     for panel, (name, label, factor) in zip(axes.flat, panels):
-        panel.plot(run.column("step"), [factor * value for value in run.column(name)], linewidth=0.9)
+        steps, values = run.course(name)
+        panel.plot(steps, [factor * value for value in values], linewidth=0.9)
         panel.set(xlabel="step", ylabel=label, ylim=(0, None))
     out = io.BytesIO()
     figure.savefig(out, format="png", dpi=90)
@@ -219,8 +220,7 @@ def curves(run):
 
 def from_the_start(run):
     """Whether the run has a course that is worth curves: a window of another run, or a single step of it, has none."""
-    steps = run.column("step")
-    return len(steps) > 1 and steps[0] == 1
+    return run.step_count > 1 and run.first_step == 1
 
 
 def scene_page(scene, judgements, evidence, fresh=None):
@@ -235,7 +235,7 @@ def scene_page(scene, judgements, evidence, fresh=None):
         mark = "Just made: " if run in made else ""
         commit = m["commit"][:10] + (", with uncommitted changes" if m.get("dirty") else "")
         parts.append(f"<h2>{mark}{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>"
-                     f"{escape(m['device'])}, commit {escape(commit)}, {len(run.column('step'))} steps, {audit}</p>"
+                     f"{escape(m['device'])}, commit {escape(commit)}, {run.step_count} steps, {audit}</p>"
                      f"{embedded(curves(run), 'curves of ' + run.source) if from_the_start(run) else ''}<details><summary>Settings</summary><p>{settings}</p></details>")
     return page(scene, "\n".join(parts if len(parts) > 2 else [*parts, "<p>No accepted run yet.</p>"]))
 

@@ -1,8 +1,8 @@
-// Derivatives of barriers, several of one form side by side, as energies/stencil_kernels.hpp has them of other
+// Derivatives of barriers, several of one form side by side, as energies/stencils/stencil_kernels.hpp has them of other
 // stencils.
 #pragma once
 
-#include "reference/energies/stencil_kernels.hpp"
+#include "reference/energies/stencils/stencil_kernels.hpp"
 #include "reference/ipc/barrier.hpp"
 
 namespace ogc::reference {

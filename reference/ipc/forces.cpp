@@ -5,7 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include "reference/ipc/barrier_kernels.hpp"
-#include "reference/solvers/newton_batches.hpp"
+#include "reference/solvers/potential_batches.hpp"
 
 namespace ogc::reference {
 namespace {

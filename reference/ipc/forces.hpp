@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reference/ipc/pairs.hpp"
-#include "reference/solvers/newton_matrix.hpp"
+#include "reference/solvers/newton/matrix.hpp"
 
 namespace ogc::reference {
 

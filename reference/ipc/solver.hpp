@@ -29,7 +29,7 @@
 #include "reference/ipc/forces.hpp"
 #include "reference/ipc/step_bound.hpp"
 #include "reference/ipc/stiffness.hpp"
-#include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton/factor.hpp"
 
 namespace ogc::reference {
 

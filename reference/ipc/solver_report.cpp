@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "reference/ipc/solver.hpp"
-#include "reference/solvers/newton_measure.hpp"
+#include "reference/solvers/measure.hpp"
 
 namespace ogc::reference {
 

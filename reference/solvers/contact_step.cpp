@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/solvers/newton_measure.hpp"
+#include "reference/solvers/measure.hpp"
 
 namespace ogc::reference {
 namespace {

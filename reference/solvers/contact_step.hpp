@@ -8,7 +8,7 @@
 #pragma once
 
 #include "compare/problem/contestant.hpp"
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/detection.hpp"
 
 namespace ogc::reference {
 

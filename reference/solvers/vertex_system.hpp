@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 

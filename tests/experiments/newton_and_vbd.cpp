@@ -16,7 +16,7 @@
 #include "reference/contestant.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
-#include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton/factor.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 

@@ -17,7 +17,8 @@ from types import SimpleNamespace
 SOURCE = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path(__file__).parents[2]
 sys.path.insert(0, str(SOURCE))
 from paper_figures.workflow import verdicts  # noqa: E402
-from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, value_of  # noqa: E402
+from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, manifest_at, value_of  # noqa: E402
+from paper_figures.workflow.thinned import Hundreds  # noqa: E402
 
 
 GUARANTEE = {"measure": {"guarantee": "penetration-free"}, "band": [0, 0]}
@@ -69,8 +70,13 @@ class Kinds(unittest.TestCase):
     @staticmethod
     def changed(run):
         other = copy.copy(run)
-        other.columns = {name: [3 * value + 1 for value in run.column(name)] for name in run.columns}
         other.manifest, other.afterwards = {**run.manifest, "guarantee_kept": run.guarantee_kept is not True}, {}
+        if run.thinned:
+            whole = run.manifest["whole_run"]
+            changed = {kind: {name: 3 * value + 1 for name, value in whole[kind].items()} for kind in ("mean", "largest")}
+            other.thinned = Hundreds(run.columns.texts, {**whole, **changed})
+        else:
+            other.columns = {name: [3 * value + 1 for value in run.column(name)] for name in run.columns}
         return other
 
     def test_the_headline_counts_results_alone(self):
@@ -247,7 +253,7 @@ class Runs(unittest.TestCase):
     def judged(self, change, **changes):
         with tempfile.TemporaryDirectory() as name:
             shutil.copy(RESULTS / "h200/sphere_cuda_steps.csv", Path(name) / "steps.csv")
-            manifest = json.loads((RESULTS / "h200/sphere_cuda_run.json").read_text())
+            manifest = manifest_at(RESULTS / "h200/sphere_cuda_run.json")
             change(manifest)
             (Path(name) / "run.json").write_text(json.dumps(manifest))
             return verdicts.judge(claim(**{"band": [0, 100], **changes}), Evidence(name)).verdict
@@ -275,8 +281,8 @@ class Runs(unittest.TestCase):
                                      ({"states": 61, "clean": False}, "refuted", said),
                                      ({"states": 0, "clean": True}, "not yet run", "")):
             with tempfile.TemporaryDirectory() as name:
-                shutil.copy(RESULTS / "h200/sphere_cuda_profile_steps.csv", Path(name) / "steps.csv")
-                manifest = json.loads((RESULTS / "h200/sphere_cuda_profile_run.json").read_text())
+                shutil.copy(RESULTS / "h200/sphere_cpu_steps.csv", Path(name) / "steps.csv")
+                manifest = manifest_at(RESULTS / "h200/sphere_cpu_run.json")
                 self.assertEqual(manifest["audited_states"], "0")
                 (Path(name) / "run.json").write_text(json.dumps(manifest))
                 if found:
@@ -312,7 +318,7 @@ class OneSceneOfTwoFigures(unittest.TestCase):
 
     def make(self, name, membrane, times, begin=1, **changes):
         """A copy of an accepted run with another membrane, steps that take `times` as long, and another first step."""
-        manifest = json.loads((RESULTS / "h200/sphere_cuda_run.json").read_text())
+        manifest = manifest_at(RESULTS / "h200/sphere_cuda_run.json")
         for body in manifest["scene"]["bodies"]:
             body["material"]["membrane"] = membrane
         (self.folder / name).mkdir()

@@ -22,6 +22,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
 from paper_figures.workflow import report, verdicts  # noqa: E402
+from paper_figures.workflow.evidence import manifest_at  # noqa: E402
 
 # Appended to a copy of a page: the browser itself says which pictures it could not show, and what it asked the network for.
 PROBE = """<script>addEventListener('load', () => { const bad = [...document.images].filter(i => !i.complete || i.naturalWidth === 0).length;
@@ -141,7 +142,7 @@ def check_just_made(folder):
     for scale, scene in (("paper", "cloth_on_sphere"), ("small", "knot")):
         run = runs / f"{'fig18' if scale == 'paper' else 'fig11'}-{scale}-cuda/run"
         run.mkdir(parents=True)
-        manifest = json.loads((report.RESULTS / "h200/sphere_cuda_run.json").read_text())
+        manifest = manifest_at(report.RESULTS / "h200/sphere_cuda_run.json")
         manifest.update(scale=scale, dirty=True, scene={**manifest["scene"], "name": scene})
         (run / "run.json").write_text(json.dumps(manifest))
         (run / "steps.csv").write_bytes((report.RESULTS / "h200/sphere_cuda_steps.csv").read_bytes())

@@ -1,9 +1,9 @@
 // Newton's steps against states that are known on paper. Free fall, pressed contact, sliding block and momentum stand
-// in newton.cpp.
+// in newton/solver.cpp.
 #include <algorithm>
 #include <cmath>
 
-#include "reference/solvers/simulation.hpp"
+#include "reference/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/solvers/simulation.hpp"
+#include "reference/simulation.hpp"
 #include "reference/solvers/step.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
