@@ -49,9 +49,11 @@ def self_test():
         (root / "long.hpp").write_text("// short\n" + "/" * (MOST_COLUMNS + 1), encoding="utf-8")
         longer = "x" * (MOST_COLUMNS + 1)
         document = Path("a").with_suffix(".md").name  # by parts, as this is no citation of a document
-        (root / document).write_text(f"| {longer} |\n```\n{longer}\n```\n```sh\n{longer}\n```\n{longer}\n", encoding="utf-8")
+        (root / document).write_text(f"| {longer} |\n```\n{longer}\n```\n```sh\n{longer}\n```\n{longer}\n",
+                                     encoding="utf-8")
         found = list(findings(root, ["fits.cpp", "long.hpp", "gone.cpp", document]))
-        if [line.partition(" columns")[0] for line in found] != [f"{document}:6: 121", f"{document}:8: 121", "long.hpp:2: 121"]:
+        expected = [f"{document}:6: 121", f"{document}:8: 121", "long.hpp:2: 121"]
+        if [line.partition(" columns")[0] for line in found] != expected:
             sys.exit(f"self-test: found {found}")
 
 
