@@ -10,8 +10,7 @@ rim has fewer contacts: 4 / side of the vertices. The measured density stands in
 Sheets lie 0.9 r apart, so that all touch their neighbours from the first step on; ground and lid keep them there. With
 the scene's own time step of 1/1200 s such a stack cuts one vertex in a hundred in every iteration (k_c exceeds m/h²,
 fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its contacts, which is what a
-growth over the number of vertices alone needs. Python's library is enough, so that a bare machine with the program can
-make them.
+growth over the number of vertices alone needs. Python's own library is enough.
 """
 
 import json

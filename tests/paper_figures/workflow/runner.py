@@ -225,7 +225,7 @@ class Called(Scratch):
         self.assertEqual([job.name for job in chain], ["ipc", "newton", "vbd", "vbd_cuda"])
 
     def test_each_part_is_packed_as_soon_as_it_is_finished(self):
-        """A machine that was taken away in the second part must have left the first."""
+        """What was killed in the second part must have left the first."""
         there, home, packed = self.folder / "there", self.folder / "home", self.folder / "packed"
         code = ("import sys\nfrom paper_figures.workflow import runner\nmake = runner.Runner.make\n"
                 "runner.Runner.make = lambda self, name, part: make(self, name, part) if name == 'fig20' else "

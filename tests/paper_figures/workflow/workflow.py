@@ -19,7 +19,7 @@ SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
     from paper_figures.figures import sweep
-    from paper_figures.workflow import in_order, job, recipes
+    from paper_figures.workflow import in_order, job, parts, recipes
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -113,6 +113,30 @@ class Recipes(unittest.TestCase):
             self.assertIn("is not there yet: the program has no", done.stderr)
 
 
+    def parsed(self, *words):
+        """What the front says to words that it only parses."""
+        done = subprocess.run([SOURCE / "experiments/reproduce", *words], capture_output=True, text=True, check=False,
+                              env={**os.environ, "OGC_PARSE_ONLY": "1"})
+        return done.returncode, done.stderr
+
+    def test_a_limit_is_for_figures_with_runs_and_a_number(self):
+        for words in (("fig12", "--time-limit", "500", "--pack", "x"), ("table1", "--unpack", "/"),
+                      ("--time-limit", "9")):
+            self.assertEqual(self.parsed(*words), (0, ""), words)
+        for words, said in ((("fig07", "--time-limit", "500"), "fig07 has no runs that a limit could stop"),
+                            (("fig12", "--time-limit", "soon"), "need a whole number above 0, not 'soon'"),
+                            (("fig12", "--pack", "x", "--slurm"), "go with neither --slurm nor --dry-run")):
+            status, words_said = self.parsed(*words)
+            self.assertEqual((status, said in words_said), (2, True), words_said)
+
+    def test_every_recipe_of_several_runs_can_be_made_under_a_limit(self):
+        book = recipes.load()
+        there = {part.recipe for part in parts.book(parts.Wanted()).values()} - {""}
+        simulated = {name for name, recipe in book.items() if recipe.scene
+                     and not {"missing", "vary"} & set(recipe.body)}
+        self.assertEqual(there, simulated | {"table1"})
+
+
 class Jobs(Scratch):
     def test_a_failed_job_shows_its_command_and_the_end_of_its_log(self):
         program = [sys.executable, "-c", "import sys; print(*range(100), sep='\\n'); sys.exit(3)"]
@@ -126,6 +150,13 @@ class Jobs(Scratch):
 
     def test_a_command_without_its_output_has_failed(self):
         self.assertEqual(job.run(self.runs / "l", self.runs / "none", ["true"]), 1)
+
+    def test_of_a_link_to_a_run_the_link_goes_alone(self):
+        run = self.runs / "table1/run"
+        run.mkdir(parents=True)
+        (self.runs / "run").symlink_to(run)
+        job.clear(self.runs / "run/run.json")
+        self.assertEqual(((self.runs / "run").is_symlink(), run.is_dir()), (False, True))
 
     def test_what_an_interrupted_run_left_goes(self):
         left = self.runs / "run/frames"
