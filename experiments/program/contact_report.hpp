@@ -14,6 +14,7 @@
 
 namespace ogc::experiments {
 
+/// Who finds the contacts.
 enum class Engine { exact, cpu, cuda };
 
 /// What only the reference knows; empty for the other engines.
@@ -22,6 +23,7 @@ struct ExactGeometry {
   std::vector<std::vector<compare::Index>> ipc, sdf;  ///< F_IPC (Eq. 3) and F_SDF (Eq. 4) by vertex, where asked for
 };
 
+/// What `ogc contacts` prints.
 struct ContactReport {
   compare::Topology topology;
   std::vector<compare::Vec3f> positions;

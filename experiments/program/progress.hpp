@@ -8,6 +8,7 @@
 
 namespace ogc::experiments {
 
+/// How far one command is, told on standard error.
 class Progress {
  public:
   /// From `first` to `last` (steps, frames), counted in `unit`.

@@ -6,6 +6,7 @@
 
 namespace ogc::experiments {
 
+/// What this program was made from, and with what.
 struct BuildInfo {
   std::string version;   ///< "0.1.0"
   std::string commit;    ///< of the checkout that was built; "unknown" outside one

@@ -21,6 +21,7 @@ from pathlib import Path
 
 from paper_figures.workflow.jobs import AUDIT
 from paper_figures.workflow.thinned import Hundreds
+from plots.columns import column_and_unit
 
 ROOM = Path(__file__).parent.parent  # paper_figures
 RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
@@ -53,7 +54,7 @@ class Columns(Mapping):
         with (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="") as file:
             names, *rows = [row for row in csv.reader(file) if row]
         rows = [row for row in rows if len(row) == len(names)]
-        names = [name.partition("[")[0].strip() for name in names]
+        names = [column_and_unit(name)[0] for name in names]
         self.texts = dict(zip(names, zip(*rows) if rows else [()] * len(names)))
         self._numbers = {}
 

@@ -10,6 +10,8 @@ import io
 import math
 import statistics
 
+from plots.columns import FORMER_COLUMNS, column_and_unit
+
 BLOCK = 100  # steps
 LONGEST = 200  # rows; a longer run is thinned
 QUANTITIES = ("row", "mean", "smallest", "median", "largest")
@@ -52,12 +54,16 @@ def _quantities(values):
 def whole_run(text):
     """Statistics of all rows, and the program that computed them, for the manifest."""
     titles, rows = parsed(text)
-    columns = {name.partition("[")[0].strip(): [float(cell or "nan") for cell in column]
+    columns = {column_and_unit(name)[0]: [float(cell or "nan") for cell in column]
                for name, column in zip(titles, zip(*rows))}
     known = {name: values for name, values in columns.items() if not any(map(math.isnan, values))}
     return {"program": "paper_figures.workflow.thinned", "rows": len(rows),
             "mean": {name: statistics.fmean(values) for name, values in known.items()},
             "largest": {name: max(values) for name, values in known.items()}}
+
+
+def _by_name_of_today(values):
+    return {FORMER_COLUMNS.get(name, name): value for name, value in values.items()}
 
 
 class Hundreds:
@@ -66,7 +72,8 @@ class Hundreds:
 
     def __init__(self, columns, whole, steps=None):
         """`columns`: of X_hundreds.csv, as texts by name; `whole`: the manifest's `whole_run`."""
-        self._columns, self._whole = columns, whole
+        self._columns, self._whole = columns, {"rows": whole["rows"], **{kind: _by_name_of_today(whole[kind])
+                                                                         for kind in ("mean", "largest")}}
         self.count = whole["rows"] if steps is None else min(steps, whole["rows"])
         if self.count % BLOCK and self.count != whole["rows"]:
             raise ValueError(f"the first {steps} steps end between two hundreds; every row is not kept")

@@ -32,7 +32,7 @@ def row_of(run):
     scene, closest = run.manifest["scene"], "smallest_distance"
     name, backend = scene["name"], run.manifest["backend"]
     first, last = quarters(run, "wall")
-    free, cut = quarters(run, "share_at_bound")
+    free, cut = quarters(run, "share_cut")
     try:
         parts = costs(run)
     except EvidenceError:

@@ -3,8 +3,9 @@
 
 namespace ogc::reference {
 
-std::vector<BlockMargin> block_margins(const Complex& mesh, Face face, const Vec3f& x, float radius, bool edge_only) {
-  const Margin gap = face_gap(mesh, face, x, radius);
+std::vector<BlockMargin> block_margins(const Complex& mesh, Face face, const Vec3f& x, float contact_radius,
+                                       bool edge_only) {
+  const Margin gap = face_gap(mesh, face, x, contact_radius);
   std::vector<BlockMargin> margins{{BlockMargin::Kind::sphere, face, -sign(gap), -signed_length(gap), true}};
   visit_block(mesh, face, x, [&](const Boundary& boundary) {
     const auto& [margin, positive] = boundary.condition;

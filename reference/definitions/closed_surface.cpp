@@ -142,11 +142,11 @@ bool ClosedSurface::outward(Face face, const Vec3f& x) const {
   return sign_of(dot(normal(mesh_, face.index), exact(x) - exact(mesh_.at(mesh_.triangle(face.index)[0])))) >= 0;
 }
 
-bool ClosedSurface::in_outward_block(Face face, const Vec3f& x, float radius) const {
-  return in_block(mesh_, face, x, radius) && outward(face, x);
+bool ClosedSurface::in_outward_block(Face face, const Vec3f& x, float contact_radius) const {
+  return in_block(mesh_, face, x, contact_radius) && outward(face, x);
 }
 
-Place ClosedSurface::locate(const Vec3f& x) const {
+PointLocation ClosedSurface::locate(const Vec3f& x) const {
   const ExactVector p = exact(x);
   int winding = 0;
   for (std::size_t t = 0; t < mesh_.topology.triangles.size(); ++t) {

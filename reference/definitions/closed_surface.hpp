@@ -7,10 +7,11 @@
 namespace ogc::reference {
 
 /// Where a point lies. A surface that passes through itself covers some places more than once.
-struct Place {
+struct PointLocation {
   bool on_surface = false;
   /// how often the surface winds around the point, counted with the orientation; 0 on the surface, where it jumps
   int winding = 0;
+  /// Winding numbers of either sign count as inside.
   bool inside() const { return !on_surface && winding != 0; }
   bool outside() const { return !on_surface && winding == 0; }
 };
@@ -32,12 +33,13 @@ class ClosedSurface {
 
   /// x ∈ U_a, closed at r and closed at the surface, with only the outward half of a triangle or flat neighbourhood and
   /// nothing but the points of the face at reentrant edges and vertices (§3.9).
-  bool in_outward_block(Face face, const Vec3f& x, float radius) const;
+  bool in_outward_block(Face face, const Vec3f& x, float contact_radius) const;
 
   /// By the signed crossings of a ray whose direction is (1, ε, ε²) for a vanishing ε: no direction meets an edge, and
   /// no point is an exception.
-  Place locate(const Vec3f& x) const;
+  PointLocation locate(const Vec3f& x) const;
 
+  /// The surface itself.
   const Complex& mesh() const { return mesh_; }
 
  private:

@@ -54,9 +54,9 @@ bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
 }
 
 /// The distance of x and a closed triangle, as a gap.
-Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float radius) {
+Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float contact_radius) {
   const Corners corners = corners_of(mesh, t);
-  return with_radius(feature_gap(corners, closest_feature(corners, x), x), radius);
+  return with_radius(feature_gap(corners, closest_feature(corners, x), x), contact_radius);
 }
 
 /// Alg. 1 lines 7–20 for one vertex and one triangle.
@@ -147,25 +147,26 @@ std::vector<Index> layers(const compare::Topology& topology, std::span<const Ver
 }
 
 std::vector<double> penetration_depths(const Complex& mesh, std::span<const VertexFacetContact> contacts,
-                                       float radius) {
+                                       float contact_radius) {
   std::vector<double> depths;
   for (const VertexFacetContact& c : contacts)
-    depths.push_back(-signed_length(face_gap(mesh, c.face, mesh.at(c.vertex), radius)));
+    depths.push_back(-signed_length(face_gap(mesh, c.face, mesh.at(c.vertex), contact_radius)));
   return depths;
 }
 
-std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float radius) {
+std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float contact_radius) {
   std::vector<Index> triangles;
   for (Index t = 0; t < static_cast<Index>(mesh.topology.triangles.size()); ++t) {
-    if (!contains(mesh.triangle(t), vertex) && sign(triangle_gap(mesh, t, mesh.at(vertex), radius)) < 0)
+    if (!contains(mesh.triangle(t), vertex) && sign(triangle_gap(mesh, t, mesh.at(vertex), contact_radius)) < 0)
       triangles.push_back(t);
   }
   return triangles;
 }
 
-std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float radius) {
+std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float contact_radius) {
   std::vector<Index> closest;
-  Quotient<Exact> smallest{Exact(static_cast<double>(radius)) * Exact(static_cast<double>(radius)), Exact(1)};
+  Quotient<Exact> smallest{Exact(static_cast<double>(contact_radius)) * Exact(static_cast<double>(contact_radius)),
+                           Exact(1)};
   for (Index t = 0; t < static_cast<Index>(mesh.topology.triangles.size()); ++t) {
     const Quotient<Exact> d = exact_squared_distance(mesh, t, x);
     const int order = sign_of(d.numerator * smallest.denominator - smallest.numerator * d.denominator);

@@ -45,14 +45,14 @@ std::vector<Index> layers(const compare::Topology& topology, std::span<const com
 
 /// Eq. 13: r − d for each contact [m], within 1 ulp of double.
 std::vector<double> penetration_depths(const Complex& mesh, std::span<const compare::VertexFacetContact> contacts,
-                                       float radius);
+                                       float contact_radius);
 
 /// F_IPC(v) (Eq. 3): triangles without v nearer than r, ascending.
-std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float radius);
+std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float contact_radius);
 
 /// F_SDF (Eq. 4) of a point in space: the closest triangles where they are nearer than r; all of them where several are
 /// equally near (the printed argmin is then not one). Triangles that contain the point are included, as printed: of a
 /// vertex of the mesh these are its own.
-std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float radius);
+std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float contact_radius);
 
 }  // namespace ogc::reference

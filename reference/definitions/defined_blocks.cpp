@@ -6,8 +6,8 @@
 namespace ogc::reference {
 namespace {
 
-bool within(const Connection& found, float radius, Sphere sphere) {
-  const Exact reach = Exact(static_cast<double>(radius)) * found.weight;
+bool within(const Connection& found, float contact_radius, Sphere sphere) {
+  const Exact reach = Exact(static_cast<double>(contact_radius)) * found.weight;
   const int beyond = sign_of(dot(found.along, found.along) - reach * reach);
   return beyond < 0 || (beyond == 0 && sphere == Sphere::closed);
 }
@@ -37,15 +37,15 @@ const NormalCone& DefinedBlocks::Cones::of(Face face) const {
   return face.kind == FaceKind::vertex ? vertices[i] : face.kind == FaceKind::edge ? edges[i] : triangles[i];
 }
 
-bool DefinedBlocks::Cones::contains(Face face, const ExactPoint& x, float radius, Sphere sphere) const {
+bool DefinedBlocks::Cones::contains(Face face, const ExactPoint& x, float contact_radius, Sphere sphere) const {
   const auto found = connection(mesh, face, x);
-  return found && within(*found, radius, sphere) && (is_zero(found->along) || of(face).contains(found->along));
+  return found && within(*found, contact_radius, sphere) && (is_zero(found->along) || of(face).contains(found->along));
 }
 
-bool DefinedBlocks::Cones::contains_edge_only(Face face, const ExactPoint& x, float radius) const {
-  if (face.kind == FaceKind::vertex) return contains(face, x, radius, Sphere::closed);
+bool DefinedBlocks::Cones::contains_edge_only(Face face, const ExactPoint& x, float contact_radius) const {
+  if (face.kind == FaceKind::vertex) return contains(face, x, contact_radius, Sphere::closed);
   const auto found = connection(mesh, face, x);
-  return found && within(*found, radius, Sphere::closed);
+  return found && within(*found, contact_radius, Sphere::closed);
 }
 
 DefinedBlocks::DefinedBlocks(const Complex& mesh) : cones_(new Cones{mesh, {}, {}, {}}) {
@@ -61,16 +61,16 @@ DefinedBlocks::DefinedBlocks(const Complex& mesh) : cones_(new Cones{mesh, {}, {
 
 DefinedBlocks::~DefinedBlocks() = default;
 
-bool DefinedBlocks::contains(Face face, const Vec3f& x, float radius) const {
-  return cones_->contains(face, {exact(x)}, radius, Sphere::closed);
+bool DefinedBlocks::contains(Face face, const Vec3f& x, float contact_radius) const {
+  return cones_->contains(face, {exact(x)}, contact_radius, Sphere::closed);
 }
 
-bool DefinedBlocks::contains_edge_only(Face face, const Vec3f& x, float radius) const {
-  return cones_->contains_edge_only(face, {exact(x)}, radius);
+bool DefinedBlocks::contains_edge_only(Face face, const Vec3f& x, float contact_radius) const {
+  return cones_->contains_edge_only(face, {exact(x)}, contact_radius);
 }
 
-bool DefinedBlocks::in_contact(Face face, const Vec3f& x, float radius) const {
-  return cones_->contains(face, {exact(x)}, radius, Sphere::open);
+bool DefinedBlocks::in_contact(Face face, const Vec3f& x, float contact_radius) const {
+  return cones_->contains(face, {exact(x)}, contact_radius, Sphere::open);
 }
 
 bool DefinedBlocks::has_normals(Face face) const { return !cones_->of(face).generators().empty(); }

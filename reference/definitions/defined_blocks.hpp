@@ -18,10 +18,10 @@ class DefinedBlocks {
   DefinedBlocks(const DefinedBlocks&) = delete;
   DefinedBlocks& operator=(const DefinedBlocks&) = delete;
 
-  bool contains(Face face, const Vec3f& x, float radius) const;            ///< x ∈ U_a, closed at r
-  bool contains_edge_only(Face face, const Vec3f& x, float radius) const;  ///< x ∈ U_a^E, for a vertex or edge
-  bool in_contact(Face face, const Vec3f& x, float radius) const;          ///< x ∈ U_a and d < r
-  bool has_normals(Face face) const;                                       ///< N_a ≠ ∅
+  bool contains(Face face, const Vec3f& x, float contact_radius) const;            ///< x ∈ U_a, closed at r
+  bool contains_edge_only(Face face, const Vec3f& x, float contact_radius) const;  ///< x ∈ U_a^E, for a vertex or edge
+  bool in_contact(Face face, const Vec3f& x, float contact_radius) const;          ///< x ∈ U_a and d < r
+  bool has_normals(Face face) const;                                               ///< N_a ≠ ∅
 
   struct Cones;
   const Cones& cones() const { return *cones_; }  ///< for exact points (defined_blocks_exact.hpp)

@@ -21,14 +21,16 @@ std::optional<Connection> connection(const Complex& mesh, Face face, const Exact
 /// Whether d = r is inside.
 enum class Sphere { closed, open };
 
+/// The cones of normals of all faces of a mesh.
 struct DefinedBlocks::Cones {
   Complex mesh;
   std::vector<NormalCone> vertices, edges, triangles;
 
+  /// N_a of one face.
   const NormalCone& of(Face face) const;
-  bool contains(Face face, const ExactPoint& x, float radius, Sphere boundary) const;
+  bool contains(Face face, const ExactPoint& x, float contact_radius, Sphere boundary) const;
   /// In M^e a vertex has the same neighbours as in M, and every perpendicular of an edge is a normal.
-  bool contains_edge_only(Face face, const ExactPoint& x, float radius) const;
+  bool contains_edge_only(Face face, const ExactPoint& x, float contact_radius) const;
 };
 
 }  // namespace ogc::reference

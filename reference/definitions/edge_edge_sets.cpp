@@ -208,8 +208,8 @@ Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
     to_a += (a[k] - ball.centre[k]) * (a[k] - ball.centre[k]);
     to_b += (b[k] - ball.centre[k]) * (b[k] - ball.centre[k]);
   }
-  const double radius = (std::sqrt(std::max(to_a, to_b)) + query_radius) * (1 + 0x1p-48);
-  ball.squared_radius = radius * radius;
+  const double contact_radius = (std::sqrt(std::max(to_a, to_b)) + query_radius) * (1 + 0x1p-48);
+  ball.squared_radius = contact_radius * contact_radius;
   return ball;
 }
 

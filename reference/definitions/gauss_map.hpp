@@ -20,6 +20,7 @@ enum class VertexKind : std::uint8_t {
   mixed,   ///< has normals, but not convex
   saddle,  ///< has none: x_v is inside the convex hull of its neighbours
 };
+/// Which kind a vertex is; exact.
 VertexKind classify(const Complex& mesh, Index vertex);
 
 /// Whether an edge at v "remains as an edge in the convex hull of star(v)" (§3.2): the hull has a crease along it. Flat

@@ -36,6 +36,7 @@ struct ExactSquares {
   std::vector<std::string> vertex, edge, triangle;  ///< d_min²
   std::vector<std::string> bound;                   ///< b_v² of Eq. 21, γ_p² times the smallest of the above
 };
+/// d_min² and b_v² of all primitives as fractions, b_v with this γ_p (Eq. 21 to 26).
 ExactSquares exact_squares(const compare::DetectIn& in, float bound_relaxation);
 
 }  // namespace ogc::reference

@@ -15,6 +15,7 @@ namespace ogc::reference {
 
 /// Sums and products of floating-point numbers without rounding, of any size.
 using Exact = CGAL::Mpzf;
+/// A point or a vector in exact numbers.
 using ExactVector = Point<Exact>;
 
 /// The point numerator / weight [m], weight > 0: closest points of edges are quotients.
@@ -23,12 +24,17 @@ struct ExactPoint {
   Exact weight = Exact(1);
 };
 
+/// The point without rounding.
 inline ExactVector exact(const Vec3f& x) {
   return {Exact(static_cast<double>(x.x)), Exact(static_cast<double>(x.y)), Exact(static_cast<double>(x.z))};
 }
+/// s a.
 inline ExactVector times(const Exact& s, const ExactVector& a) { return {s * a.x, s * a.y, s * a.z}; }
+/// a + b.
 inline ExactVector plus(const ExactVector& a, const ExactVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+/// Exact.
 inline bool is_zero(const ExactVector& a) { return a.x.is_zero() && a.y.is_zero() && a.z.is_zero(); }
+/// −1, 0 or 1; exact.
 inline int sign_of(const Exact& a) { return static_cast<int>(a.sign()); }
 
 /// {n : n·d ≤ 0 for all d}, the polar cone of the directions in which a surface leaves a point, as the set of sums of
@@ -41,6 +47,7 @@ class NormalCone {
   /// By Carathéodory's theorem: n ≠ 0 is a non-negative combination of at most three independent generators.
   bool contains(const ExactVector& n) const;
 
+  /// Vectors whose non-negative combinations are the cone.
   const std::vector<ExactVector>& generators() const { return generators_; }
   /// Generators come in opposite pairs that span this many dimensions: 0 for a pointed cone, 3 for all space.
   int lineality() const { return lineality_; }

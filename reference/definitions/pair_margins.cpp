@@ -48,13 +48,13 @@ std::vector<BlockMargin> margins_of(const Complex& mesh, Face face, const ExactP
 
 }  // namespace
 
-PairMargins pair_margins(const Complex& mesh, const compare::EdgeEdgeContact& contact, float radius) {
+PairMargins pair_margins(const Complex& mesh, const compare::EdgeEdgeContact& contact, float contact_radius) {
   const Face p = contact.first, q = contact.second;
   const auto ends = [&](Face edge) {
     return std::array<Vec3f, 2>{mesh.at(mesh.edge(edge.index)[0]), mesh.at(mesh.edge(edge.index)[1])};
   };
   if (p.kind == FaceKind::edge && q.kind == FaceKind::edge && nearly_parallel({ends(p), ends(q)})) return {};
-  const Margin gap = pair_gap(mesh, ordered(p, q), radius);
+  const Margin gap = pair_gap(mesh, ordered(p, q), contact_radius);
   return {margins_of(mesh, p, closest_on(mesh, q, p), gap), margins_of(mesh, q, closest_on(mesh, p, q), gap)};
 }
 

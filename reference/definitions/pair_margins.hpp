@@ -16,6 +16,6 @@ struct PairMargins {
 /// Signs are exact, for the closest points as quotients; lengths within 8 ulp. Nothing for the interiors of nearly
 /// parallel edges, whose contact points are a rule's: the blocks asked about them are those of the features that hold
 /// their closest points.
-PairMargins pair_margins(const Complex& mesh, const compare::EdgeEdgeContact& contact, float radius);
+PairMargins pair_margins(const Complex& mesh, const compare::EdgeEdgeContact& contact, float contact_radius);
 
 }  // namespace ogc::reference

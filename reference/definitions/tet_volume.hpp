@@ -68,6 +68,7 @@ class TetVolume {
   /// By tetrahedron, then by the corner that is left out.
   const std::vector<BoundaryTriangle>& boundary() const { return boundary_; }
 
+  /// Whether the vertex is one of its four corners.
   bool has_vertex(Index tetrahedron, Index vertex) const;
 
   /// The sheets at a point of space: of each its tetrahedra, ascending; several where the point lies on a shared

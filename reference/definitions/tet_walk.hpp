@@ -10,11 +10,14 @@
 
 namespace ogc::reference {
 
+/// Numbers in which a walk is decided.
 using Rational = CGAL::Exact_rational;
 using RationalPoint = Point<Rational>;
 
+/// The point without rounding.
 RationalPoint rational(const Vec3f& x);
 
+/// The corners of a tetrahedron, in the order of its vertices.
 std::array<RationalPoint, 4> corners_of(std::span<const Vec3f> positions, const Tetrahedron& tetrahedron);
 
 /// Six times the barycentric weights of x; their sum is six times the volume.
@@ -23,6 +26,7 @@ std::array<Rational, 4> weights(const std::array<RationalPoint, 4>& corners, con
 /// The closest point of a triangle with positive area.
 RationalPoint closest_point(const std::array<RationalPoint, 3>& corners, const RationalPoint& x);
 
+/// ‖a − b‖² [m²].
 Rational squared_distance(const RationalPoint& a, const RationalPoint& b);
 
 /// An interval of the parameter of a segment, both ends included.

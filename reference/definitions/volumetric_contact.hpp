@@ -22,6 +22,6 @@ struct VolumetricContact {
 /// holds x nearer than r, by face. `surface` must be that of `body` (surface_topology). A vertex of the body asks as
 /// `own`: the sheet in which it is itself a vertex, and its own faces, are left out.
 std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const ClosedSurface& surface, const Vec3f& x,
-                                                   float radius, Index own = -1);
+                                                   float contact_radius, Index own = -1);
 
 }  // namespace ogc::reference

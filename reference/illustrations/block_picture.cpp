@@ -178,12 +178,12 @@ std::vector<Unit> outline(const GaussMap& map, double step) {
   return points;
 }
 
-BlockPicture block_picture(const Complex& mesh, Face face, float radius, bool edge_only, double step) {
+BlockPicture block_picture(const Complex& mesh, Face face, float contact_radius, bool edge_only, double step) {
   Painter painter;
   const GaussMap map = gauss_map(mesh, face, edge_only);
   const auto v = mesh.vertices(face).items;
   const auto at = [&](std::size_t k) { return widened_point(mesh.at(v[k])); };
-  const double r = radius;
+  const double r = contact_radius;
   if (map.dimension < 0 || (map.dimension == 2 && map.closed)) return painter.take();
   if (face.kind == FaceKind::vertex) paint_vertex(painter, map, at(0), r, step);
   if (face.kind == FaceKind::edge) paint_edge(painter, map, at(0), at(1), r, step);

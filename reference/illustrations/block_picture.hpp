@@ -18,13 +18,15 @@ struct BlockPatch {
   std::vector<std::vector<int>> outlines;  ///< polylines around the patch
 };
 
+/// A block as triangles and curves.
 struct BlockPicture {
   std::vector<std::array<double, 3>> points;  ///< [m]
   std::vector<BlockPatch> patches;            ///< empty where the face has no normals or a vertex no edges
 };
 
 /// U_a about radius r [m], or U_a^E with `edge_only`; arcs are cut into pieces of at most `step` [rad].
-BlockPicture block_picture(const Complex& mesh, Face face, float radius, bool edge_only = false, double step = 0.1);
+BlockPicture block_picture(const Complex& mesh, Face face, float contact_radius, bool edge_only = false,
+                           double step = 0.1);
 
 /// The points of N_a's boundary on the unit sphere in order, arcs cut like those of the picture; a closed region
 /// repeats its first point at the end.

@@ -52,8 +52,8 @@ DrawingLayer face_layer(const Complex& mesh, Face face) {
   return layer;
 }
 
-void add_block(DrawingPanel& panel, const Complex& mesh, Face face, float radius, bool edge_only) {
-  const BlockPicture picture = block_picture(mesh, face, radius, edge_only, 0.06);
+void add_block(DrawingPanel& panel, const Complex& mesh, Face face, float contact_radius, bool edge_only) {
+  const BlockPicture picture = block_picture(mesh, face, contact_radius, edge_only, 0.06);
   for (const BlockPatch& patch : picture.patches)
     panel.layers.push_back({"block", picture.points, patch.triangles, patch.outlines, {}, patch.closed});
 }
@@ -82,11 +82,11 @@ void add_normals(DrawingPanel& panel, const Complex& mesh, Face face, bool edge_
   panel.layers.push_back({"corners", polygon->normals, {}, {}, {polygon->area}, true});
 }
 
-DrawingPanel panel_of(const std::string& name, const std::string& caption, const Shape& shape, Face face, float radius,
-                      bool edge_only = false) {
+DrawingPanel panel_of(const std::string& name, const std::string& caption, const Shape& shape, Face face,
+                      float contact_radius, bool edge_only = false) {
   const Complex mesh = shape.mesh();
   DrawingPanel panel{name, caption, {surface_of(mesh), face_layer(mesh, face)}};
-  add_block(panel, mesh, face, radius, edge_only);
+  add_block(panel, mesh, face, contact_radius, edge_only);
   add_normals(panel, mesh, face, edge_only);
   return panel;
 }

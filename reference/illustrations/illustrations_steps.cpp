@@ -17,10 +17,10 @@ namespace {
 using Point2 = Slice::Point2;
 using Plane = std::array<double, 2>;
 
-std::vector<float> bounds_of(const compare::Topology& topology, const std::vector<Vec3f>& positions, float radius,
-                             float query_radius) {
+std::vector<float> bounds_of(const compare::Topology& topology, const std::vector<Vec3f>& positions,
+                             float contact_radius, float query_radius) {
   const std::vector<Index> no_groups;
-  const compare::DetectIn in{&topology, no_groups, positions, radius, query_radius};
+  const compare::DetectIn in{&topology, no_groups, positions, contact_radius, query_radius};
   const auto facets = detect_vertex_facet(in).exact;
   const auto edges = detect_edge_edge(in).exact;
   const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);

@@ -36,12 +36,12 @@ SliceFace Slice::face_of(Face face) const {
   return {high > low, low};
 }
 
-std::vector<SliceFace> Slice::layers(const Vec3f& x, float radius) const {
+std::vector<SliceFace> Slice::layers(const Vec3f& x, float contact_radius) const {
   std::vector<SliceFace> found;
   const auto ask = [&](FaceKind kind, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       const Face face{kind, static_cast<Index>(i)};
-      if (in_block(mesh(), face, x, radius)) found.push_back(face_of(face));
+      if (in_block(mesh(), face, x, contact_radius)) found.push_back(face_of(face));
     }
   };
   ask(FaceKind::vertex, polyline_.size() * 3);

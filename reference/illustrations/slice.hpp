@@ -21,19 +21,23 @@ struct SliceFace {
 /// A polyline in the plane z = 0 with the surface that it sweeps; `extra` points follow as vertices of their own.
 class Slice {
  public:
+  /// A point of the plane [m].
   using Point2 = std::array<float, 2>;
   Slice(std::vector<Point2> polyline, std::span<const Point2> extra = {});
 
+  /// The swept surface.
   Complex mesh() const { return {topology_, positions_}; }
+  /// What was swept.
   const std::vector<Point2>& polyline() const { return polyline_; }
   /// of the polyline, in the plane
   Index vertex(int i) const { return middle_ + i; }
+  /// The vertex that the i-th further point has become.
   Index extra(int i) const { return static_cast<Index>(positions_.size()) - extra_count_ + i; }
   /// what a face of the surface is in the plane
   SliceFace face_of(Face face) const;
 
   /// The faces of the polyline whose blocks hold the point, ascending: one for each layer.
-  std::vector<SliceFace> layers(const Vec3f& x, float radius) const;
+  std::vector<SliceFace> layers(const Vec3f& x, float contact_radius) const;
 
  private:
   std::vector<Point2> polyline_;

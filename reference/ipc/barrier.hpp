@@ -78,7 +78,7 @@ struct BarrierTermOf {
     return value;
   }
 
-  /// As of the terms of energies/stencils/stencil_terms.hpp.
+  /// As of the terms of energies/stencil_terms.hpp.
   auto numbers() { return std::tie(weight, rest_squared); }
   auto numbers() const { return std::tie(weight, rest_squared); }
   auto kinds() { return std::tie(form.kind, form.at); }
@@ -91,6 +91,7 @@ struct BarrierTermOf {
     return composed(slopes.value, slopes.slope[0], slopes.bend(0), gap);
   }
 };
+/// A barrier over doubles.
 using BarrierTerm = BarrierTermOf<double>;
 
 }  // namespace ogc::reference

@@ -11,7 +11,6 @@ namespace ogc::reference {
 namespace {
 
 using compare::ContactSides;
-using compare::HessianProjection;
 using compare::Index;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }

@@ -1,6 +1,6 @@
-// What the reference's solvers share of a step (Algorithm 3, method.md §5.2): targets, detections with their balls, the
-// guess loop, prescribed vertices, the row at the end. How a solver moves the free vertices between two detections is
-// its own.
+// What Newton's method and VBD share of a step (Algorithm 3, method.md §5.2): targets, detections with their balls, the
+// guess loop, prescribed vertices, the row at the end. How the free vertices move between two detections, each solver
+// decides.
 //
 //   begin ── guess: detect, x ← y inside the balls, again while many are cut ──┐
 //     ┌────────────────────────────────────────────────────────────────────────┘
@@ -20,6 +20,7 @@ struct StepResult {
   float query_radius = 0;  ///< [m]
 };
 
+/// Whoever takes a scene from one step to the next.
 class StepSolver {
  public:
   virtual ~StepSolver() = default;
@@ -37,6 +38,7 @@ enum class GuessEnd {
   contact
 };
 
+/// The parts of a step, for solvers to derive from.
 class ContactStep {
  public:
   ContactStep(const ContactStep&) = delete;

@@ -33,7 +33,7 @@ std::vector<compare::Vec3f> rounded(const State& x) {
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most) {
-  double radius = double{contact_radius};
+  double query_radius = double{contact_radius};
   const auto at = [&](compare::Index v) { return wide(positions[static_cast<std::size_t>(v)]); };
   for (const std::size_t v : movable) {
     const auto vertex = static_cast<compare::Index>(v);
@@ -50,17 +50,17 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
           nearest = std::min(nearest, distance_to_segment(at(vertex), at(side[0]), at(side[1])));
         }
       }
-    radius = std::max(radius, nearest);
+    query_radius = std::max(query_radius, nearest);
   }
   // Rounding moves a distance by some 2⁻⁵⁰ of the coordinates: a part in 2²⁰ of r and more covers that up to
   // coordinates of 2³⁰ r.
-  return std::min(most, static_cast<float>(radius * (1 + 0x1p-20)));
+  return std::min(most, static_cast<float>(query_radius * (1 + 0x1p-20)));
 }
 
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius) {
-  const auto radius = static_cast<float>(scene.settings.contact_radius);
-  const compare::DetectIn in{&topology, exclusions, positions, radius, query_radius};
+  const auto contact_radius = static_cast<float>(scene.settings.contact_radius);
+  const compare::DetectIn in{&topology, exclusions, positions, contact_radius, query_radius};
   compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
   compare::DetectEdgeEdgeOut edges = exact_edge_edge(in);
   const auto relaxation = static_cast<float>(scene.settings.bound_relaxation);

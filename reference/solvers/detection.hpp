@@ -1,7 +1,7 @@
-// Contact detection at Newton's positions, and the balls that keep them free of penetration. Positions are doubles
-// between two detections; a detection is asked about single-precision ones. So X_prev is x rounded, and each ball is
-// smaller than its bound by what rounding can move a point: x and what will be stored of it both lie within the bound
-// (Eq. 27), and the way from X_prev over x to the next X_prev stays inside, too.
+// Contact detection for solvers in double, and the balls that keep their positions free of penetration. A detection
+// reads single-precision positions, so X_prev is x rounded, and each ball is smaller than its bound by what rounding
+// can move a point: x and its rounding both lie within the bound (Eq. 27), and the way from X_prev over x to the next
+// X_prev stays inside.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 
 namespace ogc::reference {
 
+/// What a detection found, and where.
 struct Detected {
   ContactSets sets;
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
@@ -42,6 +43,7 @@ class Balls {
     Triple<double> x;
     bool cut = false;
   };
+  /// Where the ball lets this vertex go.
   Inside inside(std::size_t vertex, const Triple<double>& x) const;
   /// The largest share in [0, 1] of `step` that stays in the ball.
   double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;

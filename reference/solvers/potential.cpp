@@ -16,7 +16,6 @@ namespace ogc::reference {
 namespace {
 
 using compare::ContactSides;
-using compare::HessianProjection;
 using compare::Index;
 
 /// Calls `visit` with the first `Count` places for the contact's number of vertices.
@@ -68,7 +67,7 @@ HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest
   const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
   HingeTerm term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle},
                  material.bending_damping / scene.settings.time_step};
-  term.isometric = material.bending == compare::BendingModel::isometric_quadratic;
+  term.model = material.bending;
   for (std::size_t k = 0; k < 3; ++k) {
     term.weight[k + 1] = double{rest.weight[k]};
     term.weight[0] -= term.weight[k + 1];
@@ -122,10 +121,13 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
       mobility_(mobility_of(scene)),
       mass_(rest_.mass.begin(), rest_.mass.end()),
       step_(scene.settings.time_step) {
-  if (scene.settings.damping == compare::DampingForm::per_vertex)
-    throw compare::InputError(
-        "damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or "
-        "damping=strain");
+  switch (scene.settings.damping) {
+    case compare::DampingForm::strain: break;
+    case compare::DampingForm::per_vertex:
+      throw compare::InputError(
+          "damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or "
+          "damping=strain");
+  }
   free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
   for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
   for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
@@ -145,14 +147,14 @@ void Potential::begin_step(const State& start, const State& target) {
   }
 }
 
-void Potential::set_contacts(const ContactSets& sets, const State& detected) {
+void Potential::set_contacts(const ContactSets& sets, const State& previous) {
   contacts_.clear();
   for (const compare::VertexFacetContact& contact : sets.vertex_facet)
-    add_contact(stencil_of(topology_, contact), detected);
-  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) add_contact(stencil_of(topology_, contact), detected);
+    add_contact(stencil_of(topology_, contact), previous);
+  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) add_contact(stencil_of(topology_, contact), previous);
 }
 
-void Potential::add_contact(const ContactStencil& stencil, const State& detected) {
+void Potential::add_contact(const ContactStencil& stencil, const State& previous) {
   const auto is_free = [&](Index v) { return v >= 0 && mobility_[static_cast<std::size_t>(v)] == Mobility::free; };
   if (std::none_of(stencil.vertex.begin(), stencil.vertex.end(), is_free)) return;
   const compare::MeetingMaterial& material = material_of(rest_, scene_.bodies.size(), body_, stencil);
@@ -161,7 +163,7 @@ void Potential::add_contact(const ContactStencil& stencil, const State& detected
                        double{material.friction}, scene_.settings.activation});
   if (stencil.sides != ContactSides::edge_edge) return;
   const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
-  contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, detected));
+  contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, previous));
 }
 
 std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term,
@@ -170,9 +172,10 @@ std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term,
   const ClosestForm form = closest_form(term.sides, corners);
   const Triple<double> apart = separation(form.weight, corners);
   const double distance = norm(apart);
-  if (distance == 0 || distance >= term.radius) return {};
+  if (distance == 0 || distance >= term.contact_radius) return {};
   using Slope = Derivative<double, 1>;
-  const double slope = contact_activation(term.activation, Slope(distance, 0), term.radius, term.stiffness).slope[0];
+  const double slope =
+      contact_activation(term.activation, Slope(distance, 0), term.contact_radius, term.stiffness).slope[0];
   return FrictionTerm{term.sides,
                       term.vertex,
                       form.weight,

@@ -7,8 +7,6 @@
 namespace ogc::reference {
 namespace {
 
-using compare::HessianProjection;
-
 template <std::size_t Count, class Term>
 std::array<Triple<double>, Count> corners_of(const Term& term, const State& x) {
   if constexpr (std::is_same_v<Term, SpringTerm>)
@@ -44,11 +42,11 @@ std::uint8_t prepare(const ContactTerm& term, const State& x, Prepared& to) {
   const std::array<Triple<double>, 4> corners = contact_corners(term.sides, term.vertex, x);
   const ClosestForm form = closest_form(term.sides, corners);
   const double distance = form_distance(form, corners);
-  if (distance >= term.radius) return left_out;
+  if (distance >= term.contact_radius) return left_out;
   to = {{term, form.weight, form.kind}, corners};
   if (form.kind != FormKind::fixed_weights)
     for (std::size_t k = 0; k < vertex_count(form.kind); ++k) to.corner[k] = corners[to.place[k] = form.at[k]];
-  return static_cast<std::uint8_t>(2 * static_cast<int>(form.kind) + (2 * distance < term.radius ? 1 : 0));
+  return static_cast<std::uint8_t>(2 * static_cast<int>(form.kind) + (2 * distance < term.contact_radius ? 1 : 0));
 }
 
 template <std::size_t Count>
@@ -73,7 +71,8 @@ void differentiate(const Bundle& bundle, const std::vector<Prepared>& contacts, 
     case FormKind::points: return differentiate<2>(bundle, contacts, kernels.contacts_of_2, projection, to);
     case FormKind::point_line: return differentiate<3>(bundle, contacts, kernels.contacts_of_3, projection, to);
     case FormKind::fixed_weights: return differentiate<4>(bundle, contacts, kernels.weighted_contacts, projection, to);
-    default: return differentiate<4>(bundle, contacts, kernels.contacts_of_4, projection, to);
+    case FormKind::point_plane:
+    case FormKind::lines: return differentiate<4>(bundle, contacts, kernels.contacts_of_4, projection, to);
   }
 }
 

@@ -25,15 +25,15 @@ std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 using Finished = std::function<void(std::size_t stencil)>;
 
 /// Derivatives of all terms at x, into the places behind `to`.
-void differentiate(std::span<const MembraneTerm> terms, const State& x, compare::HessianProjection projection,
+void differentiate(std::span<const MembraneTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const HingeTerm> terms, const State& x, compare::HessianProjection projection,
+void differentiate(std::span<const HingeTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const SpringTerm> terms, const State& x, compare::HessianProjection projection,
+void differentiate(std::span<const SpringTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const ContactTerm> terms, const State& x, compare::HessianProjection projection,
+void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const FrictionTerm> terms, const State& x, compare::HessianProjection projection,
+void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 
 template <std::size_t Count, class Vertices>

@@ -1,7 +1,7 @@
-// The 3×3 system of one vertex in double: the force of all energies and the sweep's approximation of their Hessian
-// (method.md §4), by automatic differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp)
-// asks the stages, each with its errors, about single-precision positions; this one is for whole runs, whose positions
-// are doubles.
+// The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
+// §4). Each energy derives its own, beside itself (energies/membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp). The
+// judged sweep (vertex_terms.hpp) sums what the stages answer about single-precision positions, each with its errors;
+// its blocks are the same functions over another number type.
 #pragma once
 
 #include <array>
@@ -9,15 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "reference/energies/vertex_block.hpp"
 #include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 
-/// Inertia included. Block: xx, xy, xz, yy, yz, zz; positive definite.
-struct VertexSystem {
-  Triple<double> force{};         ///< [N]
-  std::array<double, 6> block{};  ///< [N/m]
-};
+/// Inertia included; the block is positive definite.
+using VertexSystem = VertexSystemOf<double>;
 
 /// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position,
 /// others at the old one. Colours are from 0 on; −1: prescribed and fixed vertices, which move first.
@@ -25,12 +23,14 @@ struct SweepView {
   const State& old;
   const State& fresh;
   std::span<const compare::Index> colour;
+  /// Where `vertex` is read from when `own` is solved [m].
   const Triple<double>& at(compare::Index own, compare::Index vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return colour[v] < colour[static_cast<std::size_t>(own)] ? fresh[v] : old[v];
   }
 };
 
+/// Of one potential.
 class VertexSystems {
  public:
   /// The potential must outlive it.
@@ -44,16 +44,16 @@ class VertexSystems {
 
  private:
   /// A stencil and the vertex's place in it.
-  struct Part {
+  struct Incidence {
     std::uint32_t stencil = 0;
     std::uint8_t place = 0;
   };
-  using Parts = std::vector<std::vector<Part>>;  ///< by vertex; empty where not free
+  using Incidences = std::vector<std::vector<Incidence>>;  ///< by vertex; empty where not free
   template <class Terms>
-  void list(const Terms& terms, Parts& parts) const;
+  void list(const Terms& terms, Incidences& incidences) const;
 
   const Potential& potential_;
-  Parts membranes_, hinges_, springs_, contacts_;
+  Incidences membranes_, hinges_, springs_, contacts_;
 };
 
 }  // namespace ogc::reference

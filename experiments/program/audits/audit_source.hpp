@@ -25,10 +25,13 @@ struct AuditedState {
   std::string text;             ///< the listed intersections in words, one line each
 };
 
+/// States to audit, of a run or of files of other programs.
 class AuditSource {
  public:
   virtual ~AuditSource() = default;
+  /// Number of states.
   virtual std::size_t size() const = 0;
+  /// What state i is called in messages.
   virtual std::string name(std::size_t i) const = 0;
   /// Reads the next state. Throws compare::InputError where it can't be read; no further state can be asked for then.
   virtual AuditedState next() = 0;
@@ -38,6 +41,7 @@ class AuditSource {
   virtual std::string left_out() const { return ""; }
 };
 
+/// What is audited, and how.
 struct AuditRequest {
   std::vector<std::string>
       paths;                    ///< a run folder, a folder of meshes, meshes, patterns of them, one .npz, .npy or .pc2

@@ -22,6 +22,7 @@ namespace ogc::experiments {
 
 /// What is audited: each step, each stored frame, the last state, nothing.
 enum class AuditMode { every, frame, end, off };
+/// As of --audit.
 std::string name_of(AuditMode mode);
 /// Throws compare::InputError where nothing is called so.
 AuditMode audit_mode(const std::string& name);
@@ -37,6 +38,7 @@ struct Verdict {
   std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
   compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
   double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
+  /// Whether the state keeps the guarantee.
   bool kept() const { return intersections.count == 0 && motion.kept() && unsafe_bounds == 0; }
 };
 

@@ -29,7 +29,7 @@ constexpr double default_radius_ratio = 0.2;
 
 struct Options {
   std::string mesh, engine = "exact";
-  double radius = 0, query_radius = 0;
+  double contact_radius = 0, query_radius = 0;
   compare::MeshOptions taken;
   int threads = 0;
   FurtherSets further;
@@ -70,15 +70,16 @@ void run(const Options& options, const CommandContext& context) {
   const compare::Mesh& mesh = input.mesh;
   if (options.squares && (!context.json || options.engine != "exact"))
     throw compare::InputError("--squares adds to the JSON of the exact engine; give --json and --engine exact");
-  const double radius = options.radius > 0 ? options.radius : default_radius_ratio * mean_edge_length(mesh);
-  const double query_radius = options.query_radius > 0 ? options.query_radius : default_query_ratio * radius;
-  if (query_radius < radius)
+  const double contact_radius = options.contact_radius > 0 ? options.contact_radius
+                                                           : default_radius_ratio * mean_edge_length(mesh);
+  const double query_radius = options.query_radius > 0 ? options.query_radius : default_query_ratio * contact_radius;
+  if (query_radius < contact_radius)
     throw compare::InputError("--query-radius " + number(query_radius) + " is below the contact radius " +
-                              number(radius) + "; give at least that");
+                              number(contact_radius) + "; give at least that");
   const std::map<std::string, Engine> engines{{"exact", Engine::exact}, {"cpu", Engine::cpu}, {"cuda", Engine::cuda}};
   const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
   const auto start = std::chrono::steady_clock::now();
-  const ContactReport report = find_contacts(mesh, engines.at(options.engine), static_cast<float>(radius),
+  const ContactReport report = find_contacts(mesh, engines.at(options.engine), static_cast<float>(contact_radius),
                                              static_cast<float>(query_radius), bound_relaxation, options.further);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::size_t intersections = compare::audit(report.topology, mesh.positions).count;
@@ -105,7 +106,9 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("contacts", "Contact sets, distances and conservative bounds of a mesh");
   command->add_option("MESH", options->mesh, "An .obj, .ply, .stl, .off, .gltf or .glb file");
   add_mesh_options(*command, options->taken);
-  command->add_option("--radius", options->radius, "Contact radius r [m] (default: a fifth of the mean edge length)")
+  command
+      ->add_option("--radius", options->contact_radius,
+                   "Contact radius r [m] (default: a fifth of the mean edge length)")
       ->check(real_number(least_radius, most_radius, "m"));
   command->add_option("--query-radius", options->query_radius, "Query radius r_q ≥ r [m] (default: 4 r)")
       ->check(real_number(least_radius, most_query_radius, "m"));

@@ -94,7 +94,7 @@ class MeasuredSimulation : public compare::Simulation {
       if (event->kind == StepEventKind::detection) {
         now += times.detection;
         contacts_ = {event->vertex_facet.contacts, event->edge_edge.contacts};
-        detected_ = event->position;
+        previous_ = event->position;
       }
       if (event + 1 == begin) add_row(*event, now, step);
       if (event < begin) continue;
@@ -105,13 +105,13 @@ class MeasuredSimulation : public compare::Simulation {
         continue;
       }
       now += times.sweep;
-      step.iteration_rows.back().vertices_at_bound = event->cut;
+      step.iteration_rows.back().vertices_cut = event->cut;
       add_row(*event, now, step);
     }
   }
 
   void add_row(const StepEvent& event, double now, StepMetrics& step) {
-    const reference::Residual measured = meter_.with(contacts_, detected_, event.position);
+    const reference::Residual measured = meter_.with(contacts_, previous_, event.position);
     compare::IterationMetrics row;
     row.step = step.step;
     row.iteration = static_cast<std::int64_t>(step.iteration_rows.size());
@@ -130,7 +130,7 @@ class MeasuredSimulation : public compare::Simulation {
   std::function<compare::StepOut(const compare::StepIn&)> trace_;
   reference::ResidualMeter meter_;
   reference::ContactSets contacts_;       ///< of the trace's last detection
-  std::vector<compare::Vec3f> detected_;  ///< where it was
+  std::vector<compare::Vec3f> previous_;  ///< where it was
 };
 
 }  // namespace

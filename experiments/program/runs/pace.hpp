@@ -8,6 +8,7 @@
 
 namespace ogc::experiments {
 
+/// How many steps to take before the next look at signals and clocks.
 class Pace {
  public:
   /// A call takes about so long [s]: steps that become four times slower from one call to the next, as where contacts

@@ -14,9 +14,8 @@
 #include "experiments/program/option_checks.hpp"
 #include "experiments/program/runs/measured_simulation.hpp"
 #include "experiments/program/runs/mesh_scene.hpp"
+#include "experiments/program/runs/solvers.hpp"
 #include "experiments/scenes/registry.hpp"
-#include "fast/contestant.hpp"
-#include "reference/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -112,24 +111,7 @@ void apply_settings(compare::Scene& scene, const RunOptions& options) {
   if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
 
-const std::vector<std::string> solver_names{"vbd", "newton", "reference_vbd", "ipc"};
 const std::vector<std::string> backend_names{"cpu", "cuda"};
-
-/// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one
-/// iteration.
-std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
-  compare::Scene once = scene;
-  once.settings.iterations = once.settings.guess_rounds = 1;
-  const compare::Topology topology = build_topology(once);
-  return fast::contestant(fast::Backend::cpu).step({&once, &topology}).colour;
-}
-
-compare::Contestant solver_of(const RunOptions& options) {
-  if (options.solver == "newton") return reference::newton();
-  if (options.solver == "ipc") return reference::ipc();
-  if (options.solver == "reference_vbd") return reference::vbd(fast_colours);
-  return fast::contestant(options.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu);
-}
 
 }  // namespace
 
@@ -143,7 +125,7 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       ->check(real_number(-compare::most_length, compare::most_length, "m"));
   add_mesh_options(command, options->mesh);
   command.add_option("--solver", options->solver, "How a step is solved")
-      ->check(CLI::IsMember(solver_names))
+      ->check(CLI::IsMember(std::vector<std::string>(solver_names().begin(), solver_names().end())))
       ->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")
       ->check(CLI::IsMember(backend_names))
@@ -227,20 +209,16 @@ std::string settings_help() {
 }
 
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
-  if (!std::ranges::count(solver_names, options.solver))
-    throw compare::InputError("--solver " + options.solver +
-                              " does not exist; there are: vbd (Vertex Block Descent with OGC contact), newton "
-                              "(Newton's method with OGC contact), "
-                              "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");
+  const SolverOptions solver = options_of(parse_solver(options.solver));
   if (!std::ranges::count(backend_names, options.backend))
     throw compare::InputError("--backend " + options.backend + " does not exist; there are: " + backend_names[0] +
                               ", " + backend_names[1]);
-  if (options.solver != "vbd" && options.backend != "cpu")
+  if (!solver.has_backends && options.backend != "cpu")
     throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
-  if (options.solver != "newton" && options.condition)
-    throw compare::InputError("--condition belongs to --solver newton");
-  if (options.solver == "ipc" && options.residual)
-    throw compare::InputError("--solver ipc has a measure of its own in that column; leave --residual out");
+  if (!solver.has_condition && options.condition) throw compare::InputError("--condition belongs to --solver newton");
+  if (!solver.has_measured_residual && options.residual)
+    throw compare::InputError("--solver " + options.solver +
+                              " has a measure of its own in that column; leave --residual out");
   RunRequest request;
   compare::SceneFile file = load_scene(options, request.scale);
   request.scene = std::move(file.scene);
@@ -264,8 +242,9 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
 }
 
 compare::Contestant contestant_of(const RunOptions& options) {
-  const bool has_rows = options.iterations && options.solver == "vbd";
-  const compare::Contestant contestant = solver_of(options);
+  const Solver solver = parse_solver(options.solver);
+  const bool has_rows = options.iterations && options_of(solver).has_traced_rows;
+  const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda");
   return options.residual || has_rows ? measured(contestant, has_rows) : contestant;
 }
 

@@ -10,6 +10,7 @@
 
 namespace ogc::experiments {
 
+/// The options as typed.
 struct RunOptions {
   std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out, show;
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order

@@ -313,7 +313,7 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.guess_rounds += row.guess_rounds;
     summary_.iterations += row.iterations;
     summary_.repeats += row.repeats;
-    summary_.largest_share_at_bound = std::max(summary_.largest_share_at_bound, row.share_at_bound);
+    summary_.largest_share_cut = std::max(summary_.largest_share_cut, row.share_cut);
     summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
     summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);

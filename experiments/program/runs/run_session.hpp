@@ -32,6 +32,7 @@ struct RunSeconds {
   double writing = 0;  ///< that the run waited for the disk
 };
 
+/// What a run is asked for.
 struct RunRequest {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
   compare::Scene scene;                                                            ///< with all settings applied
@@ -67,16 +68,19 @@ struct RunSummary {
   /// detections: trees brought up to date and asked
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
-  double largest_share_at_bound = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
+  double largest_share_cut = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
   std::optional<bool> guarantee_kept;  ///< empty where nothing was audited and nothing is known to be wrong
   std::string final_hash;              ///< state_hash of the last good state
   RunSeconds seconds;                  ///< of this command, which may have gone on with an earlier one's run
 };
 
+/// For programs.
 Json to_json(const RunSummary& summary);
+/// For people.
 std::string describe(const RunSummary& summary);
 
+/// One run, from its folder to its summary.
 class RunSession {
  public:
   /// Checks the scene, the folder and the start; a run that goes on was checked by resumed_run, and its state when that

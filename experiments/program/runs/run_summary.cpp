@@ -56,7 +56,7 @@ Json to_json(const RunSummary& summary) {
   json["guess_rounds"] = summary.guess_rounds;
   json["iterations"] = summary.iterations;
   json["repeats"] = summary.repeats;
-  json["largest_share_at_bound"] = summary.largest_share_at_bound;
+  json["largest_share_cut"] = summary.largest_share_cut;
   json["largest_momentum_lost"] = summary.largest_momentum_lost;
   json["largest_lag_m"] = summary.largest_lag;
   json["smallest_distance_m"] = summary.smallest_distance;
@@ -87,8 +87,7 @@ std::string describe(const RunSummary& summary) {
                          per_step(summary.continuous_detections, steps) + " continuous"},
       {"guess rounds", per_step(summary.guess_rounds, steps)},
       {"repeated steps", integer(summary.repeats) + " (a list grew)"},
-      {"vertices at bound",
-       "at most " + number(100 * summary.largest_share_at_bound) + " % after a step's last iteration"},
+      {"vertices cut", "at most " + number(100 * summary.largest_share_cut) + " % after a step's last iteration"},
       {"momentum lost", "at most " + number(100 * summary.largest_momentum_lost) + " % of a step's, in the guess loop"},
       {"largest lag", number(summary.largest_lag) + " m of prescribed vertices"},
       {"smallest distance",

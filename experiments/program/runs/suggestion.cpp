@@ -133,18 +133,18 @@ SuggestedNumber radius_of(const Measures& mesh) {
                                  " m, is below it, and what is nearer than r at the start is pushed apart"};
 }
 
-SuggestedNumber query_radius_of(const Measures& mesh, double radius) {
-  const double least = compare::Settings{}.query_radius_cap * radius;
-  const double value = std::clamp(two_digits(mesh.edge), least, most_radii * radius);
+SuggestedNumber query_radius_of(const Measures& mesh, double contact_radius) {
+  const double least = compare::Settings{}.query_radius_cap * contact_radius;
+  const double value = std::clamp(two_digits(mesh.edge), least, most_radii * contact_radius);
   return {value,
           "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the "
           "lists stay short"};
 }
 
-SuggestedNumber stiffness_of(const Measures& mesh, double radius) {
+SuggestedNumber stiffness_of(const Measures& mesh, double contact_radius) {
   const double weights = std::max(weights_held, std::ceil(mesh.layers));
-  const double held = weights * mesh.mass * gravity / (radius / 2);
-  const double stopped = mesh.mass * mesh.speed * mesh.speed / (radius * radius / 4);
+  const double held = weights * mesh.mass * gravity / (contact_radius / 2);
+  const double stopped = mesh.mass * mesh.speed * mesh.speed / (contact_radius * contact_radius / 4);
   const std::string vertex = "a vertex of " + number(mesh.mass) + " kg ";
   if (held >= stopped)
     return {round_number_above(held), vertex + "with " + number(weights) +
@@ -154,15 +154,16 @@ SuggestedNumber stiffness_of(const Measures& mesh, double radius) {
 }
 
 /// Sweeps that the layers ask for.
-double layer_sweeps(const Measures& mesh, double radius, double step) {
-  const double fallen = gravity * step * step / radius;
+double layer_sweeps(const Measures& mesh, double contact_radius, double step) {
+  const double fallen = gravity * step * step / contact_radius;
   return mesh.layers * std::min(sweeps_a_layer_and_radius * fallen, most_sweeps_a_layer);
 }
 
-SuggestedNumber time_step_of(const Measures& mesh, double radius, double query_radius) {
+SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double query_radius) {
   const double way = detections_a_step * compare::Settings{}.bound_relaxation * query_radius;
-  const double settled = std::sqrt(most_iterations * radius / (sweeps_a_layer_and_radius * gravity * mesh.layers));
-  if (layer_sweeps(mesh, radius, longest_step) > most_iterations && mesh.speed * settled <= way)
+  const double settled = std::sqrt(most_iterations * contact_radius /
+                                   (sweeps_a_layer_and_radius * gravity * mesh.layers));
+  if (layer_sweeps(mesh, contact_radius, longest_step) > most_iterations && mesh.speed * settled <= way)
     return {1 / round_number_above(1 / settled),
             number(mesh.layers) + " layers lie on one another: sweeps carry the ground's support up layer by layer, " +
                 "and " + number(most_iterations) + " must do for what all of them fall in a step, g h²"};
@@ -203,8 +204,8 @@ Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material,
   result.contact_radius = within_setting("contact_radius", radius_of(measures));
   result.query_radius = query_radius_of(measures, result.contact_radius.value);
   result.contact_stiffness = within_stiffnesses(stiffness_of(measures, result.contact_radius.value));
-  const double radius = result.contact_radius.value;
-  result.time_step = within_setting("time_step", time_step_of(measures, radius, result.query_radius.value));
+  const double contact_radius = result.contact_radius.value;
+  result.time_step = within_setting("time_step", time_step_of(measures, contact_radius, result.query_radius.value));
   result.iterations = iterations_of(measures, material, result);
   return result;
 }

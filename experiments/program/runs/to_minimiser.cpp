@@ -107,8 +107,8 @@ class Question {
         bound_(end.positions.size(), no_bound) {
     const compare::Authority authority = reference::authority();
     const compare::Exclusions exclusions = compare::exclusions(scene);
-    const auto radius = static_cast<float>(scene.settings.contact_radius);
-    const compare::DetectIn detect{&topology_, exclusions, previous_, radius, radius};
+    const auto contact_radius = static_cast<float>(scene.settings.contact_radius);
+    const compare::DetectIn detect{&topology_, exclusions, previous_, contact_radius, contact_radius};
     vertex_facet_ = authority.detect_vertex_facet(detect).exact.contacts;
     edge_edge_ = authority.detect_edge_edge(detect).exact.contacts;
     rest_ = authority.rest_state({&scene, &topology_}).exact;

@@ -42,16 +42,16 @@ double median_edge(const compare::Scene& scene, const compare::Body& body) {
 
 /// Of the body with the shortest edges: it has the most contacts.
 std::string radius_warning(const compare::Scene& scene) {
-  const double radius = scene.settings.contact_radius;
+  const double contact_radius = scene.settings.contact_radius;
   const compare::Body* finest = nullptr;
   double edge = 0;
   for (const compare::Body& body : scene.bodies) {
     const double median = median_edge(scene, body);
     if (median > 0 && (finest == nullptr || median < edge)) finest = &body, edge = median;
   }
-  if (finest == nullptr || radius <= most_edges_a_radius * edge) return "";
-  return "contact_radius is " + number(radius) + " m, " + number(radius / edge) + " median edges (" + number(edge) +
-         " m) of body '" + finest->name + "', above " + number(most_edges_a_radius) +
+  if (finest == nullptr || contact_radius <= most_edges_a_radius * edge) return "";
+  return "contact_radius is " + number(contact_radius) + " m, " + number(contact_radius / edge) + " median edges (" +
+         number(edge) + " m) of body '" + finest->name + "', above " + number(most_edges_a_radius) +
          ": neighbours in the mesh press each other apart, and contacts are many; take at most " + number(edge, 2) +
          " m, one edge, or a coarser mesh (ogc suggest says more)";
 }

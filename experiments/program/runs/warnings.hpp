@@ -18,6 +18,7 @@ inline constexpr double most_edges_a_radius = 2;
 /// Share of a step's momentum that truncation may take.
 inline constexpr double most_momentum_lost = 0.5;
 
+/// What is said of a run at most once.
 class Warnings {
  public:
   /// Looks at the scene, which must be valid, as it starts: its box, and r against the edges of each body with

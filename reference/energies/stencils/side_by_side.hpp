@@ -102,7 +102,7 @@ class SideBySide {
   using Term = typename Kind::template TermOf<double>;
   static constexpr std::size_t count = Kind::count, size = 3 * Kind::moving;
 
-  static void differentiate(const Batch<Term, count>& batch, compare::HessianProjection projection) {
+  static void differentiate(const Batch<Term, count>& batch, HessianProjection projection) {
     SideBySide(batch, projection);
   }
 
@@ -112,9 +112,9 @@ class SideBySide {
   static constexpr std::size_t packs = batch_width / One::width;
   using Wide = Lanes<packs>;
 
-  SideBySide(const Batch<Term, count>& batch, compare::HessianProjection projection) : batch_(batch) {
+  SideBySide(const Batch<Term, count>& batch, HessianProjection projection) : batch_(batch) {
     for (std::size_t first = 0; first < batch_width; first += One::width) evaluate(first);
-    if (projection != compare::HessianProjection::none) project_all(projection);
+    if (projection != HessianProjection::none) project_all(projection);
     for (std::size_t first = 0; first < batch.size; first += One::width) expand(first);
   }
 
@@ -168,10 +168,10 @@ class SideBySide {
   }
   void clear(std::size_t first) { store(Second<size, One>(0.0), first); }
 
-  void project_all(compare::HessianProjection projection) {
+  void project_all(HessianProjection projection) {
     LowerTriangle<size, Wide> h;
     for (std::size_t i = 0; i < h.size(); ++i) h[i] = Wide::load(bend_[i].data());
-    project<size, packs>(h, projection == compare::HessianProjection::absolute);
+    project<size, packs>(h, projection == HessianProjection::absolute);
     for (std::size_t i = 0; i < h.size(); ++i) h[i].store(bend_[i].data());
   }
 

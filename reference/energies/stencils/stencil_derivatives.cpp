@@ -21,9 +21,9 @@ void project_sized(double* matrix, bool absolute) {
 
 }  // namespace
 
-void project(double* matrix, std::size_t size, compare::HessianProjection projection) {
-  if (projection == compare::HessianProjection::none) return;
-  const bool absolute = projection == compare::HessianProjection::absolute;
+void project(double* matrix, std::size_t size, HessianProjection projection) {
+  if (projection == HessianProjection::none) return;
+  const bool absolute = projection == HessianProjection::absolute;
   switch (size) {
     case 3: return project_sized<3>(matrix, absolute);
     case 6: return project_sized<6>(matrix, absolute);

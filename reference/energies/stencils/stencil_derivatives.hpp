@@ -10,6 +10,10 @@
 
 namespace ogc::reference {
 
+/// How Newton's method makes a stencil's Hessian positive semidefinite: not at all, negative eigenvalues to 0, or to
+/// their absolute values.
+enum class HessianProjection : std::uint8_t { none, clamp, absolute };
+
 /// Of a stencil of n ≤ 4 vertices: gradient [N] in 3n entries, Hessian [N/m] as rows of 12 numbers of which 3n are
 /// used.
 struct StencilDerivatives {
@@ -35,7 +39,7 @@ constexpr std::array<std::array<double, Count - 1>, Count> without_translation()
 }
 
 /// Makes the symmetric matrix of `size` rows positive semidefinite in place; row-major. `none` leaves it as it is.
-void project(double* matrix, std::size_t size, compare::HessianProjection projection);
+void project(double* matrix, std::size_t size, HessianProjection projection);
 
 /// The stencil's vertices as variables. Positions relative to the first vertex, which changes nothing but roundings.
 template <std::size_t Count>
@@ -53,7 +57,7 @@ std::array<Triple<Second<coordinate_count<Count>>>, Count> stencil_variables(
 
 /// From the reduced coordinates back to the vertices.
 template <std::size_t Count>
-StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, compare::HessianProjection projection) {
+StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, HessianProjection projection) {
   constexpr std::size_t size = coordinate_count<Count>;
   static constexpr auto q = without_translation<Count>();
   std::array<double, size * size> reduced;
@@ -80,8 +84,8 @@ StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, compa
 
 /// `energy` maps the stencil's vertices to a number of their type; it must not react to a translation.
 template <std::size_t Count, class Energy>
-StencilDerivatives stencil_derivatives(const std::array<Triple<double>, Count>& x,
-                                       compare::HessianProjection projection, Energy energy) {
+StencilDerivatives stencil_derivatives(const std::array<Triple<double>, Count>& x, HessianProjection projection,
+                                       Energy energy) {
   return expanded<Count>(energy(stencil_variables<Count>(x)), projection);
 }
 

@@ -2,8 +2,8 @@
 // for several machines and give the same bits on each, those of a stencil alone (stencil_derivatives.hpp).
 #pragma once
 
+#include "reference/energies/stencil_terms.hpp"
 #include "reference/energies/stencils/stencil_derivatives.hpp"
-#include "reference/energies/stencils/stencil_terms.hpp"
 
 namespace ogc::reference {
 
@@ -20,11 +20,13 @@ struct Batch {
   std::array<std::array<std::uint8_t, Count>, batch_width> place{};
   std::array<StencilDerivatives*, batch_width> result{};
 
+  /// One stencil more, whose vertices are in the order of its corners.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, StencilDerivatives& to) {
     std::array<std::uint8_t, Count> places;
     for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
     add(with, at, places, to);
   }
+  /// The same with places of its own.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
            StencilDerivatives& to) {
     term[size] = &with;
@@ -41,6 +43,7 @@ struct PlacedContactOf {
   std::array<Number, 4> weight{};
   FormKind form = FormKind::points;
 
+  /// By the vertices of the form [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return contact.energy(ClosestForm{form, {0, 1, 2, 3}, {}}, x);
@@ -56,11 +59,13 @@ struct PlacedContactOf {
   auto kinds() { return std::tuple_cat(contact.kinds(), std::tie(form)); }
   auto kinds() const { return std::tuple_cat(contact.kinds(), std::tie(form)); }
 };
+/// A contact over doubles.
 using PlacedContact = PlacedContactOf<double>;
 
+/// One function for each kind of stencil, compiled for one machine.
 struct StencilKernels {
   template <class Term, std::size_t Count>
-  using Function = void (*)(const Batch<Term, Count>& batch, compare::HessianProjection projection);
+  using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
   Function<MembraneTerm, 3> membranes;
   Function<HingeTerm, 4> hinges;
   Function<SpringTerm, 4> springs;           ///< by Σ wᵢ xᵢ, as weighted contacts
@@ -72,6 +77,7 @@ struct StencilKernels {
   Function<FrictionTerm, 4> frictions;
 };
 
+/// For any machine, and for one with AVX2.
 extern const StencilKernels stencil_kernels_baseline, stencil_kernels_avx2;
 
 /// Whether this program and this machine have the latter.

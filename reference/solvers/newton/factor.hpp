@@ -9,6 +9,7 @@
 
 namespace ogc::reference {
 
+/// A Cholesky factorisation by CHOLMOD, whose analysis is kept as long as the pattern stays.
 class Factor {
  public:
   Factor();

@@ -15,6 +15,7 @@ namespace ogc::reference {
 /// Vertices of a stencil in the order of its derivatives; those that it lacks are −1.
 using StencilVertices = std::array<compare::Index, 4>;
 
+/// The matrix of the free vertices, lower triangle, by columns.
 class BlockMatrix {
  public:
   /// A row of blocks for each vertex that is free.
@@ -34,9 +35,13 @@ class BlockMatrix {
   /// so.
   void add_to_diagonal(std::size_t row, double value);
 
+  /// Three a free vertex.
   std::size_t rows() const { return 3 * free_.size(); }
+  /// As CHOLMOD has it: where each column begins.
   const std::vector<std::int32_t>& column_begin() const { return column_begin_; }
+  /// The row of each entry.
   const std::vector<std::int32_t>& row_index() const { return row_index_; }
+  /// The entries [N/m].
   std::vector<double>& values() { return values_; }
   const std::vector<double>& values() const { return values_; }
   /// Vertex of each row of blocks.

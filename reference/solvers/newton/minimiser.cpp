@@ -9,8 +9,6 @@
 namespace ogc::reference {
 namespace {
 
-using compare::HessianProjection;
-
 constexpr int most_iterations = 200;
 /// Share of Lanczos' eigenvalue that a factorisation is asked to confirm; its own error is a part in 2²⁰.
 constexpr double confirmed_share = 1 - 0x1p-10;

@@ -17,6 +17,7 @@
 
 namespace ogc::reference {
 
+/// Where Newton's method ended.
 struct Minimum {
   std::vector<std::array<double, 3>> position;  ///< of all vertices [m]
   /// Mean ‖∂E/∂x_v‖ over free vertices before each iteration, and at the end [N].
@@ -30,6 +31,7 @@ struct Gradient {
   double mean = 0;  ///< mean ‖∂E/∂x_v‖, the numerator of Eq. 29 [N]
 };
 
+/// Of one question of a sweep.
 class Minimiser {
  public:
   using Positions = std::vector<std::array<double, 3>>;  ///< of all vertices [m]
@@ -44,6 +46,7 @@ class Minimiser {
   /// From this state, prescribed vertices at their targets. Not converged where no step lowers the energy, or after
   /// 200 iterations.
   Minimum minimum(const Positions& from);
+  /// At these positions [m].
   Gradient gradient(const Positions& x);
   /// E(x) − E(y), term by term [J].
   double energy_above(const Positions& x, const Positions& y) const;

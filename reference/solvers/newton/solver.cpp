@@ -10,7 +10,6 @@
 namespace ogc::reference {
 namespace {
 
-using compare::HessianProjection;
 using compare::Vec3f;
 
 /// So many times as much a scaled step must lower the energy to be preferred: see the head of solver.hpp.
@@ -35,7 +34,9 @@ std::vector<std::string> NewtonSolver::stage_names() const {
 
 NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
                            const compare::SimulationOptions& options)
-    : ContactStep(scene, topology, options, stage_count), matrix_(potential_.mobility()) {}
+    : ContactStep(scene, topology, options, stage_count),
+      newton_(newton_settings(settings_)),
+      matrix_(potential_.mobility()) {}
 
 StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
                               std::int64_t number) {
@@ -53,8 +54,10 @@ std::uint32_t NewtonSolver::status_of(Outcome outcome) {
     case Outcome::converged: return compare::step_clean;
     case Outcome::not_finite: return compare::step_not_finite;
     case Outcome::indefinite: return compare::step_indefinite;
-    default: return compare::step_not_converged;
+    case Outcome::iteration_limit:
+    case Outcome::no_decrease: break;
   }
+  return compare::step_not_converged;
 }
 
 NewtonSolver::Outcome NewtonSolver::solve() {
@@ -62,8 +65,8 @@ NewtonSolver::Outcome NewtonSolver::solve() {
     const std::int64_t before = metrics_.iterations;
     const Outcome outcome = solve_once();
     const bool settled = solve > 0 && metrics_.iterations == before;
-    if (outcome != Outcome::converged || settled || solve + 1 >= settings_.friction_solves ||
-        metrics_.iterations >= settings_.newton_iterations)
+    if (outcome != Outcome::converged || settled || solve + 1 >= newton_.friction_solves ||
+        metrics_.iterations >= newton_.iterations)
       return outcome;
     potential_.lag_friction(x_);
     pattern_stale_ = true;
@@ -73,7 +76,7 @@ NewtonSolver::Outcome NewtonSolver::solve() {
 /// Each round does an iteration or detects because the residual is small enough; two of the latter never follow one
 /// another, but for prescribed vertices that creep towards their targets. The limit ends both.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
-  for (std::int64_t round = 0; round <= 2 * settings_.newton_iterations + 1; ++round)
+  for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
   return Outcome::iteration_limit;
 }
@@ -91,17 +94,17 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   if (detects) detect_here();
   pattern_stale_ = pattern_stale_ || detects;
   const std::size_t prescribed_cut = move_prescribed();
-  derive(cut_ > 0 ? settings_.projection : HessianProjection::none);
+  derive(cut_ > 0 ? newton_.projection : HessianProjection::none);
   const double force = mean_force();
   if (!std::isfinite(force)) return Outcome::not_finite;
   set_residual(force);
-  const bool small = settings_.newton_tolerance > 0 &&
-                     force <= std::max(settings_.newton_tolerance * reference_force_, derivatives_.force_noise);
+  const bool small = newton_.tolerance > 0 &&
+                     force <= std::max(newton_.tolerance * reference_force_, derivatives_.force_noise);
   if (options_.iterations) rows_.push_back(new_row(detects));
   if (small && (fresh_ || nothing_near())) return Outcome::converged;
   if (judging_ && judged_in_vain(force)) return Outcome::converged;
-  if (metrics_.iterations >= settings_.newton_iterations)
-    return small || settings_.newton_tolerance == 0 ? Outcome::converged : Outcome::iteration_limit;
+  if (metrics_.iterations >= newton_.iterations)
+    return small || newton_.tolerance == 0 ? Outcome::converged : Outcome::iteration_limit;
   if (small) {
     detect_next_ = judge_next_ = true;
     return {};
@@ -130,20 +133,19 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   if (options_.iterations) {
     rows_.back().largest_change = direction.largest;
     rows_.back().share = share;
-    rows_.back().vertices_at_bound = static_cast<std::int64_t>(cut_);
+    rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
   detect_next_ = share == 0 || (share < least_share && cut_ > 0) || detection_due(cut_) ||
-                 (settings_.newton_tolerance > 0 && cut_ > 0);
+                 (newton_.tolerance > 0 && cut_ > 0);
   fresh_ = false;
-  if (cut_ == 0 && direction.largest <= settings_.newton_step_tolerance * settings_.time_step)
-    return Outcome::converged;
+  if (cut_ == 0 && direction.largest <= newton_.step_tolerance * settings_.time_step) return Outcome::converged;
   return {};
 }
 
 void NewtonSolver::measure_condition(compare::IterationMetrics& row) {
   row.condition_number = condition_number(matrix_, factor_);
-  const PotentialDerivatives projected = potential_.derivatives(x_, settings_.projection);
+  const PotentialDerivatives projected = potential_.derivatives(x_, newton_.projection);
   const std::size_t elastic = potential_.elastic_count(), normal = elastic + potential_.contacts().size();
   row.condition_without_friction = condition_of_first(potential_, normal, derivatives_, projected);
   row.condition_without_contact = condition_of_first(potential_, elastic, derivatives_, projected);
@@ -156,8 +158,8 @@ void NewtonSolver::derive(HessianProjection projection) {
 
 bool NewtonSolver::factorized_definite() {
   if (factorized()) return true;
-  if (projection_ == settings_.projection) return false;
-  derive(settings_.projection);
+  if (projection_ == newton_.projection) return false;
+  derive(newton_.projection);
   return factorized();
 }
 

@@ -48,9 +48,11 @@
 #include "reference/solvers/contact_step.hpp"
 #include "reference/solvers/newton/factor.hpp"
 #include "reference/solvers/newton/line_search.hpp"
+#include "reference/solvers/newton/settings.hpp"
 
 namespace ogc::reference {
 
+/// Newton-OGC (method.md §7.6).
 class NewtonSolver : public StepSolver, private ContactStep {
  public:
   /// Scene: rounded and valid. Both must outlive it.
@@ -90,7 +92,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   std::optional<Outcome> advance(std::size_t prescribed_cut);
   bool judged_in_vain(double force);
   double mean_force() const;
-  void derive(compare::HessianProjection projection);
+  void derive(HessianProjection projection);
   /// With stencils projected where the matrix of these derivatives is not positive definite.
   bool factorized_definite();
   bool factorized();
@@ -103,14 +105,15 @@ class NewtonSolver : public StepSolver, private ContactStep {
   double accepted_share(const Direction& direction);
   Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
 
+  NewtonSettings newton_;
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration
   /// contacts are detected to judge a solve that has converged with those before
   bool judge_next_ = false, judging_ = false;
-  compare::HessianProjection projection_ = compare::HessianProjection::none;  ///< of derivatives_
-  int judgements_ = 0;                                                        ///< without a smaller force than before
-  double least_judged_ = 0;                                                   ///< [N]
+  HessianProjection projection_ = HessianProjection::none;  ///< of derivatives_
+  int judgements_ = 0;                                      ///< without a smaller force than before
+  double least_judged_ = 0;                                 ///< [N]
   bool pattern_stale_ = true;
 };
 

@@ -133,7 +133,7 @@ TEST_CASE("closed surface: the block of a nearest face is outward exactly where 
     const Body body(surface);
     const ClosedSurface closed(body.mesh());
     for (const Vec3f& x : points_around(surface, random)) {
-      const reference::Place place = closed.locate(x);
+      const reference::PointLocation place = closed.locate(x);
       inside += place.inside();
       outside += place.outside();
       on_surface += place.on_surface;
@@ -156,7 +156,7 @@ TEST_CASE(
                                     surface.positions[0].y);
     for (const Vec3f& x : points_around(surface, random)) {
       const auto faces = nearest_faces(body.mesh(), x);
-      const reference::Place place = closed.locate(x);
+      const reference::PointLocation place = closed.locate(x);
       const bool near = reference::sign(reference::face_gap(body.mesh(), faces.front(), x, r)) <= 0;
       const auto in_outward = [&](Face face) { return closed.in_outward_block(face, x, r); };
       if (!place.inside() && near) CHECK(std::any_of(faces.begin(), faces.end(), in_outward));

@@ -13,8 +13,8 @@ using namespace ogc;
 using namespace ogc::reference;
 using namespace ogc::tests;
 using compare::ContactSides;
-using compare::HessianProjection;
 using compare::Index;
+using reference::HessianProjection;
 
 namespace {
 

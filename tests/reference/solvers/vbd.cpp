@@ -43,7 +43,7 @@ TEST_CASE(
   potential.set_contacts(found.sets, start);
   REQUIRE(potential.contacts().size() > 20);
   potential.lag_friction(x);
-  const reference::PotentialDerivatives derivatives = potential.derivatives(x, compare::HessianProjection::none);
+  const reference::PotentialDerivatives derivatives = potential.derivatives(x, reference::HessianProjection::none);
   reference::VertexSystems systems(potential);
   systems.read_contacts();
   const std::vector<compare::Index> colour(x.size(), 0);

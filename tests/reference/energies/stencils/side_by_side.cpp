@@ -11,7 +11,7 @@
 using namespace ogc;
 using namespace ogc::reference;
 using namespace ogc::tests;
-using compare::HessianProjection;
+using reference::HessianProjection;
 
 namespace {
 

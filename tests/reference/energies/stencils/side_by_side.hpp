@@ -20,8 +20,8 @@ inline std::vector<const reference::StencilKernels*> kernels_of_this_machine() {
 /// Up to batch_width stencils in one batch.
 template <std::size_t Count, class Term>
 std::vector<reference::StencilDerivatives> differentiated(
-    void (*kernel)(const reference::Batch<Term, Count>&, compare::HessianProjection), const std::vector<Term>& terms,
-    const std::vector<Corners<Count>>& corners, compare::HessianProjection projection) {
+    void (*kernel)(const reference::Batch<Term, Count>&, reference::HessianProjection), const std::vector<Term>& terms,
+    const std::vector<Corners<Count>>& corners, reference::HessianProjection projection) {
   std::vector<reference::StencilDerivatives> result(terms.size());
   reference::Batch<Term, Count> batch;
   for (std::size_t i = 0; i < terms.size(); ++i) batch.add(terms[i], corners[i], result[i]);
@@ -39,10 +39,10 @@ inline bool same_bits(const reference::StencilDerivatives& a, const reference::S
 }
 
 template <std::size_t Count, class Term, class Alone>
-void check_against_alone(void (*kernel)(const reference::Batch<Term, Count>&, compare::HessianProjection),
+void check_against_alone(void (*kernel)(const reference::Batch<Term, Count>&, reference::HessianProjection),
                          const std::vector<Term>& terms, const std::vector<Corners<Count>>& corners, Alone alone) {
-  for (const auto projection :
-       {compare::HessianProjection::none, compare::HessianProjection::clamp, compare::HessianProjection::absolute}) {
+  for (const auto projection : {reference::HessianProjection::none, reference::HessianProjection::clamp,
+                                reference::HessianProjection::absolute}) {
     const auto together = differentiated<Count>(kernel, terms, corners, projection);
     for (std::size_t i = 0; i < terms.size(); ++i) {
       INFO("stencil " << i << " of " << Count << " vertices");

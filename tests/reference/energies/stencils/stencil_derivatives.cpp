@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "reference/energies/mollifier.hpp"
-#include "reference/energies/stencils/stencil_terms.hpp"
+#include "reference/energies/stencil_terms.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/energies/stencils.hpp"
 
@@ -11,7 +11,7 @@ using namespace ogc;
 using namespace ogc::reference;
 using namespace ogc::tests;
 using compare::ContactSides;
-using compare::HessianProjection;
+using reference::HessianProjection;
 
 namespace {
 
@@ -150,7 +150,13 @@ TEST_CASE("isometric bending and springs: gradient and Hessian over all vertices
   Draw draw(7);
   for (int i = 0; i < 20; ++i) {
     const double side = 0.01;
-    HingeTerm hinge{{}, 5e-7, 0, draw.between(0, 0.5), draw.between(-1, 1), true, {30, 70, -60, -40}};
+    HingeTerm hinge{.vertex = {},
+                    .stiffness = 5e-7,
+                    .rest_angle = 0,
+                    .damping = draw.between(0, 0.5),
+                    .start = draw.between(-1, 1),
+                    .weight = {30, 70, -60, -40},
+                    .model = ogc::compare::BendingModel::isometric_quadratic};
     Corners<4> x{{{0, 0, 0}, {side, 0, 0}, {0.3 * side, side, 0}, {0.6 * side, -side, 0.3 * side}}};
     for (auto& p : x)
       for (double& c : p) c += draw.between(-1e-3, 1e-3);
