@@ -170,7 +170,7 @@ class Job:
             return STOPPED
         if self.may_fail and status.startswith("failed"):
             return FINISHED
-        if status == "finished":  # the watching program found something: the run is no result, its log is
+        if self.under and status == "finished":  # what watched it found something: its log says what, the run nothing
             shutil.rmtree(folder)
         raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
 

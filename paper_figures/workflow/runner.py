@@ -154,7 +154,7 @@ def made(options, chosen):
 
 def main():
     parser = arguments()
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     if options.unpack:
         sys.exit(unpacked(options))
     keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "share", "seed")
