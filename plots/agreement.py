@@ -1,4 +1,5 @@
-"""Two runs of one scene held against each other: largest and root-mean-square distance of corresponding vertices over time.
+"""Two runs of one scene held against each other: largest and root-mean-square distance of corresponding vertices over
+time.
 
 Not a figure of the paper: it shows from which step on two backends, or two builds, part ways.
 """
@@ -21,7 +22,8 @@ def differences(first, second):
         if path.name in seconds:
             a, b = first.frame(path), second.frame(seconds[path.name])
             if a.positions.shape != b.positions.shape:
-                raise RunError(f"{first.folder} and {second.folder} have different meshes: {a.positions.shape} and {b.positions.shape}")
+                raise RunError(f"{first.folder} and {second.folder} have different meshes: {a.positions.shape} and "
+                               f"{b.positions.shape}")
             distance = np.linalg.norm(a.positions.astype(float) - b.positions.astype(float), axis=1)
             rows.append((a.step, distance.max(), np.sqrt(np.mean(distance**2))))
     if not rows:
@@ -40,14 +42,18 @@ def draw(pairs, out):
         axes.plot(steps, np.maximum(mean, floor), color=colour, linestyle="--", label=f"{name}, root mean square")
         equal = steps[largest == 0]
         if len(equal):
-            axes.plot(equal, np.full(len(equal), floor), "o", color=colour, markersize=3, label=f"{name}: the same bits (drawn at {floor:g} m)")
-    axes.set(yscale="log", xlabel="step", ylabel="distance of corresponding vertices [m]", title=f"Two runs of {pairs[0][0].manifest['scene']['name']}")
-    axes.axhline(pairs[0][0].setting("contact_radius"), color="black", linewidth=0.8, linestyle=":", label="contact radius")
+            axes.plot(equal, np.full(len(equal), floor), "o", color=colour, markersize=3,
+                      label=f"{name}: the same bits (drawn at {floor:g} m)")
+    axes.set(yscale="log", xlabel="step", ylabel="distance of corresponding vertices [m]",
+             title=f"Two runs of {pairs[0][0].manifest['scene']['name']}")
+    axes.axhline(pairs[0][0].setting("contact_radius"), color="black", linewidth=0.8, linestyle=":",
+                 label="contact radius")
     axes.legend(fontsize=7)
     style.save(figure, out)
     for number, (first, second) in enumerate(pairs):
         table = np.column_stack(differences(first, second))
-        np.savetxt(out.with_name(f"{out.stem}_{number}.csv"), table, delimiter=",", comments="", fmt=["%d", "%.9g", "%.9g"],
+        np.savetxt(out.with_name(f"{out.stem}_{number}.csv"), table, delimiter=",", comments="",
+                   fmt=["%d", "%.9g", "%.9g"],
                    header="step [1],largest [m],root_mean_square [m]")
 
 

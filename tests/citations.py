@@ -158,7 +158,8 @@ def normal(path):
 
 def tracked(source):
     """Texts of all files that git tracks; of others their names."""
-    names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
+    names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True,
+                           check=True).stdout.split("\n")
     files = {}
     for name in filter(None, names):
         path = Path(source) / name
@@ -178,7 +179,8 @@ SOUND = {
     "README.md": "See [the method](compare/method.md), [its energies](compare/method.md#4-energies), `method.md` §4.\n",
     "compare/method.md": "# Method\n\n## 4. Energies\n\n### 4.2 Contact\n\n## 5b. Planes\n\n**In bold.** Words.\n",
     "compare/deviations.md": "| where | why |\n|---|---|\n| §5.1.3 | the body |\n",
-    "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; compare/deviations.md, §5.1.3.\n",
+    "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; "
+                          "compare/deviations.md, §5.1.3.\n",
     "fast/a.py": '# method.md, 4. And method.md, "Contact": README.md is the start.\n',
     "reference/README.md": "In `compare/method.md`, \"In bold\", and [a](../compare/method.md).\n",
     "experiments/counts": 'writes counts.md and "table1_paper.md"\n',
@@ -227,7 +229,8 @@ def main(arguments):
         findings += house.findings
         if not house.documents:
             findings.append(f"{arguments[0]}: no documents there")
-        findings += [f"tests/citations.py: nothing cites {name}: remove it" for name in sorted(set(WRITTEN) - house.used)]
+        findings += [f"tests/citations.py: nothing cites {name}: remove it"
+                     for name in sorted(set(WRITTEN) - house.used)]
     for finding in findings:
         print(finding)
     return 1 if findings else 0

@@ -1,12 +1,12 @@
-"""Every command that a document prints is understood by the program that it calls, and those that take seconds are run as
-printed.
+"""Every command that a document prints is understood by the program that it calls, and those that take seconds are run
+as printed.
 
 Usage: documents.py SOURCE_DIR OGC. Exit status 77: skipped, a package that plots need is missing.
 
-Commands are the lines of shell blocks, and code in the text that begins like one. `ogc` and our scripts parse them without
-running anything (OGC_PARSE_ONLY), Python's own parser does so for ours; blocks of Python are run. What a document says is
-tried where it says it: in a folder that looks like the repository after `tests/run`, with a run, a mesh and a scene of the
-names that documents use.
+Commands are the lines of shell blocks, and code in the text that begins like one. `ogc` and our scripts parse them
+without running anything (OGC_PARSE_ONLY), Python's own parser does so for ours; blocks of Python are run. What a
+document says is tried where it says it: in a folder that looks like the repository after `tests/run`, with a run, a
+mesh and a scene of the names that documents use.
 """
 
 import ast
@@ -219,7 +219,8 @@ PLANTED = {
 }
 SOUND = (
     "```sh\nX=1 ogc audit my.obj > out.txt   # words --nonsense\nogc run twist \\\n  --scale smoke\n```",
-    "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`", "`python3 -m paper_figures.workflow.runner --window 3 twist`",
+    "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`",
+         "`python3 -m paper_figures.workflow.runner --window 3 twist`",
     "`python3 -m paper_figures.workflow.verdicts --write`", "`python3 -m paper_figures.workflow.runner`",
     "## What is not there yet\n\n`ogc view my.obj`\n",
 )

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, no paths of a machine.
+"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, no
+paths of a machine.
 
 The tables below are the include rules of CONTRIBUTING.md; a room is named by its folder, the longest that fits. Usage:
 
     tests/includes.py ROOT         the self-test, then ROOT; one line for each finding, exit status 1 where there is any
-    tests/includes.py --self-test  only the self-test: violations planted in a temporary tree must be found, and nothing else
+    tests/includes.py --self-test  only the self-test: violations planted in a temporary tree must be found, and nothing
+      else
 """
 
 import re
@@ -41,7 +43,8 @@ PROJECT = {
     "fast": PROBLEM + CONTESTANT + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
     "experiments/examples": ("compare/", "fast/contact_sets.hpp"),
-    "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp", "fast/contact_sets.hpp"),
+    "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
+                                                  "fast/contestant.hpp", "fast/contact_sets.hpp"),
     "tests": ("",),
 }
 
@@ -87,18 +90,21 @@ FOREIGN = {
 }
 
 STANDARD = set(
-    """algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits clocale cmath codecvt compare
-    complex concepts condition_variable coroutine csetjmp csignal cstdarg cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque
-    exception execution filesystem format forward_list fstream functional future initializer_list iomanip ios iosfwd iostream istream iterator latch
-    limits list locale map memory memory_resource mutex new numbers numeric optional ostream queue random ranges ratio regex scoped_allocator semaphore
-    set shared_mutex source_location span sstream stack stdexcept stop_token streambuf string string_view syncstream system_error thread tuple
-    type_traits typeindex typeinfo unordered_map unordered_set utility valarray variant vector version""".split()
+    """algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes
+    climits clocale cmath codecvt compare complex concepts condition_variable coroutine csetjmp csignal cstdarg
+    cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque exception execution filesystem format
+    forward_list fstream functional future initializer_list iomanip ios iosfwd iostream istream iterator latch
+    limits list locale map memory memory_resource mutex new numbers numeric optional ostream queue random ranges
+    ratio regex scoped_allocator semaphore set shared_mutex source_location span sstream stack stdexcept stop_token
+    streambuf string string_view syncstream system_error thread tuple type_traits typeindex typeinfo unordered_map
+    unordered_set utility valarray variant vector version""".split()
 )
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
 # `.git` is a file in a linked worktree.
-SKIPPED = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
+SKIPPED = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake",
+           ".pytest_cache"}
 
 
 class House:
@@ -145,7 +151,8 @@ class House:
                 continue
             project, foreign = match.groups()
             if room is None:
-                self.report(file, number, "stands in no room that may include anything; add its folder to tests/includes.py")
+                self.report(file, number, "stands in no room that may include anything; add its folder to "
+                                          "tests/includes.py")
             elif project is not None:
                 self.check_project(file, number, room, project)
             else:
@@ -190,8 +197,8 @@ class House:
                     stack.append(iter(self.includes[included]))
 
     def check_folder_pairs(self):
-        """A .cpp at the top of a room and the program's main.cpp assemble their parts, which see the headers beside them:
-        that is no pair, two headers are."""
+        """A .cpp at the top of a room and the program's main.cpp assemble their parts, which see the headers beside
+        them: that is no pair, two headers are."""
         edges = {}
         for file, included in self.includes.items():
             for number, other in included:
@@ -201,7 +208,8 @@ class House:
         for (one, two), (file, number, other) in sorted(edges.items()):
             if one < two and (two, one) in edges:
                 back, back_number, _ = edges[(two, one)]
-                self.report(file, number, f'"{other}": the folders {one} and {two} include each other (the other way: {back}:{back_number})')
+                self.report(file, number, f'"{other}": the folders {one} and {two} include each other (the other way: '
+                                          f'{back}:{back_number})')
 
 
 def folder(file):
@@ -232,7 +240,8 @@ SOUND = {
     "fast/cpu/cpu.hpp": '#include "fast/contestant.hpp"\n',
     "fast/contestant.cpp": '#include "fast/cpu/cpu.hpp"\n',
     "fast/cuda/backend.cu": "#include <cub/cub.cuh>\n#include <cuda_runtime.h>\n",
-    "experiments/run.cpp": '#include <CLI/CLI.hpp>\n#include "fast/contestant.hpp"\n#include "reference/contestant.hpp"\n',
+    "experiments/run.cpp": '#include <CLI/CLI.hpp>\n#include "fast/contestant.hpp"\n#include '
+                           '"reference/contestant.hpp"\n',
     "experiments/program/commands/contacts.cpp": '#include "fast/contact_sets.hpp"\n',
     "tests/fast/all.cpp": '#include <catch2/catch.hpp>\n#include "fast/contact_sets.hpp"\n',
     "README.md": "See https://example.org/work/page and ../work/notes.\n",
@@ -264,27 +273,36 @@ PLANTED = {
         {"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'},
         "experiments may not", "experiments/x.cpp:1",
     ),
-    "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
-    "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in", "fast/x.cpp:1"),
+    "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'},
+                                       "experiments may not", "experiments/x.cpp:1"),
+    "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in",
+                     "fast/x.cpp:1"),
     "assimp outside of its file": (
         {"compare/files/x.cpp": "#include <assimp/scene.h>\n"},
         "is allowed only in compare/files/assimp_mesh.cpp", "compare/files/x.cpp:1",
     ),
-    "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in", "compare/problem/x.cpp:1"),
-    "dlopen outside of plugins": ({"experiments/x.cpp": "#include <dlfcn.h>\n"}, "<dlfcn.h> is allowed only in experiments/plugins", "experiments/x.cpp:1"),
-    "CUDA outside of cuda": ({"fast/kernels/x.hpp": "#include <cuda_runtime.h>\n"}, "is allowed only in fast/cuda", "fast/kernels/x.hpp:1"),
-    "TBB in a kernel": ({"fast/kernels/x.hpp": "#include <tbb/parallel_for.h>\n"}, "is allowed only in", "fast/kernels/x.hpp:1"),
+    "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in",
+                        "compare/problem/x.cpp:1"),
+    "dlopen outside of plugins": ({"experiments/x.cpp": "#include <dlfcn.h>\n"},
+                                  "<dlfcn.h> is allowed only in experiments/plugins", "experiments/x.cpp:1"),
+    "CUDA outside of cuda": ({"fast/kernels/x.hpp": "#include <cuda_runtime.h>\n"}, "is allowed only in fast/cuda",
+                             "fast/kernels/x.hpp:1"),
+    "TBB in a kernel": ({"fast/kernels/x.hpp": "#include <tbb/parallel_for.h>\n"}, "is allowed only in",
+                        "fast/kernels/x.hpp:1"),
     "an unknown library": ({"fast/x.cpp": "#include <fmt/format.h>\n"}, "neither standard nor", "fast/x.cpp:1"),
     "not from the root": ({"fast/x.cpp": '#include "contestant.hpp"\n'}, "does not exist", "fast/x.cpp:1"),
     "a file in no room": ({"plots/x.cpp": "#include <vector>\n"}, "stands in no room", "plots/x.cpp:1"),
     "a cycle": (
-        {"fast/a.hpp": '#include "fast/b.hpp"\n', "fast/b.hpp": '#include "fast/c.hpp"\n', "fast/c.hpp": '#include "fast/a.hpp"\n'},
+        {"fast/a.hpp": '#include "fast/b.hpp"\n', "fast/b.hpp": '#include "fast/c.hpp"\n',
+         "fast/c.hpp": '#include "fast/a.hpp"\n'},
         "closes an include cycle: fast/a.hpp -> fast/b.hpp -> fast/c.hpp -> fast/a.hpp",
         "fast/c.hpp:1",
     ),
-    "a file that includes itself": ({"fast/a.hpp": '#include "fast/a.hpp"\n'}, "closes an include cycle", "fast/a.hpp:1"),
+    "a file that includes itself": ({"fast/a.hpp": '#include "fast/a.hpp"\n'}, "closes an include cycle",
+                                    "fast/a.hpp:1"),
     "folders that include each other": (
-        {"fast/cpu/a.hpp": "", "fast/cpu/b.hpp": '#include "fast/stages/b.hpp"\n', "fast/stages/a.hpp": '#include "fast/cpu/a.hpp"\n', "fast/stages/b.hpp": ""},
+        {"fast/cpu/a.hpp": "", "fast/cpu/b.hpp": '#include "fast/stages/b.hpp"\n',
+         "fast/stages/a.hpp": '#include "fast/cpu/a.hpp"\n', "fast/stages/b.hpp": ""},
         "the folders fast/cpu and fast/stages include each other",
         "fast/cpu/b.hpp:1",
     ),
@@ -299,7 +317,8 @@ PLANTED = {
         "compare/stages/x.hpp:1",
     ),
     "a long file": ({"fast/x.cpp": "\n" * (LONGEST_FILE + 1)}, "has 801 lines", "fast/x.cpp:801"),
-    "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine", "README.md:2"),
+    "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine",
+                            "README.md:2"),
     "a path in a script": ({".ci/run": "cd '/" + "root/ogc'\n"}, "absolute path of a machine", ".ci/run:1"),
 }
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be included,
-imported or called somewhere.
+"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be
+included, imported or called somewhere.
 
     tests/packages.py SOURCE_DIR     the self-test, then one line for each package that is not; exit status 1 for any
 
-What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones, other
-systems).
+What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones,
+other systems).
 """
 
 import re
@@ -46,8 +46,8 @@ def said(*command):
 
 
 def files_of(package, deep=True):
-    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies stands
-    for; none where it is not installed."""
+    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies
+    stands for; none where it is not installed."""
     listed = said("dpkg", "-L", package).splitlines()
     places = ("/usr/include/", "/usr/bin/", "/usr/lib/python3/dist-packages/")
     found = [path for path in listed if path.startswith(places)]

@@ -58,8 +58,8 @@ class Forces:
 
 
 def ratio_at(force, curve):
-    """Curvature ratio at these forces, from `ogc illustrate fig21d`'s curve (forces, ratios); beyond its ends that of the
-    nearer end."""
+    """Curvature ratio at these forces, from `ogc illustrate fig21d`'s curve (forces, ratios); beyond its ends that of
+    the nearer end."""
     known, ratio = np.log(curve)
     return np.exp(np.interp(np.log(np.clip(force, curve[0][0], curve[0][-1])), known, ratio))
 
@@ -109,8 +109,8 @@ def distances(ogc, run, frame):
 
 
 def forces_of(ogc, run, variant, curve):
-    """Forces at the last stored state of a run of `variant` (paper_figures.workflow.commands); `curve`: the ratio over force of
-    its κ."""
+    """Forces at the last stored state of a run of `variant` (paper_figures.workflow.commands); `curve`: the ratio over
+    force of its κ."""
     force = variant.ratio * FORCE[variant.energy](distances(ogc, run, run.frame(run.frames[-1])))
     return Forces(force, ratio_at(force, curve))
 

@@ -1,15 +1,19 @@
-"""Fig. 1, of the scenes that exist: one state of each run, the last where nothing else is said, from the camera of its own figure."""
+"""Fig. 1, of the scenes that exist: one state of each run, the last where nothing else is said, from the camera of its
+own figure."""
 
 import argparse
 import sys
 
-from paper_figures.figures import fig10_fifty_layers, fig11_knot, fig12_twist, fig13_dress, fig14_robot_shirt, fig18_cloth_on_sphere
+from paper_figures.figures import (fig10_fifty_layers, fig11_knot, fig12_twist, fig13_dress, fig14_robot_shirt,
+                                   fig18_cloth_on_sphere)
 from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of, is_cloth
 
-CAMERAS = {"fifty_layers": fig10_fifty_layers.CAMERA, "knot": fig11_knot.CAMERA, "twist": fig12_twist.CAMERA, "dress": fig13_dress.camera,
-           "robot_shirt": fig14_robot_shirt.CAMERA, "cloth_on_sphere": fig18_cloth_on_sphere.CAMERA}  # or a function of the run
+CAMERAS = {"fifty_layers": fig10_fifty_layers.CAMERA, "knot": fig11_knot.CAMERA, "twist": fig12_twist.CAMERA,
+           "dress": fig13_dress.camera,
+           # or a function of the run
+           "robot_shirt": fig14_robot_shirt.CAMERA, "cloth_on_sphere": fig18_cloth_on_sphere.CAMERA}
 MOMENTS = {"robot_shirt": 0.62}  # as a part of the run: while the shirt hangs; at the end it lies folded
 SIZE = (960, 640)
 
@@ -18,11 +22,13 @@ def words(run, frame):
     """The scene and its size, and when this is; cloth alone is counted."""
     cloths = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
     count = f"{len(cloths)} cloths, " if len(cloths) > 1 else ""
-    return f"{run.manifest['scene']['name'].replace('_', ' ')}: {count}{sum(body['vertex_count'] for body in cloths):,} vertices, t = {frame.time:.3g} s"
+    vertices = sum(body["vertex_count"] for body in cloths)
+    return f"{run.manifest['scene']['name'].replace('_', ' ')}: {count}{vertices:,} vertices, t = {frame.time:.3g} s"
 
 
 def draw(runs, out):
-    """A picture for each run, two in a row. Throws RunError for a run that is not finished, failed its audit, or is of a scene without a camera."""
+    """A picture for each run, two in a row. Throws RunError for a run that is not finished, failed its audit, or is of
+    a scene without a camera."""
     usable, reason = render.available()
     if not usable:
         raise RunError(reason)
@@ -34,12 +40,14 @@ def draw(runs, out):
         run.require_finished()
         scene = run.manifest["scene"]["name"]
         if scene not in CAMERAS:
-            raise RunError(f"{run.folder} is a run of '{scene}', of which the teaser knows no camera; it has: {', '.join(CAMERAS)}")
+            raise RunError(f"{run.folder} is a run of '{scene}', of which the teaser knows no camera; it has: "
+                           f"{', '.join(CAMERAS)}")
         camera = CAMERAS[scene](run) if callable(CAMERAS[scene]) else CAMERAS[scene]
         frame = run.frame(run.frames[round(MOMENTS.get(scene, 1) * (len(run.frames) - 1))])
         axes.imshow(render.picture(bodies_of(run, frame), camera, SIZE))
         axes.set_title(words(run, frame))
-    figure.suptitle(f"Vertex Block Descent with offset geometric contact, {runs[0].manifest['scale']}, {runs[0].manifest['backend']}: {commits_in_words(runs)}", fontsize=8)
+    figure.suptitle(f"Vertex Block Descent with offset geometric contact, {runs[0].manifest['scale']}, "
+                    f"{runs[0].manifest['backend']}: {commits_in_words(runs)}", fontsize=8)
     style.save(figure, out)
 
 

@@ -1,4 +1,5 @@
-"""Fig. 2: the end of half a turn with a contact radius of one edge, by IPC and by OGC, and the artefact in numbers: roughness, stretch, kinetic energy."""
+"""Fig. 2: the end of half a turn with a contact radius of one edge, by IPC and by OGC, and the artefact in numbers:
+roughness, stretch, kinetic energy."""
 
 import sys
 from pathlib import Path
@@ -22,13 +23,15 @@ def edges_of(triangles):
 
 
 def roughness(positions, triangles):
-    """Root mean square over inner vertices of the distance, along the normal, from the mean of the neighbours, in mean edge lengths."""
+    """Root mean square over inner vertices of the distance, along the normal, from the mean of the neighbours, in mean
+    edge lengths."""
     edges = edges_of(triangles)
-    count, mean, normal = np.zeros(len(positions)), np.zeros_like(positions, dtype=float), np.zeros_like(positions, dtype=float)
+    count, (mean, normal) = np.zeros(len(positions)), np.zeros((2, *positions.shape))
     for a, b in ((0, 1), (1, 0)):
         np.add.at(count, edges[:, a], 1)
         np.add.at(mean, edges[:, a], positions[edges[:, b]])
-    face = np.cross(positions[triangles[:, 1]] - positions[triangles[:, 0]], positions[triangles[:, 2]] - positions[triangles[:, 0]])
+    face = np.cross(positions[triangles[:, 1]] - positions[triangles[:, 0]],
+                    positions[triangles[:, 2]] - positions[triangles[:, 0]])
     for corner in range(3):
         np.add.at(normal, triangles[:, corner], face)
     used = np.zeros((len(positions),), dtype=int)
@@ -52,7 +55,8 @@ def history(run, rest):
     """Time [s], roughness and stretch of each stored frame; `rest`: positions of the rest shape."""
     triangles = run.bodies()[0]["triangles"]
     frames = [run.frame(path) for path in run.frames]
-    return (np.array([f.time for f in frames]), np.array([roughness(f.positions.astype(float), triangles) for f in frames]),
+    return (np.array([f.time for f in frames]),
+            np.array([roughness(f.positions.astype(float), triangles) for f in frames]),
             np.array([stretch(f.positions.astype(float), rest, triangles) for f in frames]))
 
 
@@ -88,12 +92,15 @@ def draw(runs, out):
         energies = dict(zip(steps.astype(int), run.column("kinetic_energy")))
         for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
             energy = energies.get(round(time[at] / h), np.nan)  # a state that a run began with has none
-            lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch {stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
+            lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch "
+                         f"{stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
                          f"kinetic energy {energy:.3g} J")
             stretches = dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[at]))
             rows.append({"time [s]": time[at], "roughness [edges]": rough[at], **stretches,
-                         "kinetic energy [J]": energy, "iterations a step": np.mean(run.column("iterations")), **provenance(run)})
-        lines.append(f"{label(run)}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and {np.mean(run.column('iterations')):.3g} iterations a step, "
+                         "kinetic energy [J]": energy, "iterations a step": np.mean(run.column("iterations")),
+                         **provenance(run)})
+        lines.append(f"{label(run)}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and "
+                     f"{np.mean(run.column('iterations')):.3g} iterations a step, "
                      f"{np.mean(run.column('vertex_facet_contacts') + run.column('edge_edge_contacts')):.4g} pairs")
     axes[0].set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
     axes[1].set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges")
@@ -107,12 +114,14 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of OGC's."""
+    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of
+    OGC's."""
     folder = Path(arguments.folder)
     ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
     ogc = run_job(arguments.ogc, ours, folder)
     if arguments.without_ipc:
-        found = sorted((Run(path.parent) for path in folder.glob("ipc*/run.json")), key=lambda run: run.column("step")[0])
+        found = sorted((Run(path.parent) for path in folder.glob("ipc*/run.json")),
+                       key=lambda run: run.column("step")[0])
         return [*found[-1:], ogc, *found[:-1]]
     if arguments.scale != "paper":
         return [run_job(arguments.ogc, baseline, folder), ogc]
@@ -122,7 +131,8 @@ def runs_of(arguments):
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
-    parser.add_argument("--without-ipc", action="store_true", help="OGC's run, and those of IPC that are there: makes none")
+    parser.add_argument("--without-ipc", action="store_true",
+                        help="OGC's run, and those of IPC that are there: makes none")
     options = parser.parse_args()
     try:
         print("\n".join(draw(runs_of(options), Path(options.folder) / "fig02.png")))

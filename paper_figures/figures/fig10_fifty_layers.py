@@ -1,4 +1,5 @@
-"""Fig. 10: fifty square cloths fall onto a cylinder, collide with each other, slide to the ground and rest; time, contacts, distances, four frames."""
+"""Fig. 10: fifty square cloths fall onto a cylinder, collide with each other, slide to the ground and rest; time,
+contacts, distances, four frames."""
 
 from paper_figures.workflow.common import main
 

@@ -61,13 +61,16 @@ def summary(label, run, start, step):
     rows = iterations(run, step)
     residual = rows["residual"]
     tail = residual[-max(1, len(residual) // 5):]
-    return {"curve": label, "iterations [1]": int(rows["iteration"][-1]), "smallest_residual [1]": f"{residual.min():.3g}",
-            "residual_of_last_fifth [1]": f"{np.median(tail):.3g}", "residual_contacts_of_the_end [1]": f"{run.column('residual')[-1]:.3g}",
+    return {"curve": label, "iterations [1]": int(rows["iteration"][-1]),
+            "smallest_residual [1]": f"{residual.min():.3g}",
+            "residual_of_last_fifth [1]": f"{np.median(tail):.3g}",
+            "residual_contacts_of_the_end [1]": f"{run.column('residual')[-1]:.3g}",
             **{f"smallest_residual_in_{mark} [1]": smallest_in(rows, mark) for mark in MARKS},
             "iterations_to_1e-3 [1]": first_below(rows, 1e-3, "iteration"),
             "iterations_to_1e-4 [1]": first_below(rows, 1e-4, "iteration"),
             "time_to_1e-3 [ms]": f"{first_below(rows, 1e-3, 'wall'):.4g}", "step [ms]": f"{run.column('wall')[-1]:.4g}",
-            "detections [1]": int(run.column("discrete_detections")[-1]), "detection_share_of_time [1]": f"{detection_share(run):.3g}",
+            "detections [1]": int(run.column("discrete_detections")[-1]),
+            "detection_share_of_time [1]": f"{detection_share(run):.3g}",
             "contacts [1]": int(run.column("vertex_facet_contacts")[-1] + run.column("edge_edge_contacts")[-1]),
             "iterations_of_steps_before [1]": start.setting("iterations"), **provenance(run)}
 
@@ -88,25 +91,30 @@ def draw(runs, start, left_out, step, scale, claims, out):
         share = f"{label} (detection {100 * detection_share(run):.2g} % of the time)"
         draw_curve(left, rows, "iteration", share, colour, dash)
         draw_curve(right, rows, "wall", label, colour, dash)
-    left.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title="Over iterations (dots: contacts detected anew)")
+    left.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]",
+             title="Over iterations (dots: contacts detected anew)")
     right.set(xscale="log", xlabel="time since the step began [ms]", title="Over time")
     for mark in MARKS:
         left.axvline(mark, color="0.7", linewidth=0.6, zorder=0)
     left.legend(fontsize=6.5)
     paper = ", ".join(f"{c['quantity'].replace('_', ' ')} {c['value']:g}" for c in claims)
+    lacks = "NOT RUN: " + "; ".join(left_out) + "; " if left_out else ""
     figure.suptitle(f"{SCENE} ({scale}), step {step}; {start.setting('iterations')} iterations in each step before; "
-                    f"{'NOT RUN: ' + '; '.join(left_out) + '; ' if left_out else ''}{commits_in_words([start, *(run for _, run in runs)])}\npaper: {paper}", fontsize=8)
+                    f"{lacks}{commits_in_words([start, *(run for _, run in runs)])}\npaper: {paper}", fontsize=8)
     style.save(figure, out)
 
 
 def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start_iterations=None, without=()):
-    """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's path."""
+    """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's
+    path."""
     folder = Path(folder)
     claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
-    claims = [c for c in claims if isinstance(c["measure"], list)]  # those that a curve can be held against: each names a cell of the table
+    # those that a curve can be held against: each names a cell of the table
+    claims = [c for c in claims if isinstance(c["measure"], list)]
     single, double = commands.three_cloths(scale, list(dict.fromkeys(backends)), start_iterations)
     start, runs = curves(folder, ogc, [*single, *([] if single_only else double)], without)
-    rows, left_out = [{**summary(label, run, start, STEPS[scale]), "status": run.status} for label, run in runs], [label_of(name) for name in without]
+    rows, left_out = [{**summary(label, run, start, STEPS[scale]), "status": run.status}
+                      for label, run in runs], [label_of(name) for name in without]
     write_table(folder / "fig17.csv", [*rows, *(not_run("curve", label, rows[0]) for label in left_out)])
     draw(runs, start, left_out, STEPS[scale], scale, claims, folder / "fig17.png")
     return folder / "fig17.png"
@@ -117,13 +125,18 @@ if __name__ == "__main__":
     parser.add_argument("folder", help="where the runs are, or go, and the figure")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="small", choices=STEPS)
-    parser.add_argument("--backend", action="append", choices=["cpu", "cuda"], help="of VBD; repeatable; the last one makes the start (default: cpu)")
-    parser.add_argument("--single-only", action="store_true", help="without the curves in double precision, which take the exact detection's time")
-    parser.add_argument("--start-iterations", type=int, metavar="N", help="of each step before the one that is drawn (default: 500, the scene's)")
-    parser.add_argument("--without", nargs="+", default=(), metavar="CURVE", help="curves that are left out, as their folders are called; the figure says so")
+    parser.add_argument("--backend", action="append", choices=["cpu", "cuda"],
+                        help="of VBD; repeatable; the last one makes the start (default: cpu)")
+    parser.add_argument("--single-only", action="store_true",
+                        help="without the curves in double precision, which take the exact detection's time")
+    parser.add_argument("--start-iterations", type=int, metavar="N",
+                        help="of each step before the one that is drawn (default: 500, the scene's)")
+    parser.add_argument("--without", nargs="+", default=(), metavar="CURVE",
+                        help="curves that are left out, as their folders are called; the figure says so")
     arguments = parser.parse_args()
     try:
-        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"], arguments.single_only, arguments.start_iterations,
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend or ["cpu"],
+                   arguments.single_only, arguments.start_iterations,
                    arguments.without))
     except RunError as error:
         sys.exit(f"fig17: {error}")

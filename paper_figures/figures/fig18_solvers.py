@@ -1,6 +1,6 @@
-"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames of
-the first run, and the ratios beside the paper's, each with the threads and devices that it is of. VBD-OGC on CUDA is a
-fourth curve where its run lies in the folder (or with --cuda).
+"""Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames
+of the first run, and the ratios beside the paper's, each with the threads and devices that it is of. VBD-OGC on CUDA is
+a fourth curve where its run lies in the folder (or with --cuda).
 """
 
 import json
@@ -46,16 +46,19 @@ def processor_times(run):
 
 
 def claimed(run):
-    """How much longer than this run IPC takes on average, as the paper says in the text beside Fig. 18; None where it says nothing, as of CUDA."""
+    """How much longer than this run IPC takes on average, as the paper says in the text beside Fig. 18; None where it
+    says nothing, as of CUDA."""
     if run.manifest["backend"] != "cpu":
         return None
     claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
-    return next((claim["value"] for claim in claims if claim["id"] == f"{SCENE}.ipc_over_{run.manifest['solver']}"), None)
+    return next((claim["value"] for claim in claims if claim["id"] == f"{SCENE}.ipc_over_{run.manifest['solver']}"),
+                None)
 
 
 def ratios(runs):
-    """[(label, IPC's time a step over this run's, what was measured, the paper's claim or None)] over the steps that both have: on the clock, which says nothing
-    where the machine does other work, and where it was measured of processor time, which says nothing of a GPU and little of threads that wait."""
+    """[(label, IPC's time a step over this run's, what was measured, the paper's claim or None)] over the steps that
+    both have: on the clock, which says nothing where the machine does other work, and where it was measured of
+    processor time, which says nothing of a GPU and little of threads that wait."""
     baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
     result = []
     for run in runs if baseline else []:
@@ -102,12 +105,16 @@ def rows(runs):
     for run in runs:
         wall = run.column("wall")
         row = {**provenance(run), "steps": len(wall), "of steps": int(run.setting("steps")),
-               "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)), "worst [ms]": float(wall.max()),
-               "processor time [ms]": processor_ms(run) / len(wall), "iterations a step": float(np.mean(run.column("iterations"))),
+               "mean [ms]": float(np.mean(wall)), "median [ms]": float(np.median(wall)),
+               "worst [ms]": float(wall.max()),
+               "processor time [ms]": processor_ms(run) / len(wall),
+               "iterations a step": float(np.mean(run.column("iterations"))),
                "detections an iteration": float(np.sum(detections(run)) / np.sum(run.column("iterations")))}
-        for kind in ("vertex_facet_contacts", "edge_edge_contacts", "broad_phases", "discrete_detections", "continuous_detections"):
+        for kind in ("vertex_facet_contacts", "edge_edge_contacts", "broad_phases", "discrete_detections",
+                     "continuous_detections"):
             row[f"{kind.replace('_', ' ')} a step"] = float(np.mean(run.column(kind)))
-        row["stages [% of the time]"] = "; ".join(f"{name} {100 * np.sum(times) / np.sum(wall):.3g}" for name, times in run.stage_columns().items())
+        row["stages [% of the time]"] = "; ".join(f"{name} {100 * np.sum(times) / np.sum(wall):.3g}"
+                                                  for name, times in run.stage_columns().items())
         result.append(row)
     return result
 
@@ -119,16 +126,19 @@ def draw(runs, out):
     plt = style.use()
     figure = plt.figure(figsize=(11, 9))
     grid = figure.add_gridspec(3, 4, height_ratios=[0.9, 1, 1])
-    draw_frames(figure, [grid[0, i] for i in range(4)], runs[0], [round(f * runs[0].setting("steps")) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
-    linear, logarithmic, counts = figure.add_subplot(grid[1, :2]), figure.add_subplot(grid[1, 2:]), figure.add_subplot(grid[2, :2])
+    draw_frames(figure, [grid[0, i] for i in range(4)], runs[0],
+                [round(f * runs[0].setting("steps")) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
+    linear, logarithmic, counts = map(figure.add_subplot, (grid[1, :2], grid[1, 2:], grid[2, :2]))
     by_processor = all(run.manifest["backend"] == "cpu" and np.isfinite(processor_ms(run)) for run in runs)
     for run, dash in zip(runs, style.DASHES):
         for axes in (linear, logarithmic):
-            axes.plot(run.column("step"), processor_times(run) if by_processor else run.column("wall"), dash, label=label(run))
+            axes.plot(run.column("step"), processor_times(run) if by_processor else run.column("wall"), dash,
+                      label=label(run))
         counts.step(run.column("step"), detections(run), where="mid", linestyle=dash, label=label(run))
     time = "processor time" if by_processor else "time"
     linear.set(xlabel="step", ylabel=f"{time} a step [ms]", title=time.capitalize(), ylim=(0, None))
-    logarithmic.set(xlabel="step", ylabel=f"{time} a step [ms]", title=f"{time.capitalize()}, logarithmic", yscale="log")
+    logarithmic.set(xlabel="step", ylabel=f"{time} a step [ms]", title=f"{time.capitalize()}, logarithmic",
+                    yscale="log")
     counts.set(xlabel="step", ylabel="detections a step", title="Detections, continuous and discrete", ylim=(0, None))
     for axes in (linear, counts):  # in the third it would lie on the curve of a GPU
         axes.legend()

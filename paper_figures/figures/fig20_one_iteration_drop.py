@@ -1,4 +1,5 @@
-"""Fig. 20: one iteration a step, by OGC and by IPC: frames 0, 50 and 80 (of 10 steps each), kinetic energy and centre of mass over time."""
+"""Fig. 20: one iteration a step, by OGC and by IPC: frames 0, 50 and 80 (of 10 steps each), kinetic energy and centre
+of mass over time."""
 
 import sys
 from pathlib import Path
@@ -18,7 +19,8 @@ FRAMES = (0, 50, 80)
 
 
 def centre(run):
-    """Time [s] and mean height [m] of the cloth's vertices at each frame: its centre of mass but for the lighter rim."""
+    """Time [s] and mean height [m] of the cloth's vertices at each frame: its centre of mass but for the lighter
+    rim."""
     body = run.bodies()[0]
     cloth = slice(body["first_vertex"], body["first_vertex"] + body["vertex_count"])
     frames = [run.frame(path) for path in run.frames]
@@ -26,15 +28,18 @@ def centre(run):
 
 
 def rows(runs):
-    """A row a run and shown frame: kinetic energy and mean height there, the run's largest kinetic energy, and the largest loss of it in one step."""
+    """A row a run and shown frame: kinetic energy and mean height there, the run's largest kinetic energy, and the
+    largest loss of it in one step."""
     result = []
     for run in runs:
         energy, last = run.column("kinetic_energy"), int(run.column("step")[-1])
         heights = dict(zip(*centre(run)))
         for frame_number in FRAMES:
             frame = run.frame_at_step(round(frame_number / FRAMES[-1] * last))
-            result.append({"frame": frame_number, "time [s]": frame.time, "kinetic energy [J]": float(energy[frame.step - 1]) if frame.step else 0.0,
-                           "mean height [m]": float(heights[frame.time]), "largest kinetic energy [J]": float(energy.max()),
+            result.append({"frame": frame_number, "time [s]": frame.time,
+                           "kinetic energy [J]": float(energy[frame.step - 1]) if frame.step else 0.0,
+                           "mean height [m]": float(heights[frame.time]),
+                           "largest kinetic energy [J]": float(energy.max()),
                            "largest loss in one step [J]": float(-np.diff(energy).min()), **provenance(run)})
     return result
 
@@ -62,8 +67,10 @@ def draw(runs, out):
         energy.plot(run.column("step") * h, run.column("kinetic_energy"), dash, label=label(run))
         time, mean = centre(run)
         height.plot(time, mean, dash, label=label(run))
-        lines.append(f"{label(run)}: at t = {time[-1]:.3g} s kinetic energy {run.column('kinetic_energy')[-1]:.3g} J (largest "
-                     f"{run.column('kinetic_energy').max():.3g} J), mean height {mean[-1]:.4g} m, {np.mean(run.column('wall')):.4g} ms a step")
+        lines.append(f"{label(run)}: at t = {time[-1]:.3g} s kinetic energy {run.column('kinetic_energy')[-1]:.3g} J "
+                     "(largest "
+                     f"{run.column('kinetic_energy').max():.3g} J), mean height {mean[-1]:.4g} m, "
+                     f"{np.mean(run.column('wall')):.4g} ms a step")
     energy.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", ylim=(0, None))
     height.set(xlabel="time [s]", ylabel="height [m]", title="Mean height of the cloth")
     for axes in (energy, height):
@@ -74,7 +81,8 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    return [run_job(arguments.ogc, job, arguments.folder) for job in commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)]
+    return [run_job(arguments.ogc, job, arguments.folder)
+            for job in commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)]
 
 
 if __name__ == "__main__":

@@ -319,7 +319,8 @@ def headline(results, rows):
     columns = ("condition_number_at_end [1]", "vbd_iterations_to_1e-3 [1]")
     shown = [variant for variant in (IPC, *commands.RATIOS) if variant in results]
     quotients = [(variant, *(over(rows, column, variant) for column in columns)) for variant in shown]
-    by_ratio = ", ".join(f"{condition} × and {sweeps} × (κ = {variant.ratio})" for variant, condition, sweeps in quotients)
+    by_ratio = ", ".join(f"{condition} × and {sweeps} × (κ = {variant.ratio})" for variant, condition,
+                         sweeps in quotients)
     runs = [run for found in results.values() for run in found.all]
     apart = rows[1]["largest_distance_from_ogc [mm]"]
     return (
@@ -344,8 +345,8 @@ def draw(results, panels, states, rows, scale, out):
 
 
 def main(folder, ogc, scale="small", backend="cpu", without=()):
-    """Does the runs that are missing in `folder`, and writes fig21.png and the tables there; `backend`: of VBD in single
-    precision, `without`: names of variants that are neither run nor drawn. Returns the picture's path."""
+    """Does the runs that are missing in `folder`, and writes fig21.png and the tables there; `backend`: of VBD in
+    single precision, `without`: names of variants that are neither run nor drawn. Returns the picture's path."""
     folder = Path(folder)
     panels = curves(folder, ogc)
     results = {v: solved(folder, ogc, scale, v, backend) for v in VARIANTS if v.name not in without}

@@ -1,5 +1,5 @@
-"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads of
-the CPU: runs, table and picture. Not in the paper.
+"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads
+of the CPU: runs, table and picture. Not in the paper.
 
 Timed are the steps from FIRST on; those before let lists grow and contacts settle. The exponent is the slope of a
 straight line through the logarithms of the medians, by least squares, over all sizes and over the larger half.
@@ -30,18 +30,23 @@ def row_of(name, run, memory):
     free = sum(body["vertex_count"] for body in m["scene"]["bodies"] if not body["fixed"])
     number = int(name.partition("_")[2])
     alone = name.startswith("threads")
-    return {"over": "threads" if alone else "vertices", "backend": m["backend"], "vertices": free, "threads": number if alone else "",
-            "median [ms]": round(statistics.median(wall), 4), "mean [ms]": round(statistics.fmean(wall), 4), "worst [ms]": round(max(wall), 4),
+    return {"over": "threads" if alone else "vertices", "backend": m["backend"], "vertices": free,
+            "threads": number if alone else "",
+            "median [ms]": round(statistics.median(wall), 4), "mean [ms]": round(statistics.fmean(wall), 4),
+            "worst [ms]": round(max(wall), 4),
             "contacts a vertex": round(statistics.fmean(pairs) / free, 4), "contacts": round(statistics.fmean(pairs)),
-            "detections a step": round(statistics.fmean(detections), 3), "repeated steps": sum(n > 0 for n in repeats), "device memory [MiB]": memory,
-            "audit": {True: "no intersection", False: "FAILED"}.get(m.get("guarantee_kept"), "not audited"), "final_hash": m["final_hash"],
+            "detections a step": round(statistics.fmean(detections), 3), "repeated steps": sum(n > 0 for n in repeats),
+            "device memory [MiB]": memory,
+            "audit": {True: "no intersection", False: "FAILED"}.get(m.get("guarantee_kept"), "not audited"),
+            "final_hash": m["final_hash"],
             "device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else "")}
 
 
 def table(folder):
     """Rows of the finished runs, sizes and numbers of threads ascending."""
     rows = []
-    for path in sorted(folder.glob("*/run.json"), key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
+    for path in sorted(folder.glob("*/run.json"),
+                       key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
         run = run_at(path.parent)
         if run and run.manifest["status"] == "finished":
             rows.append(row_of(path.parent.name, run, taken(folder / f"{path.parent.name}{MEMORY}")))
@@ -63,14 +68,17 @@ def in_words(rows):
         if len(line) > 1:
             density = [row["contacts a vertex"] for row in line]
             upper = line[len(line) // 2 - 1:] if len(line) > 3 else line
-            lines.append(f"{backend}: time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to {line[-1]['vertices']:,}, "
-                         f"^{exponent(upper)[0]:.3f} from {upper[0]['vertices']:,} on; {min(density):.3g} to {max(density):.3g} contacts a vertex")
+            lines.append(f"{backend}: time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to "
+                         f"{line[-1]['vertices']:,}, "
+                         f"^{exponent(upper)[0]:.3f} from {upper[0]['vertices']:,} on; {min(density):.3g} to "
+                         f"{max(density):.3g} contacts a vertex")
     alone = [row for row in rows if row["over"] == "threads"]
     if len(alone) > 1:
         first, last = alone[0], alone[-1]
         same = "with the same bits" if len({row["final_hash"] for row in alone}) == 1 else "NOT with the same bits"
         gain = first["median [ms]"] / last["median [ms]"]
-        lines.append(f"{last['threads']} threads are {gain:.3g} times as fast as {first['threads']} ({last['vertices']:,} vertices), {same}")
+        lines.append(f"{last['threads']} threads are {gain:.3g} times as fast as {first['threads']} "
+                     f"({last['vertices']:,} vertices), {same}")
     return lines
 
 
@@ -85,12 +93,15 @@ def draw(rows, out):
         line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
         if line:
             x = [row["vertices"] for row in line]
-            time.plot(x, [row["median [ms]"] for row in line], "o", color=colour, label=f"{backend} ({line[-1]['device']})")
+            time.plot(x, [row["median [ms]"] for row in line], "o", color=colour,
+                      label=f"{backend} ({line[-1]['device']})")
             density.plot(x, [row["contacts a vertex"] for row in line], "o-", color=colour, label=backend)
         if len(line) > 1:
             slope, factor = exponent(line)
-            time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1, label=f"∝ vertices^{slope:.3f}")
-    time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]", title="Time a step at one contact density")
+            time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1,
+                      label=f"∝ vertices^{slope:.3f}")
+    time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]",
+             title="Time a step at one contact density")
     density.set(xscale="log", xlabel="free vertices", ylabel="contacts a vertex", title="The density, measured")
     density.set_ylim(0, 1.1 * density.get_ylim()[1])
     if alone:
@@ -100,12 +111,14 @@ def draw(rows, out):
         best = times[0] * numbers[0]
         cores.plot(numbers, times, "o-", label="measured")
         cores.plot(numbers, [best / n for n in numbers], ":", color="black", label="shared out perfectly")
-        cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers, yticks=times, yticklabels=[f"{t:.3g}" for t in times])
+        cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers, yticks=times,
+                  yticklabels=[f"{t:.3g}" for t in times])
         cores.minorticks_off()
     for axes in panels:
         if axes.has_data():
             axes.legend(fontsize=7)
-    figure.suptitle("\n".join([*in_words(rows), "commit " + ", ".join(sorted({row["commit"] for row in rows}))]), fontsize=8)
+    figure.suptitle("\n".join([*in_words(rows), "commit " + ", ".join(sorted({row["commit"] for row in rows}))]),
+                    fontsize=8)
     style.save(figure, out)
 
 

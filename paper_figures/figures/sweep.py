@@ -1,4 +1,5 @@
-"""One table and one picture of a sweep: the rows that `ogc ablate` wrote for each of its points. Usage: python3 -m paper_figures.figures.sweep FOLDER OUT.png; the table goes beside it."""
+"""One table and one picture of a sweep: the rows that `ogc ablate` wrote for each of its points. Usage: python3 -m
+paper_figures.figures.sweep FOLDER OUT.png; the table goes beside it."""
 
 import csv
 import sys
@@ -10,11 +11,13 @@ from plots import style
 
 # What is drawn over the first key, with a colour for each value of the second and a dash for each of the third.
 KEYS = ("iterations", "bound_relaxation", "redetect_fraction")
-PANELS = (("detections_a_step [1]", "detections a step"), ("median_step [ms]", "median time a step [ms]"), ("smallest_distance [m]", "smallest distance [m]"))
+PANELS = (("detections_a_step [1]", "detections a step"), ("median_step [ms]", "median time a step [ms]"),
+          ("smallest_distance [m]", "smallest distance [m]"))
 
 
 def gather(folder):
-    """Rows of all points; the folder's path is left out, its name says the point. Throws EvidenceError where there is none."""
+    """Rows of all points; the folder's path is left out, its name says the point. Throws EvidenceError where there is
+    none."""
     rows = []
     for path in sorted(Path(folder).glob("*/ablation.csv")):
         with path.open(newline="") as file:
@@ -43,7 +46,8 @@ def draw(rows, out):
     first, second = (sorted({key[i] for key in lines}, key=float) for i in (0, 1))
     for (name, label), axes in zip(PANELS, grid):
         for (a, b), points in lines.items():
-            axes.plot([float(row[KEYS[0]]) for row in points], [float(row[name]) for row in points], color=style.COLOURS[first.index(a)], linestyle=style.DASHES[second.index(b)],
+            axes.plot([float(row[KEYS[0]]) for row in points], [float(row[name]) for row in points],
+                      color=style.COLOURS[first.index(a)], linestyle=style.DASHES[second.index(b)],
                       marker=".", label=f"γ_p = {a}, γ_e = {b}")
         axes.set(xlabel="iterations a step", ylabel=label, ylim=(0, None))
     grid[-1].legend(fontsize=7, ncols=2, loc="lower center")

@@ -1,7 +1,9 @@
-"""Table 1, cloth rows: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
+"""Table 1, cloth rows: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the runner makes
+(FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
-Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the average, not in the maximum, and
-counted. The CPU's average is that of its windows, each with the same weight. With several whole runs each number is the median of theirs. The standard library is enough.
+Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the
+average, not in the maximum, and counted. The CPU's average is that of its windows, each with the same weight. With
+several whole runs each number is the median of theirs. The standard library is enough.
 """
 
 import argparse
@@ -63,7 +65,8 @@ def paper(scene, backend, quantity):
 
 def origin(run):
     m = run.manifest
-    return {"device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""), "ended": m["ended"], "scale": m.get("scale", ""), "status": m["status"]}
+    return {"device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
+            "ended": m["ended"], "scale": m.get("scale", ""), "status": m["status"]}
 
 
 def beside(run, average, maximum):
@@ -72,26 +75,31 @@ def beside(run, average, maximum):
     m = run.manifest
     for name, ours in (("average", average), ("maximum", maximum)):
         value, machine = paper(m["scene"]["name"], m["backend"], name) if m.get("scale") == "paper" else (None, "")
-        row |= {f"paper {name} [ms]": value if value is not None else "", f"{name} / paper's": ours / value if value else "", "paper's machine": machine}
+        row |= {f"paper {name} [ms]": value if value is not None else "",
+                f"{name} / paper's": ours / value if value else "", "paper's machine": machine}
     return row
 
 
 def sizes(run):
     scene = run.manifest["scene"]
-    return {"vertices": scene["vertices"], "triangles": scene["triangles"], "iterations": run.manifest["settings"]["iterations"]["value"]}
+    return {"vertices": scene["vertices"], "triangles": scene["triangles"],
+            "iterations": run.manifest["settings"]["iterations"]["value"]}
 
 
 def device_row(scene, runs, memory="", left=None):
     """Of the whole runs on the device, which must be as long as each other; `left`: what `residuals` found."""
     if len({len(run.column("step")) for run in runs}) > 1:
-        raise EvidenceError(f"{scene}: whole runs of different lengths ({', '.join(run.source for run in runs)}): finish them, or remove the shorter ones")
+        raise EvidenceError(f"{scene}: whole runs of different lengths ({', '.join(run.source for run in runs)}): "
+                            "finish them, or remove the shorter ones")
     averages, maxima, repeats = zip(*(times(run) for run in runs))
     run, found = runs[-1], contacts(runs[-1])
     steps, wanted = len(run.column("step")), run.manifest["settings"]["steps"]["value"]
     audit = {True: "no intersection", False: "FAILED", None: "not audited"}[run.guarantee_kept]
     return {"scene": scene, "backend": run.manifest["backend"], **origin(run), **sizes(run),
-            **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted, "runs": len(runs), "windows [ms]": "",
-            "repeated steps": max(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
+            **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted,
+            "runs": len(runs), "windows [ms]": "",
+            "repeated steps": max(repeats), "contacts, average": statistics.fmean(found),
+            "contacts, maximum": max(found),
             "audited states": f"{run.audited_states}, {audit}", "audit [s]": run.afterwards.get("seconds", ""),
             **(left or {STALE: "", FRESH: ""}), "device memory [MiB]": memory}
 
@@ -100,14 +108,18 @@ def cpu_row(scene, windows, wanted):
     """Of the windows on the CPU, by their share of the run."""
     windows = sorted(windows, key=lambda run: run.column("step")[0])
     if len({(run.manifest["commit"], run.manifest["device"]) for run in windows}) > 1:
-        raise EvidenceError(f"{scene}: CPU windows of different programs or machines: remove the old ones and make them again")
+        raise EvidenceError(f"{scene}: CPU windows of different programs or machines: remove the old ones and make "
+                            "them again")
     averages, maxima, repeats = zip(*(times(run) for run in windows))
     found = [n for run in windows for n in contacts(run)]
     each = "; ".join([f"{int(run.column('step')[0]) - 1}: {average:.4g}" for run, average in zip(windows, averages)]
                      + ([f"{WINDOWS - len(windows)} of {WINDOWS} not run"] if len(windows) < WINDOWS else []))
-    return {"scene": scene, "backend": "cpu", **origin(windows[-1]), **sizes(windows[-1]), **beside(windows[-1], statistics.fmean(averages), max(maxima)),
-            "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows), "windows [ms]": each,
-            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found), "contacts, maximum": max(found),
+    return {"scene": scene, "backend": "cpu", **origin(windows[-1]), **sizes(windows[-1]),
+            **beside(windows[-1], statistics.fmean(averages), max(maxima)),
+            "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows),
+            "windows [ms]": each,
+            "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found),
+            "contacts, maximum": max(found),
             "audited states": "windows: not audited", "audit [s]": "", STALE: "", FRESH: "",
             "device memory [MiB]": ""}
 
@@ -122,9 +134,11 @@ def rows_of(folder):
         if windows:
             rows.append(cpu_row(scene, windows, whole[-1].manifest["settings"]["steps"]["value"] if whole else ""))
         if windows and not whole:
-            rows.append(dict.fromkeys(rows[-1], "") | {"scene": scene, "scale": rows[-1]["scale"], "status": NOT_RUN, "commit": "-"})
+            rows.append(dict.fromkeys(rows[-1], "") | {"scene": scene, "scale": rows[-1]["scale"], "status": NOT_RUN,
+                                                       "commit": "-"})
     if not rows:
-        raise EvidenceError(f"{folder} holds no run of Table 1: make them with experiments/reproduce table1, or with paper_figures.workflow.runner")
+        raise EvidenceError(f"{folder} holds no run of Table 1: make them with experiments/reproduce table1, or with "
+                            "paper_figures.workflow.runner")
     return rows
 
 
@@ -134,16 +148,22 @@ def text(value):
     return f"{value:,}" if isinstance(value, int) else str(value)
 
 
-SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
-         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps", "windows [ms]", "audited states",
+SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's",
+         "maximum [ms]", "paper maximum [ms]",
+         "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps",
+         "windows [ms]", "audited states",
          "audit [s]", STALE, FRESH, "device memory [MiB]", "device",
          "paper's machine", "status", "commit")
 
-NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in the average, not in the maximum. "
-        "audit [s]: after the run, which it is no part of. Residuals (Eq. 29, by the reference in double): what one step "
+NOTE = ("Ours and the paper's times are of different machines. A step that was repeated because a list grew counts in "
+        "the average, not in the maximum. "
+        "audit [s]: after the run, which it is no part of. Residuals (Eq. 29, by the reference in double): what one "
+        "step "
         "leaves of the force after its initial guess, from the run's states (first state: residual). "
-        "CPU: windows of steps from states of the device's run, average of the windows (first state: average [ms]), maximum over all. fifty_layers and "
-        "fifty_layers_1m stand beside the same printed times, as Table 1 and Fig. 10 print one pair for two resolutions.")
+        "CPU: windows of steps from states of the device's run, average of the windows (first state: average [ms]), "
+        "maximum over all. fifty_layers and "
+        "fifty_layers_1m stand beside the same printed times, as Table 1 and Fig. 10 print one pair for two "
+        "resolutions.")
 
 
 def markdown(rows):
@@ -154,17 +174,23 @@ def markdown(rows):
 
 def page(rows):
     head = "".join(f"<th>{html.escape(name)}</th>" for name in SHOWN)
-    body = "\n".join("<tr>" + "".join(f"<td>{html.escape(text(row[name]))}</td>" for name in SHOWN) + "</tr>" for row in rows)
-    style = "body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}td,th{border:1px solid #bbb;padding:.3em .6em;text-align:right}"
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>Table 1, cloth rows</title><style>{style}</style></head>\n'
-            f"<body><h1>Table 1, cloth rows</h1>\n<table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table>\n<p>{html.escape(NOTE)}</p></body></html>\n")
+    body = "\n".join("<tr>" + "".join(f"<td>{html.escape(text(row[name]))}</td>" for name in SHOWN) + "</tr>"
+                     for row in rows)
+    style = ("body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}"
+             "td,th{border:1px solid #bbb;padding:.3em .6em;text-align:right}")
+    title = "Table 1, cloth rows"
+    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+            f"<style>{style}</style></head>\n"
+            f"<body><h1>{title}</h1>\n<table><thead><tr>{head}</tr></thead>\n"
+            f"<tbody>\n{body}\n</tbody></table>\n<p>{html.escape(NOTE)}</p></body></html>\n")
 
 
 def write(rows, out):
     """table1_SCALE.csv, .md and .html; returns their paths."""
     scales = {row["scale"] for row in rows}
     if len(scales) > 1:
-        raise EvidenceError(f"runs of different scales ({', '.join(sorted(scales))}) can't stand in one table: remove one of them")
+        raise EvidenceError(f"runs of different scales ({', '.join(sorted(scales))}) can't stand in one table: remove "
+                            "one of them")
     stem = Path(out) / f"table1_{scales.pop()}"
     stem.parent.mkdir(parents=True, exist_ok=True)
     with stem.with_suffix(".csv").open("w", newline="") as file:
@@ -179,7 +205,8 @@ def write(rows, out):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("runs", help="folder of these runs, table1-SCALE-BACKEND")
-    parser.add_argument("--out", help="where the table goes, for accepted results paper_figures/results/MACHINE (default: the folder of the runs)")
+    parser.add_argument("--out", help="where the table goes, for accepted results paper_figures/results/MACHINE "
+                                      "(default: the folder of the runs)")
     options = parser.parse_args()
     try:
         print("\n".join(str(path) for path in write(rows_of(options.runs), options.out or options.runs)))

@@ -1,9 +1,11 @@
-"""Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with a row in provenance.csv (command, program, device, digest)
-and the time it took in durations.csv. `experiments/reproduce … --accept MACHINE` calls it.
+"""Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with
+a row in provenance.csv (command, program, device, digest) and the time it took in durations.csv. `experiments/reproduce
+… --accept MACHINE` calls it.
 
 What is kept is small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the runs of several commits.
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the
+runs of several commits.
 """
 
 import argparse
@@ -38,14 +40,16 @@ def manifest_at(path):
 
 
 def check(name, manifest):
-    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they failed,
-    but no audit did."""
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they
+    failed, but no audit did."""
     if manifest.get("dirty") is not False:
         raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
     if manifest.get("guarantee_kept") is False:
-        raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted result")
+        raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted "
+                          "result")
     if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
-        raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run experiments/reproduce again, it goes on where it was")
+        raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run "
+                          "experiments/reproduce again, it goes on where it was")
 
 
 def program(ogc):
@@ -58,8 +62,8 @@ def program(ogc):
 
 
 def origin(recipe, folder, ogc, backend=None):
-    """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by `backend`, where there is one: windows on the
-    CPU beside it are not what the picture shows."""
+    """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by
+    `backend`, where there is one: windows on the CPU beside it are not what the picture shows."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
     for name, manifest in runs:
         check(f"{folder.name}/{name}", manifest)
@@ -67,8 +71,10 @@ def origin(recipe, folder, ogc, backend=None):
         return {**program(ogc), "device": "exact reference", "ended": ""}
     commits = sorted({manifest["commit"] for _, manifest in runs})
     if len(commits) > 1:
-        raise AcceptError(f"{folder} mixes runs of commits {', '.join(commit[:10] for commit in commits)}: remove it and run again")
-    last = max((manifest for _, manifest in runs), key=lambda manifest: (manifest.get("backend") == backend, manifest["ended"]))
+        raise AcceptError(f"{folder} mixes runs of commits {', '.join(commit[:10] for commit in commits)}: remove it "
+                          "and run again")
+    last = max((manifest for _, manifest in runs),
+               key=lambda manifest: (manifest.get("backend") == backend, manifest["ended"]))
     return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
 
 
@@ -86,22 +92,27 @@ def left_out(folder):
 
 
 def pieces(recipe, scale, backend, runs, incomplete=False):
-    """(name in results, bytes) of what is kept of a figure; `incomplete`: it may lack its movie, which too few frames were brought home for."""
+    """(name in results, bytes) of what is kept of a figure; `incomplete`: it may lack its movie, which too few frames
+    were brought home for."""
     folder, picture = runs / recipe.folder(scale, backend), runs / recipe.picture(scale, backend)
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
     if "illustration" in recipe.body:
-        return [(picture.name, bytes_of(picture)), (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
+        return [(picture.name, bytes_of(picture)),
+                (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
     outputs = [runs / path for path in recipe.outputs(scale, backend)]
     missing = [path for path in outputs if not path.is_file()]
     if missing and not incomplete:
-        raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, or keep the figure without it by --incomplete")
+        raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, "
+                          "or keep the figure without it by --incomplete")
     found = [(f"{recipe.name}_{scale}{path.suffix}", bytes_of(path)) for path in outputs if path not in missing]
-    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv")) if not path.stem.endswith(f"_{scale}")]
+    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv"))
+              if not path.stem.endswith(f"_{scale}")]
     if "vary" not in recipe.body:  # a sweep's table is its data
         paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
         for path in paths:  # one run lies beside its picture, several in a folder
-            found += run_files(path, f"{recipe.name}_{scale}" + ("/" + run_name(path, folder) if len(paths) > 1 else ""))
+            apart = f"/{run_name(path, folder)}" if len(paths) > 1 else ""
+            found += run_files(path, f"{recipe.name}_{scale}{apart}")
     return found
 
 
@@ -116,29 +127,35 @@ def run_name(path, folder):
 
 
 def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
-    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of them can't be accepted; `incomplete`: one that
-    says itself that runs were left out can be; `by_hand`: the command that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes
-    the picture alone: they keep what was said of them."""
+    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of
+    them can't be accepted; `incomplete`: one that says itself that runs were left out can be; `by_hand`: the command
+    that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes the picture
+    alone: they keep what was said of them."""
     folder, kept, rows, scenes = Path(results) / machine, [], [], {}
     before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
     shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
     for recipe in chosen:
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
         if missing:
-            raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is with --incomplete and say so in the README")
-        words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc, backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
-        for name, data in unlike_others(pieces(recipe, scale, backend, Path(runs), incomplete), folder, recipe.name, rows):
+            raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is "
+                              "with --incomplete and say so in the README")
+        words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc,
+                       backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
+        for name, data in unlike_others(pieces(recipe, scale, backend, Path(runs), incomplete), folder, recipe.name,
+                                        rows):
             if name.startswith(f"../{SCENES}/"):
                 scenes[folder / name] = data
                 continue
             if len(data) > LARGEST:
                 raise AcceptError(f"{name} has {len(data) / 2**20:.2g} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
-            redo = f"experiments/reproduce {recipe.name}" + ("" if drawn else f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else ""))
+            options = f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else "")
+            redo = f"experiments/reproduce {recipe.name}{'' if drawn else options}"
             digest = hashlib.sha256(data).hexdigest()[:16]
             if by_hand:
                 redo = by_hand if recipe.name not in shown else before.get((name, digest), redo)
-            rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "redo": redo, **words,
+            rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale,
+                         "backend": "-" if drawn else backend, "redo": redo, **words,
                          "sha256": digest})
             kept.append((folder / name, data))
     twice = {path.name for path, _ in kept if sum(other == path for other, _ in kept) > 1}
@@ -152,7 +169,8 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
         path.write_bytes(data)
     merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
     drop_scenes(Path(results))
-    merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"), list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
+    merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"),
+          list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
     return rows
 
 
@@ -176,9 +194,11 @@ def drop_scenes(results):
 
 def composed(recipe, chosen, scale, backend, runs, ogc):
     """Origin of a picture of other figures' runs: theirs, if it is one."""
-    found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen if other.name in recipe.body["of"]]
+    found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen
+             if other.name in recipe.body["of"]]
     if len({words["commit"] for words in found}) > 1:
-        raise AcceptError(f"{recipe.name} mixes runs of several commits: run experiments/reproduce {' '.join(recipe.body['of'])} anew")
+        raise AcceptError(f"{recipe.name} mixes runs of several commits: run experiments/reproduce "
+                          f"{' '.join(recipe.body['of'])} anew")
     return max(found, key=lambda words: words["ended"])
 
 
@@ -191,13 +211,17 @@ def rows_of(table):
 
 
 def earlier_files(provenance, rows):
-    """The files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that have no successor there."""
-    about, names = {tuple(row[key] for key in ("figure", "scale", "backend")) for row in rows}, {row["file"] for row in rows}
-    return [row["file"] for row in rows_of(provenance) if (row["figure"], row["scale"], row["backend"]) in about and row["file"] not in names]
+    """The files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that have no
+    successor there."""
+    about = {tuple(row[key] for key in ("figure", "scale", "backend")) for row in rows}
+    names = {row["file"] for row in rows}
+    return [row["file"] for row in rows_of(provenance) if (row["figure"], row["scale"], row["backend"]) in about
+            and row["file"] not in names]
 
 
 def merge(path, columns, rows, key, gone=()):
-    """Rows of a table replaced by those of the same key, without those `gone`; sorted, so that a new acceptance changes its own lines alone."""
+    """Rows of a table replaced by those of the same key, without those `gone`; sorted, so that a new acceptance changes
+    its own lines alone."""
     old = {tuple(row[name] for name in key): row for row in rows_of(path)}
     old = {name: row for name, row in old.items() if name not in gone}
     old.update({tuple(row[name] for name in key): row for row in rows})
@@ -215,15 +239,19 @@ def main():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
-    parser.add_argument("--redo", metavar="COMMAND", help="that makes the figure again, where the workflow's does not (options of its script)")
-    parser.add_argument("--incomplete", action="store_true", help="also a figure that says itself which runs it was drawn without, or that has no movie")
+    parser.add_argument("--redo", metavar="COMMAND",
+                        help="that makes the figure again, where the workflow's does not (options of its script)")
+    parser.add_argument("--incomplete", action="store_true",
+                        help="also a figure that says itself which runs it was drawn without, or that has no movie")
     options = parser.parse_args()
     try:
         chosen = recipes.choose(options.figures, recipes.load(), options.backend)
-        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc), incomplete=options.incomplete, by_hand=options.redo)
+        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc),
+                      incomplete=options.incomplete, by_hand=options.redo)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
-    print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m paper_figures.workflow.verdicts --write, and look at what changed")
+    print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m "
+          "paper_figures.workflow.verdicts --write, and look at what changed")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """Audits the stored states of a finished run exactly, after the run: what the audit takes is no part of the run's time.
 Where time runs out it stops after the state at hand, and goes on with the next ones when it is called again.
 
-Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit status 0: no
-state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Python's own library is enough.
+Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit
+status 0: no state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Python's own library
+is enough.
 """
 
 import argparse

@@ -1,7 +1,10 @@
-"""Holds new runs against the accepted results of the same question (scene, settings, scale, solver, backend), and claims against their verdicts. `experiments/reproduce … --check` calls it.
+"""Holds new runs against the accepted results of the same question (scene, settings, scale, solver, backend), and
+claims against their verdicts. `experiments/reproduce … --check` calls it.
 
-  bits     a run of the commit, device and compiler of the accepted one ends with its bits, and an illustration of the exact reference is the same data
-  bands    otherwise it has as many steps, keeps the guarantee, and the means of its columns lie within results/bands.json of the accepted ones
+  bits     a run of the commit, device and compiler of the accepted one ends with its bits, and an illustration of the
+    exact reference is the same data
+  bands    otherwise it has as many steps, keeps the guarantee, and the means of its columns lie within
+    results/bands.json of the accepted ones
   claims   a claim that the accepted results reproduce is reproduced again, and what was set as printed is so again; at
            a smaller scale than the claim's, its number lies in the claim's band, moved from the printed number to the
            accepted one. Times are not held against an accepted run's: they say more about the hour than the program
@@ -43,14 +46,17 @@ def question(run):
 
 
 def differences(run, old, allowed):
-    """Sentences about what differs between a run and its accepted counterpart by more than is allowed; none where all is well."""
+    """Sentences about what differs between a run and its accepted counterpart by more than is allowed; none where all
+    is well."""
     m, kept = run.manifest, old.manifest
     if run.guarantee_kept is False:
         return ["its audit FAILED"]
     if m.get("status") != "finished":
         return [f"not finished (status: {m.get('status', 'unknown')})"]
     if all(m.get(key) == kept.get(key) for key in SAME_BITS) and not m.get("dirty"):
-        return [] if m["final_hash"] == kept["final_hash"] else [f"NOT the bits of the accepted run ({m['final_hash']}, not {kept['final_hash']}), although program and machine are the same"]
+        hashes = f"{m['final_hash']}, not {kept['final_hash']}"
+        wrong = f"NOT the bits of the accepted run ({hashes}), although program and machine are the same"
+        return [] if m["final_hash"] == kept["final_hash"] else [wrong]
     steps = run.step_count, old.step_count
     if steps[0] != steps[1]:
         return [f"{steps[0]} steps, not {steps[1]}"]
@@ -69,7 +75,8 @@ def compare_runs(new, accepted, allowed):
         if old is not None:
             wrong = differences(run, old, allowed)
             same = all(run.manifest.get(key) == old.manifest.get(key) for key in SAME_BITS)
-            yield f"{run.source}: {'; '.join(wrong) or ('the bits of' if same else 'within the bands of') + ' ' + old.source}", not wrong
+            alike = f"{'the bits of' if same else 'within the bands of'} {old.source}"
+            yield f"{run.source}: {'; '.join(wrong) or alike}", not wrong
 
 
 def compare_illustrations(runs, results):
@@ -77,7 +84,8 @@ def compare_illustrations(runs, results):
     for path in sorted(Path(runs).glob("illustrations/fig*.json")):
         for old in sorted(Path(results).glob(f"*/{path.name}.gz")):
             same = gzip.decompress(old.read_bytes()) == path.read_bytes()
-            yield f"illustrations/{path.name}: {'the data' if same else 'NOT the data'} of {old.relative_to(results)}", same
+            words = "the data" if same else "NOT the data"
+            yield f"illustrations/{path.name}: {words} of {old.relative_to(results)}", same
 
 
 def compare_claims(new, kept):
@@ -87,23 +95,28 @@ def compare_claims(new, kept):
         before = accepted[judgement.claim["id"]].verdict
         if judgement.measured:
             lost = (before, judgement.verdict) in (("reproduced", "refuted"), ("as printed", "not as printed"))
-            yield (f"{judgement.claim['id']}: {judgement.verdict}, {judgement.measured.value:.4g} (paper {judgement.claim['value']:g}, band {band_in_words(judgement.claim)}); "
+            yield (f"{judgement.claim['id']}: {judgement.verdict}, {judgement.measured.value:.4g} (paper "
+                   f"{judgement.claim['value']:g}, band {band_in_words(judgement.claim)}); "
                    f"accepted: {before}{' – LOST' if lost else ''}"), not lost
         elif movable(judgement.claim):
             yield from compare_smaller(judgement.claim, new, kept)
 
 
 def movable(claim):
-    """Whether the claim's band says something at another scale: not of times, nor of sizes, which are part of the question, nor where the printed number is an end of it."""
+    """Whether the claim's band says something at another scale: not of times, nor of sizes, which are part of the
+    question, nor where the printed number is an end of it."""
     band, value = claim.get("band"), claim["value"]
-    if not isinstance(band, list) or None in band or not value or any(word in json.dumps(claim["measure"]) for word in NOT_COMPARED):
+    if not isinstance(band, list) or None in band or not value:
+        return False
+    if any(word in json.dumps(claim["measure"]) for word in NOT_COMPARED):
         return False
     return band[0] == value == band[1] or value not in band
 
 
 def compare_smaller(claim, new, kept):
     """The claim's number at a smaller scale, new and accepted: its band, moved to the accepted number."""
-    wanted = {key: value for key, value in {"scene": claim["scene"], **claim.get("run", {})}.items() if key not in ("steps", "device", "audited")}
+    wanted = {key: value for key, value in {"scene": claim["scene"], **claim.get("run", {})}.items()
+              if key not in ("steps", "device", "audited")}
     for scale in STATES:
         found = new.measure(claim["measure"], {**wanted, "scale": scale})
         try:
@@ -116,15 +129,19 @@ def compare_smaller(claim, new, kept):
         elif found and before:
             moved = [end * before.value / claim["value"] for end in claim["band"]]
             good = within(found.value, before.value, moved)
-            yield f"{claim['id']} at {scale}: {found.value:.4g}, accepted {before.value:.4g}, the claim's band moved there {band_in_words({'band': moved})}{'' if good else ' – LOST'}", good
+            numbers = f"{found.value:.4g}, accepted {before.value:.4g}"
+            band = f"the claim's band moved there {band_in_words({'band': moved})}"
+            yield f"{claim['id']} at {scale}: {numbers}, {band}{'' if good else ' – LOST'}", good
 
 
 def check(runs, results=RESULTS):
     """Words about all below `runs`, and whether everything is met."""
     new, kept = runs_in(runs), Evidence(results)
-    found = [*compare_runs(new, kept.runs, bands()), *compare_illustrations(runs, results), *compare_claims(Evidence(runs), kept)]
+    found = [*compare_runs(new, kept.runs, bands()), *compare_illustrations(runs, results),
+             *compare_claims(Evidence(runs), kept)]
     if not found:
-        return [f"{len(new)} runs, none of which an accepted result or a claim (they are about the paper's size) is about"], True
+        return [f"{len(new)} runs, none of which an accepted result or a claim (they are about the paper's size) is "
+                "about"], True
     return [line for line, _ in found], all(met for _, met in found)
 
 

@@ -1,8 +1,8 @@
-"""The runs of figures and tables that are made of several, as data: their scripts draw them, the runner makes them where
-nothing but Python itself is installed.
+"""The runs of figures and tables that are made of several, as data: their scripts draw them, the runner makes them
+where nothing but Python itself is installed.
 
-Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are those
-of `ogc run`; `backend` is that of VBD in single precision, all else runs on the CPU.
+Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are
+those of `ogc run`; `backend` is that of VBD in single precision, all else runs on the CPU.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,8 @@ from paper_figures.workflow import layers
 from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.jobs import Command, Job, Share, Step
 
-TWIST, THREE_CLOTHS, ONE_ITERATION, ACTIVATIONS = "large_radius_twist", "three_cloths_on_sphere", "one_iteration_drop", "activation_drop"
+TWIST, THREE_CLOTHS = "large_radius_twist", "three_cloths_on_sphere"
+ONE_ITERATION, ACTIVATIONS = "one_iteration_drop", "activation_drop"
 NEO_HOOKEAN = "stable_neo_hookean"  # of IPC's runs and of those beside them (compare/deviations.md)
 
 TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and paper
@@ -22,7 +23,8 @@ THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd":
                            "paper": {"vbd": 1000, "newton": 150}}
 ANY = ("--set", "redetect_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
-NEWTON = ("--solver", "newton", "--residual", *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
+NEWTON = ("--solver", "newton", "--residual",
+          *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
                                                for word in ("--set", value)))
 
 ACTIVATION_STEPS = {"smoke": 30, "small": 40, "paper": 40}
@@ -57,15 +59,17 @@ def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
 
 
 def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=20):
-    """IPC on windows of so many steps from states of the run `whole`, which ends at step `last`, where it is too slow for the run itself."""
-    return [Job(f"ipc_{start}", (scene, *shared(scale, membrane), "--solver", "ipc", "--profile", "--steps", min(last, start + steps)), (whole, Step(start)))
+    """IPC on windows of so many steps from states of the run `whole`, which ends at step `last`, where it is too slow
+    for the run itself."""
+    return [Job(f"ipc_{start}", (scene, *shared(scale, membrane), "--solver", "ipc", "--profile", "--steps",
+                                 min(last, start + steps)), (whole, Step(start)))
             for start in starts]
 
 
 def three_cloths(scale, backends, start_iterations=None):
-    """Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that step by VBD in single
-    precision; and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which the paper may have
-    printed in cm/s. `start_iterations`: of each step before, where the scene's own take too long."""
+    """Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that step by VBD in
+    single precision; and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which the paper may
+    have printed in cm/s. `start_iterations`: of each step before, where the scene's own take too long."""
     step, iterations = THREE_CLOTHS_STEP[scale], THREE_CLOTHS_ITERATIONS[scale]
     base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
     before = ("--set", f"iterations={start_iterations or iterations['vbd']}")
@@ -202,17 +206,19 @@ def cpu_windows(row, steps, scale, data=""):
     return from_states(row, "cpu", steps, scale, ("--backend", "cpu"), data)
 
 
-# Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball it
-# would never slow down. OGC's force jumps at block boundaries, so that a step may never get there: after 100 iterations it
-# ends as it is, as a step of VBD does.
+# Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball
+# it would never slow down. OGC's force jumps at block boundaries, so that a step may never get there: after 100
+# iterations it ends as it is, as a step of VBD does.
 NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "redetect_fraction=0", "newton_iterations=100")
 SOLVERS = {"ipc": ("--solver", "ipc", "--profile"),  # the baseline
-           "newton": ("--solver", "newton", "--profile", *(word for value in NEWTON_AS_IPC for word in ("--set", value))),
+           "newton": ("--solver", "newton", "--profile",
+                      *(word for value in NEWTON_AS_IPC for word in ("--set", value))),
            "vbd": (), "vbd_cuda": ("--backend", "cuda")}
 
 
 def solvers(scale, cuda=False, membrane=NEO_HOOKEAN):
-    """Fig. 18: the same run by each solver, with its processor time; one after the other, because each wants all cores."""
+    """Fig. 18: the same run by each solver, with its processor time; one after the other, because each wants all
+    cores."""
     base = ("cloth_on_sphere", *shared(scale, membrane), "--audit", "end")
     return [Job(name, (*base, *options), processor_time=True) for name, options in SOLVERS.items()
             if cuda or name != "vbd_cuda"]

@@ -1,4 +1,5 @@
-"""Memory that runs take on a device, sampled from outside, because the driver's own share (context, code of the kernels) counts as well."""
+"""Memory that runs take on a device, sampled from outside, because the driver's own share (context, code of the
+kernels) counts as well."""
 
 import json
 import os
@@ -7,8 +8,9 @@ import threading
 
 
 class DeviceMemory:
-    """Samples the memory in use on the device that CUDA counts first [MiB] once a second while its block runs, and keeps the first and the largest number in a file; nothing
-    where nvidia-smi can't be had. One process asks all the time: its start takes locks of the driver, which would show in a step."""
+    """Samples the memory in use on the device that CUDA counts first [MiB] once a second while its block runs, and
+    keeps the first and the largest number in a file; nothing where nvidia-smi can't be had. One process asks all the
+    time: its start takes locks of the driver, which would show in a step."""
 
     COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--loop=1")
 
@@ -19,7 +21,8 @@ class DeviceMemory:
 
     def __enter__(self):
         try:
-            self.process = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) if self.command else None
+            self.process = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                            text=True) if self.command else None
         except OSError:
             return
         if self.process:
@@ -43,11 +46,15 @@ class DeviceMemory:
         self.process.stdout.close()
         if self.samples:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            earlier = json.loads(self.path.read_text())["largest [MiB]"] if self.path.is_file() else 0  # of a run that goes on
-            self.path.write_text(json.dumps({"before [MiB]": self.samples[0], "largest [MiB]": max(earlier, *self.samples), "samples": len(self.samples)}) + "\n")
+            # of a run that goes on
+            earlier = json.loads(self.path.read_text())["largest [MiB]"] if self.path.is_file() else 0
+            self.path.write_text(json.dumps({"before [MiB]": self.samples[0],
+                                             "largest [MiB]": max(earlier, *self.samples),
+                                             "samples": len(self.samples)}) + "\n")
 
 
 def taken(path):
-    """What was in use at most beyond what was in use before [MiB]; "" where nobody sampled it, or only once: before the run took any."""
+    """What was in use at most beyond what was in use before [MiB]; "" where nobody sampled it, or only once: before the
+    run took any."""
     sampled = json.loads(path.read_text()) if path.is_file() else None
     return sampled["largest [MiB]"] - sampled["before [MiB]"] if sampled and sampled["samples"] > 1 else ""

@@ -1,4 +1,5 @@
-"""What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a judgement needs no package.
+"""What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a
+judgement needs no package.
 
 A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`; of an accepted
 result `X_steps.csv`, of a long one `X_hundreds.csv`, see thinned.py; compressed ones end in `.gz`); a table is
@@ -176,14 +177,16 @@ class RunEvidence:
         return f"{self.audited_states} states audited, {self.step_count} steps"
 
     def matches(self, wanted):
-        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited, membrane,
-        activation, redetect_fraction (rounded to single precision in the manifest), and steps: so many from the
-        scene's start, not a window."""
+        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
+        membrane, activation, redetect_fraction (rounded to single precision in the manifest), and steps: so many from
+        the scene's start, not a window."""
         m = self.manifest
-        special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n, "profiled": lambda yes: bool(m.get("stages")) == yes,
+        special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
+                   "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
-                   "redetect_fraction": lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
+                   "redetect_fraction":
+                       lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
                    "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
@@ -261,7 +264,8 @@ def ended_of(path):
 
 
 class Evidence:
-    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program too."""
+    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program
+    too."""
 
     def __init__(self, folder=RESULTS, changed=False):
         folder = Path(folder)
@@ -286,7 +290,8 @@ class Evidence:
         return self._earlier[moment]
 
     def measure(self, spec, wanted):
-        """The number that `spec` describes from the newest run that is as `wanted`, or the newest table, or None where there is none."""
+        """The number that `spec` describes from the newest run that is as `wanted`, or the newest table, or None where
+        there is none."""
         if isinstance(spec, list):
             return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
         if "table" in spec:
@@ -297,7 +302,8 @@ class Evidence:
         runs = self.runs_as(wanted)
         if "guarantee" in spec:
             # One failed audit outweighs every run that kept the guarantee, whatever its last step and its material.
-            runs += [run for run in self.failed if run.matches({key: value for key, value in wanted.items() if key not in ("steps", "membrane")})]
+            alike = {key: value for key, value in wanted.items() if key not in ("steps", "membrane")}
+            runs += [run for run in self.failed if run.matches(alike)]
         if not runs:
             return None
         return runs[-1].measured(value_of(runs[-1], spec), runs[-1].audit_in_words if "guarantee" in spec else "")
@@ -309,7 +315,8 @@ class Evidence:
     def _ratio(self, spec, wanted):
         """Of two runs of one commit and of the same materials, and of one machine unless the ratio is about two."""
         over, under = (self.runs_as({**wanted, **part.get("run", {})}) for part in spec["ratio"])
-        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"] and a.membranes == b.membranes
+        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"]
+                 and a.membranes == b.membranes
                  and (spec.get("devices") == "differ" or a.manifest["device"] == b.manifest["device"])]
         if not alike:
             return None
@@ -328,7 +335,9 @@ class Evidence:
                 continue
             cells = [_cell(table, row, spec["column"]) for row in rows]
             if len({row["commit"] for row in rows}) > 1:
-                raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one program")
+                raise EvidenceError(f"{table.source} mixes commits "
+                                    f"{', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one "
+                                    "program")
             if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
                 continue
             value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
@@ -338,7 +347,8 @@ class Evidence:
 
 
 def _row(table, wanted):
-    rows = [row for row in table.rows if all(row.get(key) == value for key, value in wanted.items()) and "dirty" not in row["commit"] and row.get("status") != NOT_RUN]
+    rows = [row for row in table.rows if all(row.get(key) == value for key, value in wanted.items())
+            and "dirty" not in row["commit"] and row.get("status") != NOT_RUN]
     return rows[0] if rows else None
 
 
@@ -375,7 +385,8 @@ def value_of(run, spec):
 
 def _count(scene, moving, what):
     driven = [body for body in scene["bodies"] if is_driven(body)]
-    counts = {"vertices": (moving, "vertex_count"), "triangles": (moving, "triangle_count"), "fixed_vertices": (driven, "vertex_count"), "fixed_triangles": (driven, "triangle_count")}
+    counts = {"vertices": (moving, "vertex_count"), "triangles": (moving, "triangle_count"),
+              "fixed_vertices": (driven, "vertex_count"), "fixed_triangles": (driven, "triangle_count")}
     if what in counts:
         bodies, key = counts[what]
         return sum(body[key] for body in bodies)

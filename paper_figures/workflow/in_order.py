@@ -1,5 +1,5 @@
-"""The steps of figures one after the other, where Snakemake can't be had. A step whose output is there already is not done again unless an input is newer, but a changed
-parameter goes unnoticed: remove the figure's folder then.
+"""The steps of figures one after the other, where Snakemake can't be had. A step whose output is there already is not
+done again unless an input is newer, but a changed parameter goes unnoticed: remove the figure's folder then.
 
 Usage: python3 -m paper_figures.workflow.in_order RUNS OGC SCALE BACKEND [FIGURE …]
 """

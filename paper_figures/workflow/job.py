@@ -2,8 +2,8 @@
 Beside the log it writes how long the command took.
 
 Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is
-removed first, if it is a run folder. Where OGC_EVENTS names a file, it is told there when the step begins and how it ends
-(progress.py), by the log's name.
+removed first, if it is a run folder. Where OGC_EVENTS names a file, it is told there when the step begins and how it
+ends (progress.py), by the log's name.
 """
 
 import json

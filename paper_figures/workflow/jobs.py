@@ -1,5 +1,5 @@
-"""Jobs of `ogc` under a limit of time: what is finished is kept, what was cut off goes on from its checkpoint, and at the
-limit a job is asked to stop. Python's own library is enough.
+"""Jobs of `ogc` under a limit of time: what is finished is kept, what was cut off goes on from its checkpoint, and at
+the limit a job is asked to stop. Python's own library is enough.
 
 A job is a command with a folder or a file of its own below the folder of its part. `make` makes it, or goes on with it,
 and returns how that ended (KEPT, FINISHED, STOPPED); it throws RunFailure. `results` yields the files that are packed.
@@ -27,7 +27,8 @@ AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run fou
 
 
 class RunFailure(Exception):
-    """A job that did not end as it should, or that can't begin; the message has its command and the log's last lines."""
+    """A job that did not end as it should, or that can't begin; the message has its command and the log's last
+    lines."""
 
 
 class Limit:
@@ -55,8 +56,8 @@ class Step:
 
 @dataclass(frozen=True)
 class Share:
-    """The frame at so many hundredths of a run's steps, rounded down to one that is stored every `frame_steps` steps; the
-    last one at 100."""
+    """The frame at so many hundredths of a run's steps, rounded down to one that is stored every `frame_steps` steps;
+    the last one at 100."""
 
     percent: int
     frame_steps: int
@@ -72,10 +73,12 @@ def last_step(run):
 
 
 def frame_of(run, place):
-    """(path, step) of a run's frame: a place in their order, a Step or a Share. Throws RunFailure where it is missing."""
+    """(path, step) of a run's frame: a place in their order, a Step or a Share. Throws RunFailure where it is
+    missing."""
     if isinstance(place, Share):
         last = last_step(run)
-        place = Step(last if place.percent == 100 else last * place.percent // 100 // place.frame_steps * place.frame_steps)
+        place = Step(last if place.percent == 100
+                     else last * place.percent // 100 // place.frame_steps * place.frame_steps)
     frames = sorted((run / "frames").glob("frame_*.h5"))
     if isinstance(place, Step):
         frames, place = [frame for frame in frames if frame.stem == f"frame_{place.number:06d}"], 0
@@ -88,9 +91,9 @@ def frame_of(run, place):
 class Job:
     """`ogc run ARGUMENTS --out FOLDER/name`.
 
-    `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file that
-    it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept beside
-    the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed."""
+    `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
+    that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
+    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed."""
 
     name: str
     arguments: tuple
@@ -167,7 +170,7 @@ class Job:
             return STOPPED
         if self.may_fail and status.startswith("failed"):
             return FINISHED
-        if status == "finished":  # the watching program found something: the run is no result, its log is
+        if self.under and status == "finished":  # what watched it found something: its log says what, the run nothing
             shutil.rmtree(folder)
         raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
 
@@ -187,8 +190,8 @@ class Job:
 
 @dataclass(frozen=True)
 class Command:
-    """`ogc WORDS`, which makes the file `output` of the part out of the runs `of`: whole, or not at all. "{root}" in the
-    words is the part's folder."""
+    """`ogc WORDS`, which makes the file `output` of the part out of the runs `of`: whole, or not at all. "{root}" in
+    the words is the part's folder."""
 
     name: str
     words: tuple
@@ -199,7 +202,8 @@ class Command:
     def done(self, root):
         output, stamp = root / self.output, Path(os.environ.get("OGC_STAMP") or "/nonexistent")
         inputs = [*(root / name / "run.json" for name in self.of), *([stamp] if stamp.is_file() else [])]
-        return output.is_file() and all(path.is_file() and path.stat().st_mtime <= output.stat().st_mtime for path in inputs)
+        return output.is_file() and all(path.is_file() and path.stat().st_mtime <= output.stat().st_mtime
+                                        for path in inputs)
 
     def make(self, program, root, limit=Limit(), shown=False):
         if self.done(root):
@@ -254,8 +258,8 @@ def is_of(folder, program):
 
 
 def taken_before(folder):
-    """Processor time of a run's earlier attempts [s], taken out of its file until it is added to; None where one of them
-    was killed with whoever measured it."""
+    """Processor time of a run's earlier attempts [s], taken out of its file until it is added to; None where one of
+    them was killed with whoever measured it."""
     path = folder / PROCESSOR_TIME
     if not path.is_file():
         return None
@@ -273,8 +277,8 @@ def chosen_frames(folder, frames, last):
 
 def command_in(command, limit=Limit(), log=None, out=None):
     """(exit status, processor time) of a command that is asked to stop at the limit and killed a minute later. What it
-    prints goes to the file `log`; its standard output to `out` where that is named; without both, errors and progress to
-    the screen."""
+    prints goes to the file `log`; its standard output to `out` where that is named; without both, errors and progress
+    to the screen."""
     command = list(map(str, command))
     apart = {"start_new_session": True}  # an interrupt of ours, told once: a second one kills
     if log is None:

@@ -43,7 +43,8 @@ AIMS = (
     ("whole answers", 10**7, "cases", ("detect_vertex_facet", "detect_edge_edge", "bound")),
     ("sweeps", 10**4, "questions", ("sweep",)),
 )
-SUMS = ("cases", "questions", "decisions", "grey", "grey_not_exact", "near", "mismatches", "seconds", "contestant_seconds",
+SUMS = ("cases", "questions", "decisions", "grey", "grey_not_exact", "near", "mismatches", "seconds",
+        "contestant_seconds",
         "authority_seconds", "wall_seconds")
 COLUMNS = ("cases", "questions", "decisions", "grey", "answered otherwise than exactly", "mismatches", "seconds",
            "contestant's")
@@ -117,7 +118,9 @@ class Counts:
             return least
         seconds = min(CHUNK_SECONDS, 0.8 * limit.left())
         cases = int(seconds * done["cases"] / done["wall_seconds"])
-        return 0 if cases < least and seconds < CHUNK_SECONDS else max(least, min(cases, self.wanted(stage) - done["cases"]))
+        if cases < least and seconds < CHUNK_SECONDS:
+            return 0
+        return max(least, min(cases, self.wanted(stage) - done["cases"]))
 
     def chunk(self, program, root, stage, cases, limit):
         """One run, kept as a line, with what it said where it failed; one that the limit cut off leaves nothing."""
@@ -157,14 +160,16 @@ class Counts:
         sums = self.sums(root)
         text = markdown(sums) + "\n\n" + "\n".join(f"- {line}" for line in totals(sums)) + "\n"
         (root / "counts.md").write_text(text)
-        about = {"backend": self.backend, "seed": self.seed, "share": self.share, "stages": sums, "totals": totals(sums)}
+        about = {"backend": self.backend, "seed": self.seed, "share": self.share, "stages": sums,
+                 "totals": totals(sums)}
         (root / "counts.json").write_text(json.dumps({**about, "failed": list(self.failed(root))}, indent=1) + "\n")
 
     def results(self, root, _frames, _last):
         """The sums, and all that failed chunks left."""
         kept = [root / name for name in ("counts.md", "counts.json") if (root / name).is_file()]
         failed = [path for path in root.glob("*.log") if path.is_file()]
-        left = [path for folder in root.iterdir() if folder.is_dir() for path in folder.rglob("*")] if root.is_dir() else []
+        left = [path for folder in root.iterdir() if folder.is_dir()
+                for path in folder.rglob("*")] if root.is_dir() else []
         yield from [*kept, *sorted(failed), *sorted(path for path in left if path.is_file())]
 
 

@@ -61,7 +61,8 @@ def run_files(path, stem):
     elif text:
         found.append(compressed(f"{stem}_{ROWS[0]}", text.encode()))
     kept = ("iterations.csv", PROCESSOR_TIME)
-    found += [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in kept if path.with_name(name).is_file()]
+    found += [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in kept
+              if path.with_name(name).is_file()]
     if path.with_name(AUDIT).is_file():
         audit = json.loads(path.with_name(AUDIT).read_text())
         audit.pop("steps", None)  # `states` counts them
@@ -83,7 +84,8 @@ def compact(manifest):
 
 
 def costs_of(folder):
-    """Where the time of the run's steps goes, which the thinned rows can't tell any more; nothing where every row can't."""
+    """Where the time of the run's steps goes, which the thinned rows can't tell any more; nothing where every row
+    can't."""
     from paper_figures.workflow.step_costs import costs
 
     try:

@@ -1,13 +1,16 @@
-"""Scenes of any size at one contact density, as scene files: LAYERS square sheets of `fifty_layers` (its spacing, radius and materials), pressed together between
-a fixed ground and a fixed lid, each sheet as large as the number of its vertices asks for.
+"""Scenes of any size at one contact density, as scene files: LAYERS square sheets of `fifty_layers` (its spacing,
+radius and materials), pressed together between a fixed ground and a fixed lid, each sheet as large as the number of its
+vertices asks for.
 
-Why the density is the same: two sheets differ in size by rows and columns added at the rim, of the same cells. Each layer's shift in the plane is drawn with the
-layer's number alone, so that an inner vertex meets the same neighbours at the same distances whatever the size, in the first step and, because a step's forces are
-local, in later ones. Only the rim has fewer contacts: 4 / side of the vertices. The measured density stands in growth.py's table.
+Why the density is the same: two sheets differ in size by rows and columns added at the rim, of the same cells. Each
+layer's shift in the plane is drawn with the layer's number alone, so that an inner vertex meets the same neighbours at
+the same distances whatever the size, in the first step and, because a step's forces are local, in later ones. Only the
+rim has fewer contacts: 4 / side of the vertices. The measured density stands in growth.py's table.
 
-Sheets lie 0.9 r apart, so that all touch their neighbours from the first step on; ground and lid keep them there. With the scene's own time step of 1/1200 s such a
-stack cuts one vertex in a hundred in every iteration (k_c exceeds m/h², fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its
-contacts, which is what a growth over the number of vertices alone needs. Python's library is enough, so that a bare machine with the program can make them.
+Sheets lie 0.9 r apart, so that all touch their neighbours from the first step on; ground and lid keep them there. With
+the scene's own time step of 1/1200 s such a stack cuts one vertex in a hundred in every iteration (k_c exceeds m/h²,
+fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its contacts, which is what a
+growth over the number of vertices alone needs. Python's own library is enough.
 """
 
 import json
@@ -55,7 +58,8 @@ def triangles(side):
 
 
 def write_mesh(path, points, faces):
-    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points) // 3}\nproperty double x\nproperty double y\nproperty double z\n"
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points) // 3}\nproperty double x\nproperty "
+            "double y\nproperty double z\n"
             f"element face {len(faces) // 13}\nproperty list uchar int vertex_indices\nend_header\n")
     path.write_bytes(head.encode() + points.tobytes() + faces)
 
@@ -68,7 +72,8 @@ def shift_of(layer):
 
 def template(program, folder):
     """The scene file of fifty_layers, as the program writes it."""
-    subprocess.run([str(program), "scenes", "fifty_layers", "--scale", "smoke", "--write", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([str(program), "scenes", "fifty_layers", "--scale", "smoke", "--write", str(folder)], check=True,
+                   stdout=subprocess.DEVNULL)
     return json.loads((folder / "fifty_layers.json").read_text())
 
 

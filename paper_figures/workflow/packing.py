@@ -20,9 +20,10 @@ LARGEST_FILE, LARGEST_ARCHIVE = 2**30, 2**36
 
 
 class Archive:
-    """The archive of one call: FOLDER/runs_NN.tar.gz with the first number that is free, written anew whenever a part is
-    finished, so that nothing is lost where the machine goes away. `piece` and `most` [MiB]: it is cut into pieces of the
-    one (….000, ….001), and has at most the other, what does not fit is named and stays for a later call; 0: no limit."""
+    """The archive of one call: FOLDER/runs_NN.tar.gz with the first number that is free, written anew whenever a part
+    is finished, so that nothing is lost where the machine goes away. `piece` and `most` [MiB]: it is cut into pieces of
+    the one (….000, ….001), and has at most the other, what does not fit is named and stays for a later call; 0: no
+    limit."""
 
     def __init__(self, folder, out, piece=0, most=0):
         self.folder, self.out, self.piece, self.most = folder, out, piece * MIB, most * MIB

@@ -1,7 +1,8 @@
-"""What the runner can be asked for, by name: the runs of a figure, a row of Table 1 or a measurement, as chains of jobs.
+"""What the runner can be asked for, by name: the runs of a figure, a row of Table 1 or a measurement, as chains of
+jobs.
 
-A chain's jobs are made one after the other; chains of one part may go on side by side. Folders below that of the runs are
-those of the workflow (FIGURE-SCALE-BACKEND).
+A chain's jobs are made one after the other; chains of one part may go on side by side. Folders below that of the runs
+are those of the workflow (FIGURE-SCALE-BACKEND).
 """
 
 import os
@@ -11,7 +12,8 @@ from paper_figures.workflow import commands
 from paper_figures.workflow.judge_counts import STAGES, Counts
 
 # Rows of Table 1, the most wanted first: the figure of the row's scene, and the frames that are packed of its run.
-ROWS = {"twist": ("fig12", 40), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21), "fifty_layers": ("fig10", 3),
+ROWS = {"twist": ("fig12", 40), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
+        "fifty_layers": ("fig10", 3),
         "knot": ("fig11", 17), "dress": ("fig13", 20), "robot_shirt": ("fig14", 20)}
 WINDOW = {"smoke": 20, "small": 20, "paper": 200}  # steps on the CPU
 
@@ -83,7 +85,8 @@ def of_figures(wanted):
         "fig20": Part(folder("fig20"), ((drop,),), "fig20", frames=25),
         "fig17": Part(folder("fig17"), (on_device,), "fig17", frames=0, last=1),
         "fig17_cpu": Part(folder("fig17"), (on_cpu,), "fig17", frames=0, last=1),
-        "fig21": Part(folder("fig21"), tuple(map(tuple, commands.activations(scale, backend))), "fig21", frames=0, last=2),
+        "fig21": Part(folder("fig21"), tuple(map(tuple, commands.activations(scale, backend))), "fig21", frames=0,
+                      last=2),
         "fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=2),
         "fig20_ipc": Part(folder("fig20"), ((ipc,),), "fig20", frames=25),
         "fig17_double": Part(folder("fig17"), one_by_one(double), "fig17", frames=0, last=1),
@@ -99,7 +102,8 @@ def whole(row, wanted):
 
 def of_table(wanted):
     """A row's whole runs, and one step from their states."""
-    jobs = {row: (*whole(row, wanted), *commands.residuals(row, wanted.scale, wanted.backend, wanted.data)) for row in ROWS}
+    jobs = {row: (*whole(row, wanted), *commands.residuals(row, wanted.scale, wanted.backend, wanted.data))
+            for row in ROWS}
     folder = wanted.folder("table1")
     return {row: Part(folder, (jobs[row],), "table1", frames) for row, (_, frames) in ROWS.items()}
 
@@ -115,7 +119,8 @@ def windows(wanted):
     """Steps on the CPU from states of whole runs; the million vertices come last."""
     steps, folder = wanted.window or WINDOW[wanted.scale], wanted.folder("table1")
     rows = sorted(ROWS, key="fifty_layers_1m".__eq__)
-    return {f"windows_{row}": Part(folder, (tuple(commands.cpu_windows(row, steps, wanted.scale, wanted.data)),), "table1")
+    return {f"windows_{row}": Part(folder, (tuple(commands.cpu_windows(row, steps, wanted.scale, wanted.data)),),
+                                   "table1")
             for row in rows}
 
 

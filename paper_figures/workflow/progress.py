@@ -1,10 +1,11 @@
-"""Runs the workflow and says in our own words how far it is: which figure, which step of how many, how long yet. What the
-workflow itself prints goes to RUNS/reproduce.log.
+"""Runs the workflow and says in our own words how far it is: which figure, which step of how many, how long yet. What
+the workflow itself prints goes to RUNS/reproduce.log.
 
-Usage: python3 -m paper_figures.workflow.progress RUNS SCALE BACKEND [FIGURE …] -- COMMAND …; the exit status is the command's.
+Usage: python3 -m paper_figures.workflow.progress RUNS SCALE BACKEND [FIGURE …] -- COMMAND …; the exit status is the
+command's.
 
-The steps tell what they do in a file (job.py); which of them are due the workflow says itself: Snakemake in its table of
-jobs, `in_order` in that file. Times are those that a step took here before, or the figure's on another machine
+The steps tell what they do in a file (job.py); which of them are due the workflow says itself: Snakemake in its table
+of jobs, `in_order` in that file. Times are those that a step took here before, or the figure's on another machine
 (results/*/durations.csv), or follow from how far the running program says it is.
 """
 

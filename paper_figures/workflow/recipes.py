@@ -1,11 +1,13 @@
-"""Figures as steps: which command makes which file out of which. One YAML file a figure (figNN.yaml) says what is run and drawn; Snakemake (paper_figures/workflow/Snakefile)
-runs the steps, or `in_order` where Snakemake can't be had. Paths are relative to the folder of the runs.
+"""Figures as steps: which command makes which file out of which. One YAML file a figure (figNN.yaml) says what is run
+and drawn; Snakemake (paper_figures/workflow/Snakefile) runs the steps, or `in_order` where Snakemake can't be had.
+Paths are relative to the folder of the runs.
 
-Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of paper_figures.figures) and `run` (options of `ogc run`; without it the
-script makes its runs itself, with `options`), or `scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes`
-where the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense; `kept` where results hold only
-the runs whose names match one of these patterns, and of the others their rows in the figure's table. A figure that is not there yet has `title`, `scene` and
-`missing`: what the program lacks for it.
+Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of
+paper_figures.figures) and `run` (options of `ogc run`; without it the script makes its runs itself, with `options`), or
+`scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes` where
+the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense; `kept` where results hold
+only the runs whose names match one of these patterns, and of the others their rows in the figure's table. A figure that
+is not there yet has `title`, `scene` and `missing`: what the program lacks for it.
 """
 
 import argparse
@@ -31,7 +33,8 @@ REPRESENTATIVE = "fig18"
 RUNS = ("commands.py", "layers.py")  # what runs are made of, where a figure has several
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends", "missing", "kept"}
+KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends",
+        "missing", "kept"}
 
 
 class RecipeError(Exception):
@@ -40,7 +43,8 @@ class RecipeError(Exception):
 
 @dataclass(frozen=True)
 class Step:
-    """A command (list of words) that makes `output` out of `inputs`; `gpu`: how many devices it needs; `all_cores`: it uses every core that there is."""
+    """A command (list of words) that makes `output` out of `inputs`; `gpu`: how many devices it needs; `all_cores`: it
+    uses every core that there is."""
 
     name: str
     output: str
@@ -95,7 +99,8 @@ def load(folder=FIGURES):
             known = ", ".join(sorted(KEYS))
             raise RecipeError(f"{path.name}: unknown key {', '.join(sorted(unknown))}; there are: {known}")
         drawn = body.get("illustrations", {})
-        bodies.update({name: {"title": title, "illustration": name} for name, title in drawn.items()} or {path.stem: body})
+        bodies.update({name: {"title": title, "illustration": name} for name, title in drawn.items()}
+                      or {path.stem: body})
     return {name: Recipe(name, body["title"], body.get("scene", ""), tuple(body.get("backends", ("cpu", "cuda"))), body)
             for name, body in sorted(bodies.items())}
 
@@ -115,13 +120,16 @@ def choose(names, recipes, backend):
             raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(there)}, illustrations, all")
         if "missing" in found[0].body:
             missing = found[0]
-            raise RecipeError(f"{missing.name} ({missing.scene}) is not there yet: the program has no {missing.body['missing']}. "
+            raise RecipeError(f"{missing.name} ({missing.scene}) is not there yet: the program has no "
+                              f"{missing.body['missing']}. "
                               f"There are: {', '.join(there)}")
         if backend not in found[0].backends:
-            raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave --backend out")
+            raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave "
+                              "--backend out")
         chosen += [r for r in found if r not in chosen]
     needed = [recipes[name] for r in chosen for name in r.body.get("of", [])]
-    return sorted([*chosen, *(r for r in needed if r not in chosen)], key=lambda r: "of" in r.body)  # what draws other figures' runs comes after them
+    # what draws other figures' runs comes after them
+    return sorted([*chosen, *(r for r in needed if r not in chosen)], key=lambda r: "of" in r.body)
 
 
 def steps(recipe, scale, backend, ogc, python=sys.executable):
@@ -136,23 +144,28 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     if "illustration" in recipe.body:
         data = f"{here}/{recipe.name}.json"
         return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
-                Step(recipe.name, picture, (data, str(FIGURES / "illustrations.py"), *plots), (*drawing, here, recipe.name))]
+                Step(recipe.name, picture, (data, str(FIGURES / "illustrations.py"), *plots),
+                     (*drawing, here, recipe.name))]
     if "vary" in recipe.body:
         return _sweep(recipe, scale, backend, ogc, python, plots)
     if "rows" in recipe.body:
         return _table(recipe, scale, backend, ogc, python)
     if "run" in recipe.body:
         run, movie = f"{here}/run", recipe.movie(scale, backend)
-        command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
+        command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]),
+                   "--out", run)
         inputs = (f"{run}/run.json", *script, *plots)
-        return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True), Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
+        return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True),
+                Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
                 *([Step(f"{recipe.name}_movie", movie, inputs, (*drawing, run, "--movie", movie))] if movie else [])]
     if "of" in recipe.body:
         drawn = [f"{name}-{scale}-{backend}/run" for name in recipe.body["of"]]
-        return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots), (*drawing, picture, *drawn))]
+        return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots),
+                     (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
     made_by = (*script, *(str(HERE / name) for name in RUNS))
-    return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots), (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
+    return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots),
+                 (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
 
 
 def _sweep(recipe, scale, backend, ogc, python, plots):
@@ -161,9 +174,12 @@ def _sweep(recipe, scale, backend, ogc, python, plots):
     for values in itertools.product(*vary.values()):
         name = ",".join(f"{key}={value}" for key, value in zip(vary, values))
         options = [word for key, value in zip(vary, values) for word in ("--vary", f"{key}={value}")]
-        command = (ogc, "ablate", recipe.scene, "--scale", scale, "--backend", backend, "--audit", "end", *options, "--out", f"{here}/{name}")
-        points.append(Step(f"{recipe.name}_{len(points) + 1:02d}", f"{here}/{name}/{name}/run.json", (PROGRAM,), command, int(backend == "cuda")))
-    gather = Step(recipe.name, recipe.picture(scale, backend), (*(point.output for point in points), str(FIGURES / "sweep.py"), *plots),
+        command = (ogc, "ablate", recipe.scene, "--scale", scale, "--backend", backend, "--audit", "end", *options,
+                   "--out", f"{here}/{name}")
+        points.append(Step(f"{recipe.name}_{len(points) + 1:02d}", f"{here}/{name}/{name}/run.json", (PROGRAM,),
+                           command, int(backend == "cuda")))
+    gather = Step(recipe.name, recipe.picture(scale, backend),
+                  (*(point.output for point in points), str(FIGURES / "sweep.py"), *plots),
                   (python, "-m", "paper_figures.figures.sweep", here, recipe.picture(scale, backend)))
     return [*points, gather]
 
@@ -175,16 +191,19 @@ def _table(recipe, scale, backend, ogc, python):
     rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100/run.json", (PROGRAM, *scripts),
                  (*runner, "--backend", backend, row, f"windows_{row}"), int(backend == "cuda"), all_cores=True)
             for row in recipe.body["rows"]]
-    gather = Step(recipe.name, recipe.picture(scale, backend), (*(row.output for row in rows), str(FIGURES / "table1.py")), (python, "-m", "paper_figures.figures.table1", here))
+    gather = Step(recipe.name, recipe.picture(scale, backend),
+                  (*(row.output for row in rows), str(FIGURES / "table1.py")),
+                  (python, "-m", "paper_figures.figures.table1", here))
     return [*rows, gather]
 
 
 def program_stamp(runs, ogc):
-    """Writes PROGRAM into the folder of the runs, rewritten only where it changed: a digest of the sources, so that a new build of the same sources reruns nothing, or
-    of the program itself where it was not built here."""
+    """Writes PROGRAM into the folder of the runs, rewritten only where it changed: a digest of the sources, so that a
+    new build of the same sources reruns nothing, or of the program itself where it was not built here."""
     digest, ogc = hashlib.sha256(), Path(ogc).resolve()
     ours = ogc.is_relative_to(ROOT / "build")
-    files = sorted(p for room in SOURCES for p in (ROOT / room).rglob("*") if p.suffix in (".cpp", ".hpp", ".h", ".cu", ".cuh")) if ours else [ogc]
+    files = sorted(p for room in SOURCES for p in (ROOT / room).rglob("*")
+                   if p.suffix in (".cpp", ".hpp", ".h", ".cu", ".cuh")) if ours else [ogc]
     for path in files:
         digest.update((path.relative_to(ROOT) if ours else path).as_posix().encode() + b"\0" + path.read_bytes())
     stamp = Path(runs) / PROGRAM
@@ -196,7 +215,8 @@ def program_stamp(runs, ogc):
 def seconds_of(recipe, scale, backend, runs):
     """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that
     found them done was quick. Unpacked runs have no logs of steps: what they took alone."""
-    logs = [log for log in (runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc")) if log.is_file()]
+    logs = [log for log in (runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc"))
+            if log.is_file()]
     of_runs = sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json")))
     if 0 < len(logs) < len(steps(recipe, scale, backend, "ogc")) or not (logs or of_runs):
         return None
@@ -216,7 +236,8 @@ def durations(chosen, scale, backend, runs, machine):
     for recipe in chosen:
         took, drawn = seconds_of(recipe, scale, backend, runs), "illustration" in recipe.body
         if took is not None:
-            yield {"figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend, "seconds": f"{took:.1f}", "machine": machine}
+            yield {"figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend,
+                   "seconds": f"{took:.1f}", "machine": machine}
 
 
 def measured_times():
@@ -230,7 +251,9 @@ def measured_times():
 
 
 def in_words(seconds):
-    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
 def table(recipes, scale, backend, runs):
@@ -243,8 +266,10 @@ def table(recipes, scale, backend, runs):
         time = f"{in_words(known[0])} ({known[1]})" if known else "not measured"
         if "missing" in recipe.body:
             time = "not there yet"
-        done = "-" if "missing" in recipe.body else "yes" if (Path(runs) / recipe.picture(scale, used)).is_file() else "no"
-        lines.append(f"{recipe.name:14} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} {recipe.title}")
+        drawn_here = (Path(runs) / recipe.picture(scale, used)).is_file()
+        done = "-" if "missing" in recipe.body else "yes" if drawn_here else "no"
+        lines.append(f"{recipe.name:14} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} "
+                     f"{recipe.title}")
     return lines
 
 
@@ -270,7 +295,8 @@ def asked(options):
         choose(options.check_names, book, backend)
         return []
     if options.pictures is not None:
-        return [str(options.runs / recipe.picture(scale, backend)) for recipe in choose(options.pictures, book, backend)]
+        return [str(options.runs / recipe.picture(scale, backend))
+                for recipe in choose(options.pictures, book, backend)]
     if options.with_runs is not None:
         there = {part.recipe for part in parts.book(parts.Wanted(scale, backend)).values()}
         return [recipe.name for recipe in choose(options.with_runs, book, backend) if recipe.name in there]

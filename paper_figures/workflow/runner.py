@@ -1,9 +1,10 @@
-"""Makes the runs of figures, of Table 1 and of measurements, with a limit of time: what is finished is kept, what was cut
-off goes on from its checkpoint at the next call. Needs Python's own library and a program `ogc` (experiments/bundle).
+"""Makes the runs of figures, of Table 1 and of measurements, with a limit of time: what is finished is kept, what was
+cut off goes on from its checkpoint at the next call. Needs Python's own library and a program `ogc`
+(experiments/bundle).
 
 Exit status: 0 all is finished, 75 the limit came first (call again to go on), 1 a job failed or did not fit into the
-archive, 2 wrong words. An interrupt, or SIGTERM, as a cluster sends it, is a limit that comes now. A job that is asked to stop
-has a minute for the step at hand and its checkpoint: leave it that.
+archive, 2 wrong words. An interrupt, or SIGTERM, as a cluster sends it, is a limit that comes now. A job that is asked
+to stop has a minute for the step at hand and its checkpoint: leave it that.
 
   python3 -m paper_figures.workflow.runner --program bundle/ogc --out runs --time-limit 500 --pack packed twist fig02
   python3 -m paper_figures.workflow.runner --program build/default/ogc --out runs --unpack packed    # where it is drawn
@@ -21,7 +22,8 @@ from pathlib import Path
 
 from paper_figures.workflow import packing, parts
 from paper_figures.workflow.device_memory import DeviceMemory
-from paper_figures.workflow.jobs import CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure, manifest_of
+from paper_figures.workflow.jobs import (CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure,
+                                         manifest_of)
 from paper_figures.workflow.judge_counts import STAGES
 from paper_figures.workflow.unpacking import UnpackError
 
@@ -105,7 +107,8 @@ def arguments():
     add("--unpack", type=Path, metavar="FOLDER", help="unpack what --pack packed, and run nothing")
     table = parser.add_argument_group("Table 1")
     add = table.add_argument
-    add("--window", type=int, default=0, metavar="N", help="steps of a window on the CPU (default: 200; 20 below scale paper)")
+    add("--window", type=int, default=0, metavar="N",
+        help="steps of a window on the CPU (default: 200; 20 below scale paper)")
     add("--runs", type=int, default=1, metavar="N", help="whole runs, of which the table takes the median (default: 1)")
     add("--steps", type=int, default=0, metavar="N", help="end whole runs at this step (default: the scene's end)")
     add("--audit", default="afterwards", choices=("afterwards", "every", "frame", "end", "off"),
@@ -151,7 +154,7 @@ def made(options, chosen):
 
 def main():
     parser = arguments()
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     if options.unpack:
         sys.exit(unpacked(options))
     keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "share", "seed")

@@ -23,7 +23,8 @@ class Iterations:
 
 
 def run_once(ogc, arguments, folder):
-    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already; one that was cut off goes on. Throws RunError where ogc fails."""
+    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already; one that was cut off goes
+    on. Throws RunError where ogc fails."""
     return run_job(ogc, Job(Path(folder).name, tuple(arguments)), Path(folder).parent)
 
 
@@ -51,10 +52,12 @@ def iterations(run, step):
 
 
 def provenance(run):
-    """What a row of an accepted result must say about where it comes from. Of paths in the command the last part is kept."""
+    """What a row of an accepted result must say about where it comes from. Of paths in the command the last part is
+    kept."""
     m = run.manifest
     command = m["command"] if isinstance(m["command"], str) else " ".join(m["command"])
-    return {"solver": m["solver"], "backend": m["backend"], "device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
+    return {"solver": m["solver"], "backend": m["backend"], "device": m["device"],
+            "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
             "command": "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])}
 
 

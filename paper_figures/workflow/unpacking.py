@@ -1,6 +1,6 @@
 """Unpacks an archive that came from elsewhere: everything in it is looked at before anything is written, and what would
-leave the folder, or fill the disk, is refused by name. Checks of our own, because Python's data filter looks at no sizes
-and is not in every Python 3.11.
+leave the folder, or fill the disk, is refused by name. Checks of our own, because Python's data filter looks at no
+sizes and is not in every Python 3.11.
 """
 
 import shutil
@@ -34,7 +34,8 @@ def check_link(member, parts):
 
 def check(members, largest, total):
     """Throws UnpackError for the first member that is no plain file, folder or link to something inside, is above
-    `largest`, or brings all above `total` [bytes]; and where two have one name, or one would be written through a link."""
+    `largest`, or brings all above `total` [bytes]; and where two have one name, or one would be written through a
+    link."""
     links, seen, size = set(), set(), 0
     for member in members:
         parts = place(member.name)

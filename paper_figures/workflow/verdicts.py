@@ -1,4 +1,5 @@
-"""Judges every claim of claims/*.json by the accepted results, or by run folders. The verdict is computed, never written by hand.
+"""Judges every claim of claims/*.json by the accepted results, or by run folders. The verdict is computed, never
+written by hand.
 
 Of a result, which a program computes and which may come out otherwise:
   reproduced      the number lies within the claim's band
@@ -7,10 +8,12 @@ Of a setting or a count of a mesh, which whoever sets the run up decides, so tha
   as printed      what was set is what the paper prints
   not as printed  it is not
 Of both:
-  not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable is named
+  not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable
+    is named
   not yet run     no accepted run is of the kind that the claim needs
 
-`python3 -m paper_figures.workflow.verdicts` prints all, `--write` keeps them in results/verdicts.csv, `--runs FOLDER` judges run folders instead.
+`python3 -m paper_figures.workflow.verdicts` prints all, `--write` keeps them in results/verdicts.csv, `--runs FOLDER`
+judges run folders instead.
 """
 
 import argparse
@@ -52,7 +55,8 @@ class Judgement:
 
 
 def load(folder=CLAIMS):
-    """All claims; each knows its scene, its figures and when its band was set. Throws EvidenceError where a file is wrong."""
+    """All claims; each knows its scene, its figures and when its band was set. Throws EvidenceError where a file is
+    wrong."""
     result = []
     for path in sorted(Path(folder).glob("*.json")):
         document = json.loads(path.read_text())
@@ -63,7 +67,8 @@ def load(folder=CLAIMS):
     twice = {claim["id"] for claim in result if sum(other["id"] == claim["id"] for other in result) > 1}
     unknown = {claim["instead"] for claim in result if "instead" in claim} - {claim["id"] for claim in result}
     if twice or unknown:
-        raise EvidenceError(f"claims: {', '.join(sorted(twice)) or 'none'} twice; named as comparable, but missing: {', '.join(sorted(unknown)) or 'none'}")
+        raise EvidenceError(f"claims: {', '.join(sorted(twice)) or 'none'} twice; named as comparable, but missing: "
+                            f"{', '.join(sorted(unknown)) or 'none'}")
     return result
 
 
@@ -92,11 +97,13 @@ def _check(claim, path):
     if "band" in claim and "measure" not in claim:
         raise EvidenceError(f"{path.name}: claim {claim['id']} has a band, but nothing is measured")
     if "band" not in claim and "instead" not in claim and "devices" not in json.dumps(claim.get("measure", "")):
-        raise EvidenceError(f"{path.name}: claim {claim['id']} has no band, so it must name the claim that is comparable (instead)")
+        raise EvidenceError(f"{path.name}: claim {claim['id']} has no band, so it must name the claim that is "
+                            "comparable (instead)")
 
 
 def within(value, printed, band):
-    """Whether `value` lies in the band; "stored" is the printed number rounded to single precision, None an open end."""
+    """Whether `value` lies in the band; "stored" is the printed number rounded to single precision, None an open
+    end."""
     if band == "stored":
         return abs(value - printed) <= SINGLE * abs(printed)
     low, high = band
@@ -111,7 +118,8 @@ def judge(claim, evidence):
     if measured is None:
         return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence))
     if "band" not in claim:
-        return Judgement(claim, "not comparable", measured, f"ours over the paper's: {measured.value / claim['value']:.3g}")
+        return Judgement(claim, "not comparable", measured,
+                         f"ours over the paper's: {measured.value / claim['value']:.3g}")
     also = [other for other in claim.get("also", []) if "band" in other]
     hit = within(measured.value, claim["value"], claim["band"])
     others = [other["place"] for other in also if within(measured.value, other["value"], other["band"])]
@@ -205,9 +213,11 @@ def headline(judgements):
 
 
 def unjudged(judgements):
-    """Claims not yet run of a scene that has accepted results, unless they say what they wait for; and claims that wait although they are judged."""
+    """Claims not yet run of a scene that has accepted results, unless they say what they wait for; and claims that wait
+    although they are judged."""
     judged = {j.claim["scene"] for j in judgements if j.measured or "not judged" in j.note}
-    silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged and "waits_for" not in j.claim]
+    silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
+              and "waits_for" not in j.claim]
     stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run" and "waits_for" in j.claim]
     return silent, stale
 

@@ -41,7 +41,8 @@ def row_of(run):
         parts = ("",) * len(COSTS)
     return {"scene": name, "vertices": scene["vertices"], "steps": run.step_count,
             "mean [ms]": run.mean("wall"), "worst [ms]": run.largest("wall"),
-            "paper, mean [ms]": paper(name, backend, "average")[0], "paper, worst [ms]": paper(name, backend, "maximum")[0],
+            "paper, mean [ms]": paper(name, backend, "average")[0],
+            "paper, worst [ms]": paper(name, backend, "maximum")[0],
             "audited states": run.audited_states, "detections a step": run.mean("discrete_detections"),
             "contacts a step": run.mean("vertex_facet_contacts") + run.mean("edge_edge_contacts"),
             **dict(zip(COSTS, parts)), "first quarter [ms]": first, "last quarter [ms]": last,
@@ -62,7 +63,8 @@ def table(folder):
     out = io.StringIO()
     writer = csv.DictWriter(out, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()
-    writer.writerows({key: f"{value:.7g}" if isinstance(value, float) else value for key, value in row.items()} for row in rows)
+    writer.writerows({key: f"{value:.7g}" if isinstance(value, float) else value for key, value in row.items()}
+                     for row in rows)
     return out.getvalue()
 
 

@@ -1,6 +1,8 @@
-"""Computes every illustration, draws it, and checks that the pictures show something and that the numbers behind them hold.
+"""Computes every illustration, draws it, and checks that the pictures show something and that the numbers behind them
+hold.
 
-Usage: draw_illustrations.py SOURCE_DIR OGC. Exit status 77: skipped, a Python package is missing (the reason is printed).
+Usage: draw_illustrations.py SOURCE_DIR OGC. Exit status 77: skipped, a Python package is missing (the reason is
+printed).
 """
 
 import json

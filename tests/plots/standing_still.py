@@ -1,4 +1,5 @@
-"""Vertices that single precision can't move by their bounds are found, others are not; so are triangles without area and the vertices beside them.
+"""Vertices that single precision can't move by their bounds are found, others are not; so are triangles without area
+and the vertices beside them.
 
 Usage: standing_still.py SOURCE_DIR. Exit status 77: skipped, numpy or h5py is missing.
 """
@@ -20,7 +21,8 @@ except ImportError as missing:
 
 class StandingStill(unittest.TestCase):
     def test_bounds_are_held_against_the_spacing_at_the_coordinates(self):
-        positions = np.array([[1, 1, 1], [1, 0, 0.25], [4, 1, 0.5], [1, 1, 1]], dtype=np.float32)  # spacings 2^-23; 2^-23, none to speak of, 2^-25; 2^-21 … 2^-24
+        # spacings 2^-23; 2^-23, none to speak of, 2^-25; 2^-21 … 2^-24
+        positions = np.array([[1, 1, 1], [1, 0, 0.25], [4, 1, 0.5], [1, 1, 1]], dtype=np.float32)
         bounds = np.array([2.0**-24, 2.0**-24, 2.0**-24.5, 2.0**-22], dtype=np.float32)
         still, along = standing_still.standing(positions, bounds)
         self.assertEqual((still.tolist(), along.tolist()), ([True, False, True, False], [True, True, True, False]))

@@ -58,7 +58,8 @@ class Solvers(unittest.TestCase):
                command=" ".join([command.split()[0], *job.words(self.folder)]))
 
     def draw(self, *words):
-        command = [sys.executable, "-m", "paper_figures.figures.fig18_solvers", self.folder, "--ogc", OGC, "--scale", "smoke", *words]
+        command = [sys.executable, "-m", "paper_figures.figures.fig18_solvers", self.folder, "--ogc", OGC, "--scale",
+                   "smoke", *words]
         return subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
 
     def rows(self):
@@ -89,9 +90,12 @@ class Solvers(unittest.TestCase):
 
     def test_the_ratio_is_that_of_the_rows(self):
         runs = {name: Run(self.folder / name) for name in ("ipc", "vbd")}
-        found = {measured.partition(" of ")[0]: ratio for _, ratio, measured, _ in fig18_solvers.ratios(list(runs.values()))}
-        self.assertAlmostEqual(found["time on the clock"], runs["ipc"].column("wall").sum() / runs["vbd"].column("wall").sum())
-        self.assertAlmostEqual(found["processor time"], fig18_solvers.processor_ms(runs["ipc"]) / fig18_solvers.processor_ms(runs["vbd"]))
+        found = {measured.partition(" of ")[0]: ratio for _, ratio, measured,
+                 _ in fig18_solvers.ratios(list(runs.values()))}
+        self.assertAlmostEqual(found["time on the clock"],
+                               runs["ipc"].column("wall").sum() / runs["vbd"].column("wall").sum())
+        self.assertAlmostEqual(found["processor time"],
+                               fig18_solvers.processor_ms(runs["ipc"]) / fig18_solvers.processor_ms(runs["vbd"]))
 
     def test_runs_that_were_stopped_are_drawn_as_far_as_they_came(self):
         vbd = self.folder / "vbd"

@@ -24,12 +24,15 @@ class LeftOut(unittest.TestCase):
     def test_fig_17_without_the_curves_in_double(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name) / "fig17-smoke-cpu"
-            picture = fig17_three_cloths_on_sphere.main(folder, OGC, "smoke", start_iterations=5, without=("vbd_cpu_any", "vbd_double", "newton", "newton_any"))
+            picture = fig17_three_cloths_on_sphere.main(folder, OGC, "smoke", start_iterations=5,
+                                                        without=("vbd_cpu_any", "vbd_double", "newton", "newton_any"))
             self.assertTrue(picture.is_file())
             with (folder / "fig17.csv").open(newline="") as file:
-                rows = {row["curve"]: (row["status"], row["iterations_of_steps_before [1]"]) for row in csv.DictReader(file)}
+                rows = {row["curve"]: (row["status"], row["iterations_of_steps_before [1]"])
+                        for row in csv.DictReader(file)}
             self.assertEqual(rows.pop("VBD, single, cpu"), ("finished", "5"))
-            self.assertEqual(rows, dict.fromkeys(("VBD, single, cpu, γ_e = 0", "VBD, double", "Newton, double", "Newton, double, γ_e = 0"), ("not run", "")))
+            self.assertEqual(rows, dict.fromkeys(("VBD, single, cpu, γ_e = 0", "VBD, double", "Newton, double",
+                                                  "Newton, double, γ_e = 0"), ("not run", "")))
             self.assertEqual(list(accept.left_out(folder)), list(rows))
 
 

@@ -18,7 +18,8 @@ from paper_figures.workflow import commands  # noqa: E402
 
 class Table(unittest.TestCase):
     def made(self, folder):
-        command = [sys.executable, "-m", "paper_figures.figures.minimiser", str(folder), "--ogc", str(OGC), "--scale", "smoke",
+        command = [sys.executable, "-m", "paper_figures.figures.minimiser", str(folder), "--ogc", str(OGC), "--scale",
+                   "smoke",
                    "--no-picture"]
         return subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
 
@@ -28,7 +29,8 @@ class Table(unittest.TestCase):
             done = self.made(folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             rows = minimiser.rows_of(folder / "minimiser.csv")
-            self.assertEqual({row["scene"]: int(row["step [1]"]) - 1 for row in rows}, commands.MINIMISER_STEPS["smoke"])
+            self.assertEqual({row["scene"]: int(row["step [1]"]) - 1 for row in rows},
+                             commands.MINIMISER_STEPS["smoke"])
             for row in rows:
                 distance, bounds = float(row["largest_distance [m]"]), ("bound_by_energy [m]", "bound_by_gradient [m]")
                 self.assertEqual((row["reached_floor"], row["newton_converged"]), ("yes", "yes"))
@@ -40,7 +42,8 @@ class Table(unittest.TestCase):
 
     def test_a_program_that_fails_is_named(self):
         with tempfile.TemporaryDirectory() as name:
-            command = [sys.executable, "-m", "paper_figures.figures.minimiser", name, "--ogc", "/bin/false", "--no-picture"]
+            command = [sys.executable, "-m", "paper_figures.figures.minimiser", name, "--ogc", "/bin/false",
+                       "--no-picture"]
             done = subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)
             self.assertIn("minimiser: /bin/false run cloth_on_sphere", done.stderr)

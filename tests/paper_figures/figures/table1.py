@@ -25,8 +25,10 @@ from paper_figures.workflow.jobs import Limit  # noqa: E402
 def make_run(folder, backend, rows, first=1, **changes):
     """Rows: (time [ms], contacts of either sort, repeats)."""
     folder.mkdir(parents=True)
-    manifest = {"status": "finished", "dirty": False, "commit": "0123456789abcdef", "device": backend + " device", "ended": "2026-01-01T00:00:00Z", "backend": backend,
-                "scale": "paper", "solver": "vbd", "guarantee_kept": True, "audited_states": "7", "scene": {"name": "twist", "vertices": 10000, "triangles": 19602},
+    manifest = {"status": "finished", "dirty": False, "commit": "0123456789abcdef", "device": backend + " device",
+                "ended": "2026-01-01T00:00:00Z", "backend": backend,
+                "scale": "paper", "solver": "vbd", "guarantee_kept": True, "audited_states": "7",
+                "scene": {"name": "twist", "vertices": 10000, "triangles": 19602},
                 "settings": {"steps": {"value": 9600}, "iterations": {"value": 10}}, **changes}
     (folder / "run.json").write_text(json.dumps(manifest))
     lines = ["step [1],wall [ms],vertex_facet_contacts [1],edge_edge_contacts [1],repeats [1]"]
@@ -46,10 +48,12 @@ class Known(unittest.TestCase):
         make_run(self.folder / "twist/cpu_100", "cpu", [(40, 3, 0)], first=9601)
         device, cpu = table1.rows_of(self.folder)
         self.assertEqual((device["average [ms]"], device["maximum [ms]"], device["repeated steps"]), (4, 2, 1))
-        self.assertEqual((device["contacts, average"], device["contacts, maximum"], device["steps"], device["of steps"]), (40, 60, 3, 9600))
+        self.assertEqual((device["contacts, average"], device["contacts, maximum"], device["steps"],
+                          device["of steps"]), (40, 60, 3, 9600))
         self.assertEqual((device["paper average [ms]"], device["paper maximum [ms]"]), (0.9, 1.5))
         self.assertAlmostEqual(device["average / paper's"], 4 / 0.9)
-        self.assertEqual((cpu["average [ms]"], cpu["maximum [ms]"], cpu["windows [ms]"]), (27.5, 40, "0: 15; 9600: 40; 3 of 5 not run"))
+        self.assertEqual((cpu["average [ms]"], cpu["maximum [ms]"], cpu["windows [ms]"]),
+                         (27.5, 40, "0: 15; 9600: 40; 3 of 5 not run"))
         self.assertEqual((cpu["paper average [ms]"], cpu["paper maximum [ms]"]), (21, 30))
 
     def test_residuals_stand_by_the_state_that_the_step_began_in(self):
@@ -72,7 +76,8 @@ class Known(unittest.TestCase):
         make_run(self.folder / "twist/cpu_0", "cpu", [(10, 1, 0)])
         cpu, left_out = table1.rows_of(self.folder)
         self.assertEqual((cpu["scene"], cpu["backend"]), ("twist", "cpu"))
-        self.assertEqual((left_out["scene"], left_out["status"], left_out["average [ms]"], left_out["commit"]), ("twist", "not run", "", "-"))
+        self.assertEqual((left_out["scene"], left_out["status"], left_out["average [ms]"], left_out["commit"]),
+                         ("twist", "not run", "", "-"))
         table1.write([cpu, left_out], self.folder)
         self.assertEqual(list(accept.left_out(self.folder)), ["twist"])
 
@@ -80,7 +85,9 @@ class Known(unittest.TestCase):
         make_run(self.folder / "runs/twist/whole", "cuda", [(1, 10, 0)])
         paths = table1.write(table1.rows_of(self.folder / "runs"), self.folder / "results")
         self.assertEqual([path.name for path in paths], ["table1_paper.csv", "table1_paper.md", "table1_paper.html"])
-        found = Evidence(self.folder / "results").measure({"table": "table1", "where": {"scene": "twist", "backend": "cuda"}, "column": "average [ms]"}, {"scale": "paper"})
+        found = Evidence(self.folder / "results").measure({"table": "table1",
+                                                           "where": {"scene": "twist", "backend": "cuda"},
+                                                           "column": "average [ms]"}, {"scale": "paper"})
         self.assertEqual((found.value, found.device, found.commit), (1, "cuda device", "0123456789"))
         for path in paths[1:]:
             self.assertIn("RTX 4090", path.read_text())
@@ -199,7 +206,8 @@ class Real(unittest.TestCase):
             twist = there / "twist/whole"
             job = next(commands.whole_runs("twist", "smoke", "cpu"))
             command = [OGC, *job.words(there)]
-            cut = subprocess.Popen([*command, "--checkpoint", "0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            cut = subprocess.Popen([*command, "--checkpoint", "0"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
             while cut.poll() is None and not (twist / "checkpoint.h5").is_file():
                 time.sleep(0.01)
             cut.kill()

@@ -1,5 +1,5 @@
-"""Accepting results and checking new runs against them: what is no evidence is refused in words, a change that the bands
-don't allow is found, and what is kept of a long run says what every row said.
+"""Accepting results and checking new runs against them: what is no evidence is refused in words, a change that the
+bands don't allow is found, and what is kept of a long run says what every row said.
 
 Usage: accepted.py SOURCE_DIR. Exit status 77: skipped, PyYAML, Pillow or numpy is missing.
 """
@@ -10,7 +10,6 @@ import gzip
 import hashlib
 import io
 import json
-import re
 import shutil
 import sys
 import tempfile
@@ -26,7 +25,8 @@ except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 from paper_figures.workflow import accept, check, kept, recipes, step_costs  # noqa: E402
-from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, RunEvidence, manifest_at, run_at  # noqa: E402
+from paper_figures.workflow.evidence import (RESULTS, Evidence, EvidenceError, RunEvidence, manifest_at,  # noqa: E402
+                                             run_at)
 
 SPHERE = "h200/sphere_cuda"
 
@@ -106,8 +106,10 @@ class Checking(Scratch):
                     self.assertEqual(f"mean {column}" in words, not good, words)
 
     def test_a_failed_audit_an_unfinished_run_and_missing_steps_are_not_met(self):
-        for changes, words in (({"guarantee_kept": False, "status": "failed: intersection"}, "its audit FAILED"), ({"status": "running"}, "not finished"),
-                               ({"commit": "f" * 40, "rows": lambda text: "\n".join(text.splitlines()[:50]) + "\n"}, "49 steps, not 100")):
+        for changes, words in (({"guarantee_kept": False, "status": "failed: intersection"}, "its audit FAILED"),
+                               ({"status": "running"}, "not finished"),
+                               ({"commit": "f" * 40, "rows": lambda text: "\n".join(text.splitlines()[:50]) + "\n"},
+                                "49 steps, not 100")):
             met, said = self.said(**changes)
             shutil.rmtree(self.runs)
             self.assertFalse(met)
@@ -130,8 +132,10 @@ class Checking(Scratch):
             (self.runs / f"illustrations/{name}.json").unlink()
 
     def test_a_claim_at_a_smaller_scale_is_held_to_its_band_moved_to_the_accepted_number(self):
-        claim = {"id": "s.c", "scene": "s", "value": 5, "band": [4.5, 5.5], "measure": {"table": "fig99", "column": "n", "where": {"kind": "a"}}, "run": {"scale": "paper"}}
-        for accepted, ours, good in ((1.59, 1.59, True), (1.59, 1.7, True), (1.59, 1.8, False), (1.59, 1.4, False), (1.59, "nan", False), ("nan", "nan", True), ("nan", 3, True)):
+        claim = {"id": "s.c", "scene": "s", "value": 5, "band": [4.5, 5.5],
+                 "measure": {"table": "fig99", "column": "n", "where": {"kind": "a"}}, "run": {"scale": "paper"}}
+        for accepted, ours, good in ((1.59, 1.59, True), (1.59, 1.7, True), (1.59, 1.8, False), (1.59, 1.4, False),
+                                     (1.59, "nan", False), ("nan", "nan", True), ("nan", 3, True)):
             for folder, number in ((self.results, accepted), (self.runs / "fig99-small-cpu", ours)):
                 folder.mkdir(parents=True, exist_ok=True)
                 name = "fig99_small.csv" if folder == self.results else "fig99.csv"
@@ -143,7 +147,8 @@ class Checking(Scratch):
         claim = {"value": 5, "band": [4, 6], "measure": {"table": "fig99", "column": "n"}}
         self.assertTrue(check.movable(claim))
         self.assertTrue(check.movable({**claim, "band": [5, 5]}))
-        for changes in ({"band": [0, 5]}, {"band": [1, None]}, {"band": "stored"}, {"value": 0}, {"measure": {"steps": "wall", "statistic": "mean"}}, {"measure": {"scene": "vertices"}}):
+        for changes in ({"band": [0, 5]}, {"band": [1, None]}, {"band": "stored"}, {"value": 0},
+                        {"measure": {"steps": "wall", "statistic": "mean"}}, {"measure": {"scene": "vertices"}}):
             self.assertFalse(check.movable({**claim, **changes}), changes)
 
     def test_the_bands_are_what_the_accepted_pairs_say(self):
@@ -158,23 +163,29 @@ class Accepting(Scratch):
     BOOK = recipes.load()
 
     def accept(self, *names):
-        return accept.accept([self.BOOK[name] for name in names], "paper", "cuda", self.runs, "machine", "no program", self.results)
+        return accept.accept([self.BOOK[name] for name in names], "paper", "cuda", self.runs, "machine", "no program",
+                             self.results)
 
     def finished(self, **changes):
         folder = self.make_run("fig18-paper-cuda/run", **changes)
         (folder.parent / "fig18.png").write_bytes(picture())
 
     def test_data_picture_and_provenance_are_kept(self):
-        self.finished(command="/somewhere/build/default/ogc run cloth_on_sphere --from-state=/else/where/frame.h5 --out fig18-paper-cuda/run", from_state="/else/where/frame.h5")
+        self.finished(command="/somewhere/build/default/ogc run cloth_on_sphere --from-state=/else/where/frame.h5 "
+                              "--out fig18-paper-cuda/run", from_state="/else/where/frame.h5")
         self.accept("fig18")
         kept = self.results / "machine"
-        self.assertEqual({path.name for path in kept.iterdir()}, {"fig18_paper.png", "fig18_paper_run.json", "fig18_paper_steps.csv", "provenance.csv", "durations.csv"})
+        self.assertEqual({path.name for path in kept.iterdir()},
+                         {"fig18_paper.png", "fig18_paper_run.json", "fig18_paper_steps.csv", "provenance.csv",
+                          "durations.csv"})
         manifest = json.loads((kept / "fig18_paper_run.json").read_text())
-        self.assertEqual(manifest["command"], "ogc run cloth_on_sphere --from-state=frame.h5 --out fig18-paper-cuda/run")
+        self.assertEqual(manifest["command"], "ogc run cloth_on_sphere --from-state=frame.h5 --out "
+                                              "fig18-paper-cuda/run")
         self.assertEqual(manifest["from_state"], "frame.h5")
         with (kept / "provenance.csv").open(newline="") as file:
             rows = {row["file"]: row for row in csv.DictReader(file)}
-        self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]), ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
+        self.assertEqual((rows["fig18_paper.png"]["redo"], rows["fig18_paper.png"]["commit"]),
+                         ("experiments/reproduce fig18 --scale paper --backend cuda", manifest["commit"]))
 
     def test_an_audit_after_the_run_is_kept_and_one_that_failed_is_refused(self):
         for clean in (True, False):
@@ -191,13 +202,16 @@ class Accepting(Scratch):
     def test_runs_without_logs_of_steps_took_what_their_manifests_say(self):
         self.finished(started="2026-11-22T10:00:00Z", ended="2026-11-22T10:01:30Z")
         self.accept("fig18")
-        self.assertEqual((self.results / "machine/durations.csv").read_text().splitlines()[1:], ["fig18,paper,cuda,90.0,machine"])
+        self.assertEqual((self.results / "machine/durations.csv").read_text().splitlines()[1:],
+                         ["fig18,paper,cuda,90.0,machine"])
 
     def test_a_picture_is_of_its_own_backend_where_later_windows_on_the_cpu_lie_beside_its_run(self):
         self.finished(ended="2026-11-22T10:00:00Z")
         self.make_run("fig18-paper-cuda/cpu_0", backend="cpu", device="16 threads", ended="2026-11-22T11:00:00Z")
         rows = {row["file"]: row["device"] for row in self.accept("fig18")}
-        self.assertEqual(set(rows), {"fig18_paper.png", *(f"fig18_paper/{run}_{what}" for run in ("run", "cpu_0") for what in ("run.json", "steps.csv"))})
+        self.assertEqual(set(rows), {"fig18_paper.png",
+                                     *(f"fig18_paper/{run}_{what}" for run in ("run", "cpu_0")
+                                       for what in ("run.json", "steps.csv"))})
         self.assertRegex(rows["fig18_paper.png"], "H200")
 
     def test_a_missing_movie_is_refused_unless_said_so(self):
@@ -205,8 +219,10 @@ class Accepting(Scratch):
         (folder.parent / "fig11.png").write_bytes(picture())
         with self.assertRaisesRegex(accept.AcceptError, "fig11.mp4 is missing"):
             self.accept("fig11")
-        accept.accept([self.BOOK["fig11"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True)
-        self.assertEqual({path.name for path in (self.results / "machine").glob("fig11*")}, {"fig11_paper.png", "fig11_paper_run.json", "fig11_paper_steps.csv"})
+        accept.accept([self.BOOK["fig11"]], "paper", "cuda", self.runs, "machine", "no program", self.results,
+                      incomplete=True)
+        self.assertEqual({path.name for path in (self.results / "machine").glob("fig11*")},
+                         {"fig11_paper.png", "fig11_paper_run.json", "fig11_paper_steps.csv"})
 
     def test_files_of_an_earlier_acceptance_of_the_figure_go(self):
         """Else the runs of two programs lie in one folder, and claims are judged by either."""
@@ -219,18 +235,22 @@ class Accepting(Scratch):
         self.finished()
         self.accept("fig18")
         kept = self.results / "machine"
-        self.assertEqual({path.name for path in (kept / "fig17_paper").iterdir()}, {f"{run}_{what}" for run in ("second", "both") for what in ("run.json", "steps.csv")})
+        self.assertEqual({path.name for path in (kept / "fig17_paper").iterdir()},
+                         {f"{run}_{what}" for run in ("second", "both") for what in ("run.json", "steps.csv")})
         with (kept / "provenance.csv").open(newline="") as file:
             files = {row["file"] for row in csv.DictReader(file)}
-        self.assertEqual(files, {path.relative_to(kept).as_posix() for path in kept.rglob("*") if path.is_file()} - {"provenance.csv", "durations.csv"})
+        self.assertEqual(files, {path.relative_to(kept).as_posix() for path in kept.rglob("*")
+                                 if path.is_file()} - {"provenance.csv", "durations.csv"})
 
     def test_of_a_figure_that_says_so_only_some_runs_are_kept_and_all_are_checked(self):
-        for run, commit in (("runs/activation=ogc", "a"), ("newton_ipc_log", "a"), ("runs/activation=cubic", "a"), ("vbd_ipc_log_kappa2", "a")):
+        for run, commit in (("runs/activation=ogc", "a"), ("newton_ipc_log", "a"), ("runs/activation=cubic", "a"),
+                            ("vbd_ipc_log_kappa2", "a")):
             self.make_run(f"fig21-paper-cuda/{run}", commit=commit * 40)
         (self.runs / "fig21-paper-cuda/fig21.png").write_bytes(picture())
         self.accept("fig21")
         kept = {path.name for path in (self.results / "machine/fig21_paper").iterdir()}
-        self.assertEqual(kept, {f"{run}_{what}" for run in ("activation=ogc", "newton_ipc_log") for what in ("run.json", "steps.csv")})
+        self.assertEqual(kept, {f"{run}_{what}" for run in ("activation=ogc", "newton_ipc_log")
+                                for what in ("run.json", "steps.csv")})
         self.make_run("fig21-paper-cuda/vbd_ogc_weak", commit="b" * 40)
         with self.assertRaisesRegex(accept.AcceptError, "mixes runs of commits"):
             self.accept("fig21")
@@ -309,7 +329,9 @@ class Accepting(Scratch):
             self.accept("fig18")
 
     def test_what_is_no_evidence_is_refused_in_words_and_nothing_is_written(self):
-        for changes, words in (({"dirty": True}, "uncommitted changes"), ({"guarantee_kept": False}, "failed its audit"), ({"status": "running"}, "not finished")):
+        for changes, words in (({"dirty": True}, "uncommitted changes"),
+                               ({"guarantee_kept": False}, "failed its audit"),
+                               ({"status": "running"}, "not finished")):
             self.finished(**changes)
             with self.assertRaisesRegex(accept.AcceptError, words):
                 self.accept("fig18")
@@ -321,7 +343,8 @@ class Accepting(Scratch):
             self.make_run(f"fig17-paper-cuda/run_{number}", commit=commit * 40)
         with self.assertRaisesRegex(accept.AcceptError, "mixes runs of commits aaaaaaaaaa, bbbbbbbbbb: remove it"):
             self.accept("fig17")
-        with self.assertRaisesRegex(accept.AcceptError, "fig12.png is missing: make it with experiments/reproduce fig12"):
+        with self.assertRaisesRegex(accept.AcceptError,
+                                    "fig12.png is missing: make it with experiments/reproduce fig12"):
             self.make_run("fig12-paper-cuda/run")
             self.accept("fig12")
 
@@ -344,10 +367,12 @@ class Accepting(Scratch):
 
     def test_half_a_figure_is_not_taken_for_a_whole_one(self):
         self.finished()
-        (self.runs / "fig18-paper-cuda/fig18.csv").write_text(f"activation,status\nogc,finished\ncubic,{accept.NOT_RUN}\nquadratic,{accept.NOT_RUN}\n")
+        rows = ("activation,status", "ogc,finished", f"cubic,{accept.NOT_RUN}", f"quadratic,{accept.NOT_RUN}")
+        (self.runs / "fig18-paper-cuda/fig18.csv").write_text("\n".join(rows) + "\n")
         with self.assertRaisesRegex(accept.AcceptError, "fig18 was drawn without cubic, quadratic: run them"):
             self.accept("fig18")
-        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results, incomplete=True, by_hand="script --without")
+        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results,
+                      incomplete=True, by_hand="script --without")
         self.assertTrue((self.results / "machine/fig18_paper.csv").is_file())
         self.assertIn(",script --without,", (self.results / "machine/provenance.csv").read_text())
 
@@ -363,7 +388,8 @@ class Accepting(Scratch):
         self.finished()
         redo_after(self.BOOK["fig18"], by_hand="on the device")
         found = redo_after(teaser, self.BOOK["fig18"], by_hand="the teaser")
-        self.assertEqual((found["fig01_paper.png"], found["fig18_paper.png"], found["fig18_paper_run.json"]), ("the teaser", "on the device", "on the device"))
+        self.assertEqual((found["fig01_paper.png"], found["fig18_paper.png"], found["fig18_paper_run.json"]),
+                         ("the teaser", "on the device", "on the device"))
         shutil.rmtree(self.runs / "fig18-paper-cuda")
         self.finished(final_hash="another")  # what was said is of another run
         found = redo_after(teaser, self.BOOK["fig18"], by_hand="the teaser")
@@ -374,7 +400,8 @@ class Accepting(Scratch):
             folder = self.make_run(f"table1-paper-cuda/{name}")
         (folder.parent.parent / "table1_paper.csv").write_text("scene\n")
         self.accept("table1")
-        self.assertEqual({path.name for path in (self.results / "machine/table1_paper").glob("*run.json")}, {"twist_whole_run.json", "knot_whole_run.json"})
+        self.assertEqual({path.name for path in (self.results / "machine/table1_paper").glob("*run.json")},
+                         {"twist_whole_run.json", "knot_whole_run.json"})
 
     def test_rows_of_other_figures_stay(self):
         table = self.results / "t.csv"

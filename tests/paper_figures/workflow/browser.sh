@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Opens the report in headless Chromium: every picture is shown, nothing is asked of the network; takes a screenshot to look at. Installs Chromium where it is
-# missing (its package alone is 77 MiB), which is why this is not part of tests/run. Usage: browser.sh [SCREENSHOT.png]
+# Opens the report in headless Chromium: every picture is shown, nothing is asked of the network; takes a screenshot to
+# look at. Installs Chromium where it is missing (its package alone is 77 MiB), which is why this is not part of
+# tests/run. Usage: browser.sh [SCREENSHOT.png]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 # shellcheck source=experiments/dependencies.sh
@@ -8,5 +9,6 @@ source "$root/experiments/dependencies.sh"
 install_packages "${packages[@]}" chromium
 prepare_python "$root"
 mkdir -p "$root/build"
-"$python" "$root/tests/paper_figures/workflow/report.py" "$root" --browser "$(command -v chromium)" "${1:-$root/build/report.png}"
-say "Look at ${1:-$root/build/report.png}"
+picture=${1:-$root/build/report.png}
+"$python" "$root/tests/paper_figures/workflow/report.py" "$root" --browser "$(command -v chromium)" "$picture"
+say "Look at $picture"

@@ -1,4 +1,5 @@
-"""Recomputes the verdict of every claim and holds the kept table against it; a verdict that no result supports, or a result that leaves a claim unjudged, fails.
+"""Recomputes the verdict of every claim and holds the kept table against it; a verdict that no result supports, or a
+result that leaves a claim unjudged, fails.
 
 Usage: claims.py SOURCE_DIR. The standard library is enough.
 """
@@ -25,14 +26,16 @@ GUARANTEE = {"measure": {"guarantee": "penetration-free"}, "band": [0, 0]}
 
 
 def claim(**changes):
-    return {"id": "s.c", "scene": "cloth_on_sphere", "figures": [], "band_set": "2000-01-01", "value": 1, "unit": "1", "place": "p", "says": "w", "why": "y",
+    return {"id": "s.c", "scene": "cloth_on_sphere", "figures": [], "band_set": "2000-01-01", "value": 1, "unit": "1",
+            "place": "p", "says": "w", "why": "y",
             "kind": verdicts.RESULT, "run": {"scale": "paper", "backend": "cuda"},
             "measure": {"steps": "wall", "statistic": "mean"}, "band": [0, 1], **changes}
 
 
 class Accepted(unittest.TestCase):
     def test_kept_verdicts_are_those_of_the_accepted_results(self):
-        self.assertEqual(verdicts.KEPT.read_text(), verdicts.as_table(verdicts.judge_all()), "run: python3 -m paper_figures.workflow.verdicts --write, and look at what changed")
+        self.assertEqual(verdicts.KEPT.read_text(), verdicts.as_table(verdicts.judge_all()),
+                         "run: python3 -m paper_figures.workflow.verdicts --write, and look at what changed")
 
     def test_no_scene_with_accepted_results_has_an_unjudged_claim(self):
         silent, stale = verdicts.unjudged(verdicts.judge_all())
@@ -73,7 +76,8 @@ class Kinds(unittest.TestCase):
         other.manifest, other.afterwards = {**run.manifest, "guarantee_kept": run.guarantee_kept is not True}, {}
         if run.thinned:
             whole = run.manifest["whole_run"]
-            changed = {kind: {name: 3 * value + 1 for name, value in whole[kind].items()} for kind in ("mean", "largest")}
+            changed = {kind: {name: 3 * value + 1 for name, value in whole[kind].items()}
+                       for kind in ("mean", "largest")}
             other.thinned = Hundreds(run.columns.texts, {**whole, **changed})
         else:
             other.columns = {name: [3 * value + 1 for value in run.column(name)] for name in run.columns}
@@ -113,7 +117,8 @@ class Bands(unittest.TestCase):
     def test_no_band_is_younger_than_it_says_nor_than_a_number_that_no_mark_tells_of(self):
         """By the history of the claims and of the kept verdicts; skipped where there is none."""
         commits = history("paper_figures/claims", "paper_figures/results/verdicts.csv")
-        marked = {j.claim["id"] for j in verdicts.judge_all() if j.late or "band_after" in j.claim}  # or no run judges it now
+        # or no run judges it now
+        marked = {j.claim["id"] for j in verdicts.judge_all() if j.late or "band_after" in j.claim}
         for each in verdicts.load():
             states = [(date, bands.get(each["id"])) for date, bands, _ in commits if each["id"] in bands]
             if not states or each.get("band") in (None, "stored"):
@@ -182,13 +187,15 @@ class Judging(unittest.TestCase):
         self.assertEqual(self.verdict(band=[ours * (1 + 1e-12), None]), "refuted")
 
     def test_another_machine_has_no_band_and_a_missing_run_no_verdict(self):
-        self.assertEqual(verdicts.judge({k: v for k, v in claim(instead="s.c").items() if k != "band"}, Evidence()).verdict, "not comparable")
+        self.assertEqual(verdicts.judge({k: v for k, v in claim(instead="s.c").items() if k != "band"},
+                                        Evidence()).verdict, "not comparable")
         self.assertEqual(self.verdict(run={"scale": "paper", "steps": 100000}), "not yet run")
         self.assertEqual(self.verdict(run={"scale": "paper", "solver": "ipc", "backend": "cuda"}), "not yet run")
 
     def test_the_second_of_two_printed_values_counts(self):
         ours = verdicts.judge(claim(), Evidence()).measured.value
-        self.assertEqual(self.verdict(band=[0, 0], also=[{"value": ours, "place": "elsewhere", "band": [ours, ours]}]), "reproduced")
+        self.assertEqual(self.verdict(band=[0, 0], also=[{"value": ours, "place": "elsewhere", "band": [ours, ours]}]),
+                         "reproduced")
 
     def test_a_setting_is_the_printed_one_to_single_precision(self):
         self.assertTrue(verdicts.within(0.009999999776482582, 0.01, "stored"))
@@ -200,12 +207,15 @@ class Judging(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             (Path(name) / "fig99_paper.csv").write_text("kind,time,commit,device\na,1,c1,d\nb,2,c2,d\n")
             with self.assertRaisesRegex(EvidenceError, "mixes commits c1, c2"):
-                verdicts.judge(claim(measure={"table": "fig99", "column": "time", "over": {"kind": "a"}, "under": {"kind": "b"}}), Evidence(name))
+                verdicts.judge(claim(measure={"table": "fig99", "column": "time", "over": {"kind": "a"},
+                                              "under": {"kind": "b"}}), Evidence(name))
 
     def test_other_choices_are_named_where_the_printed_parameters_refute_and_nowhere_else(self):
         with tempfile.TemporaryDirectory() as name:
-            (Path(name) / "fig99_paper.csv").write_text("kind,time,commit,device\na,4,c1,d\nb,1,c1,d\nc,7,c1,d\nn,never,c1,d\n")
-            choices = [{"says": f"κ = {kind}", "where": {"kind": kind}} for kind in "bcnx"] + [{"says": "κ = z", "column": "older than it"}]
+            rows = "a,4,c1,d\nb,1,c1,d\nc,7,c1,d\nn,never,c1,d\n"
+            (Path(name) / "fig99_paper.csv").write_text(f"kind,time,commit,device\n{rows}")
+            choices = [{"says": f"κ = {kind}", "where": {"kind": kind}}
+                       for kind in "bcnx"] + [{"says": "κ = z", "column": "older than it"}]
 
             measure = {"table": "fig99", "column": "time", "where": {"kind": "a"}}
 
@@ -213,10 +223,13 @@ class Judging(unittest.TestCase):
                 about = claim(measure=measure, band=band, choices=choices)
                 found = verdicts.judge(about, Evidence(name))
                 return found.verdict, found.note
-            self.assertEqual(judged([0, 2]), ("refuted", "not with the printed parameters, with κ = b: 1, not with κ = c: 7"))
-            self.assertEqual(judged([8, 9]), ("refuted", "not with the printed parameters, nor with κ = b: 1; κ = c: 7"))
+            self.assertEqual(judged([0, 2]), ("refuted",
+                                              "not with the printed parameters, with κ = b: 1, not with κ = c: 7"))
+            self.assertEqual(judged([8, 9]), ("refuted",
+                                              "not with the printed parameters, nor with κ = b: 1; κ = c: 7"))
             self.assertEqual(judged([3, 5]), ("reproduced", ""))
-            self.assertEqual(judged([8, 9], [measure]), judged([8, 9]), "the first of several places is the printed one")
+            self.assertEqual(judged([8, 9], [measure]), judged([8, 9]),
+                             "the first of several places is the printed one")
 
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
@@ -227,8 +240,10 @@ class Judging(unittest.TestCase):
 
     def test_a_row_about_a_run_that_was_left_out_is_no_evidence(self):
         with tempfile.TemporaryDirectory() as name:
-            (Path(name) / "fig99_paper.csv").write_text("kind,time,status,commit,device\na,1,finished,c1,d\nb,,not run,-,\n")
-            found = [verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": kind}}), Evidence(name)).verdict for kind in "ab"]
+            (Path(name) / "fig99_paper.csv").write_text("kind,time,status,commit,device\na,1,finished,c1,d\nb,,not "
+                                                        "run,-,\n")
+            found = [verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": kind}}),
+                                    Evidence(name)).verdict for kind in "ab"]
         self.assertEqual(found, ["reproduced", "not yet run"])
 
     def test_the_newer_of_two_machines_tables_counts(self):
@@ -238,7 +253,8 @@ class Judging(unittest.TestCase):
                 (Path(name) / machine / "fig99_paper.csv").write_text(f"kind,time,commit,device\na,{time},c1,d\n")
                 if ended:
                     (Path(name) / machine / "provenance.csv").write_text(f"file,ended\nfig99_paper.csv,{ended}\n")
-            found = verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": "a"}}), Evidence(name))
+            found = verdicts.judge(claim(measure={"table": "fig99", "column": "time", "where": {"kind": "a"}}),
+                                   Evidence(name))
         self.assertEqual((found.measured.value, found.measured.source), (1, "a/fig99_paper.csv"))
 
     def test_a_wait_that_is_not_declared_and_one_that_is_over_are_found(self):
@@ -268,7 +284,8 @@ class Runs(unittest.TestCase):
         guarantee = {**GUARANTEE, "run": {"scale": "paper", "steps": 1000}}
         self.assertEqual(self.judged(failed), "not yet run")
         self.assertEqual(self.judged(failed, **guarantee), "refuted")
-        self.assertEqual(self.judged(lambda m: None, **{**guarantee, "run": {"scale": "paper", "steps": 100}}), "reproduced")
+        self.assertEqual(self.judged(lambda m: None, **{**guarantee, "run": {"scale": "paper", "steps": 100}}),
+                         "reproduced")
 
     def test_a_verdict_about_penetrations_says_how_many_states_were_audited(self):
         for j in verdicts.judge_all():
@@ -295,21 +312,26 @@ class Counts(unittest.TestCase):
     """Of a scene: simulated bodies, and those that are fixed or wholly prescribed."""
 
     def counted(self, what, *bodies):
-        entries = [{"name": "b", "fixed": fixed, "vertex_count": n, "triangle_count": 2 * n, **({} if prescribed is None else {"prescribed_vertices": prescribed})}
+        entries = [{"name": "b", "fixed": fixed, "vertex_count": n, "triangle_count": 2 * n,
+                    **({} if prescribed is None else {"prescribed_vertices": prescribed})}
                    for n, fixed, prescribed in bodies]
         run = SimpleNamespace(manifest={"scene": {"name": "s", "bodies": entries}})
         return value_of(run, {"scene": what})
 
     def test_a_body_whose_vertices_all_follow_a_motion_counts_as_fixed(self):
         bodies = ((100, False, 0), (20, False, 3), (4, True, 0), (7, False, 7))
-        self.assertEqual([self.counted(what, *bodies) for what in ("vertices", "moving_bodies", "fixed_vertices", "fixed_triangles")], [120, 2, 11, 22])
+        self.assertEqual([self.counted(what, *bodies)
+                          for what in ("vertices", "moving_bodies", "fixed_vertices", "fixed_triangles")],
+                         [120, 2, 11, 22])
 
     def test_a_manifest_from_before_that_was_said_has_no_such_body(self):
-        self.assertEqual([self.counted(what, (100, False, None), (4, True, None)) for what in ("vertices", "fixed_vertices")], [100, 4])
+        self.assertEqual([self.counted(what, (100, False, None), (4, True, None))
+                          for what in ("vertices", "fixed_vertices")], [100, 4])
 
 
 class OneSceneOfTwoFigures(unittest.TestCase):
-    """Table 1's sphere and Fig. 18's are one scene; Fig. 18's cloth has IPC's membrane. Its runs, the newer ones here, judge no claim of the table."""
+    """Table 1's sphere and Fig. 18's are one scene; Fig. 18's cloth has IPC's membrane. Its runs, the newer ones here,
+    judge no claim of the table."""
 
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -324,7 +346,8 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         (self.folder / name).mkdir()
         (self.folder / name / "run.json").write_text(json.dumps({**manifest, "ended": name, **changes}))
         head, *rows = [line.split(",") for line in (RESULTS / "h200/sphere_cuda_steps.csv").read_text().splitlines()]
-        step, wall = (next(i for i, title in enumerate(head) if title.partition(" ")[0] == name) for name in ("step", "wall"))
+        step, wall = (next(i for i, title in enumerate(head) if title.partition(" ")[0] == name)
+                      for name in ("step", "wall"))
         for row in rows:
             row[step], row[wall] = str(int(row[step]) - 1 + begin), repr(float(row[wall]) * times)
         (self.folder / name / "steps.csv").write_text("\n".join(map(",".join, [head, *rows])) + "\n")
@@ -332,7 +355,8 @@ class OneSceneOfTwoFigures(unittest.TestCase):
     def sources(self, place=""):
         """The run that each claim about the scene whose place begins so is judged by."""
         evidence = Evidence(self.folder)
-        found = (verdicts.judge(each, evidence) for each in verdicts.load() if each["scene"] == "cloth_on_sphere" and each["place"].startswith(place))
+        found = (verdicts.judge(each, evidence) for each in verdicts.load() if each["scene"] == "cloth_on_sphere"
+                 and each["place"].startswith(place))
         return {j.claim["id"].partition(".")[2]: j.measured and j.measured.source for j in found}
 
     def test_the_table_is_judged_by_its_own_runs_alone(self):
@@ -341,7 +365,8 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         self.make("1_table", "st_venant_kirchhoff", 1)
         sources = self.sources("Table 1")
         self.assertEqual(set(sources.values()), {"1_table/run.json", None})
-        self.assertEqual({name for name, source in sources.items() if not source}, {"cpu_average", "cpu_maximum", "cpu_steady"})
+        self.assertEqual({name for name, source in sources.items() if not source},
+                         {"cpu_average", "cpu_maximum", "cpu_steady"})
         self.assertEqual(self.sources("§5, first")["penetration_free"], "1_table/run.json")
 
     def test_a_failed_audit_counts_with_any_material(self):
@@ -398,7 +423,8 @@ class Files(unittest.TestCase):
                               ({"measure": None, "band": None, "instead": "s.c"}, "`kind` where nothing is measured")):
             broken = {k: v for k, v in {**claim(kind=None), **change}.items() if v is not None}
             with tempfile.TemporaryDirectory() as name, self.assertRaisesRegex(EvidenceError, words):
-                (Path(name) / "s.json").write_text(json.dumps({"scene": "s", "figures": [], "bands_set": "2000", "claims": [broken]}))
+                document = {"scene": "s", "figures": [], "bands_set": "2000", "claims": [broken]}
+                (Path(name) / "s.json").write_text(json.dumps(document))
                 verdicts.load(name)
 
 

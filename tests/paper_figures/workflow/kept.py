@@ -1,5 +1,5 @@
-"""The accepted results that are there: each has its provenance, is small, is there once, and a thinned run says what its
-manifest says.
+"""The accepted results that are there: each has its provenance, is small, is there once, and a thinned run says what
+its manifest says.
 
 Usage: kept.py SOURCE_DIR. Exit status 77: skipped, PyYAML is missing.
 """
@@ -71,7 +71,8 @@ class Kept(unittest.TestCase):
                 again = sum(part * count for part, count in zip(parts, counts)) / run.step_count
                 self.assertAlmostEqual(again / scale, mean / scale, delta=5e-9, msg=f"{run.source} {name}")
                 largest = run.manifest["whole_run"]["largest"][name]
-                self.assertEqual(f"{max(run.thinned.of('largest', name)):.9g}", f"{largest:.9g}", f"{run.source} {name}")
+                self.assertEqual(f"{max(run.thinned.of('largest', name)):.9g}", f"{largest:.9g}",
+                                 f"{run.source} {name}")
 
     def test_no_manifest_names_a_folder_of_the_machine(self):
         for path in RESULTS.rglob("*run.json"):

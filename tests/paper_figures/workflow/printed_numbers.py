@@ -31,7 +31,8 @@ SHORT = {"sphere": "cloth_on_sphere"}  # names of scenes in documents, where the
 NOT_OURS = ("floor", "quoted")
 LINK = re.compile(r"\[[^\]]*\]\(([^)#]*\.csv)\)")
 POWER = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
-NUMBER = re.compile(rf"(?<![\w.,^/{POWER}])-?(?:\d{{1,3}}(?:,\d{{3}})+|\d+)(?:\.\d+)?(?:e-?\d+|·10[{POWER}]+)?(?![\w{POWER}/])")
+NUMBER = re.compile(rf"(?<![\w.,^/{POWER}])-?(?:\d{{1,3}}(?:,\d{{3}})+|\d+)(?:\.\d+)?"
+                    rf"(?:e-?\d+|·10[{POWER}]+)?(?![\w{POWER}/])")
 UPRIGHT = str.maketrans(POWER, "-0123456789")
 # What a sentence's number may be times the file's: the same, s of ms, %.
 SCALES = [Decimal(1), Decimal("0.001"), Decimal(100)]
@@ -62,7 +63,8 @@ def rows_of(path):
 def tables(text):
     """(paragraph above, titles, rows) of each Markdown table."""
     for found in re.finditer(r"((?:^[^|\n].*\n)+)\n((?:^\|.*\n)+)", text, re.M):
-        lines = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))] for line in found[2].splitlines()]
+        lines = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))]
+                 for line in found[2].splitlines()]
         yield found[1], lines[0], lines[2:]
 
 
@@ -154,12 +156,14 @@ def planted(text, at, number):
 
 class Parts(unittest.TestCase):
     def test_numbers_as_printed(self):
-        for text, value, half in (("1,921", 1921, "0.5"), ("0.93", "0.93", "0.005"), ("2·10⁻¹²", "2e-12", "5e-13"), ("9.2e-5", "9.2e-5", "5e-7")):
+        for text, value, half in (("1,921", 1921, "0.5"), ("0.93", "0.93", "0.005"), ("2·10⁻¹²", "2e-12", "5e-13"),
+                                  ("9.2e-5", "9.2e-5", "5e-7")):
             self.assertEqual(printed(text), (Decimal(value), Decimal(half)))
         self.assertEqual(NUMBER.findall("10⁵ contacts take 3.3 ms, γ_e = 0, 1/60 s"), ["3.3", "0"])
 
     def test_numbers_of_a_cell(self):
-        self.assertEqual(numbers("0: 15.81; 2400: 88.3; a 5e-07"), [Decimal(x) for x in ("0", "15.81", "2400", "88.3", "5e-07")])
+        self.assertEqual(numbers("0: 15.81; 2400: 88.3; a 5e-07"),
+                         [Decimal(x) for x in ("0", "15.81", "2400", "88.3", "5e-07")])
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
-"""What `reproduce` says while it works: which figure, which step of how many, how long yet; the workflow's own output goes
-to a log. Also what a build says.
+"""What `reproduce` says while it works: which figure, which step of how many, how long yet; the workflow's own output
+goes to a log. Also what a build says.
 
-Usage: progress.py SOURCE_DIR. Exit status 77: skipped, PyYAML or matplotlib is missing; without Snakemake its part is left
-out, and the test says so.
+Usage: progress.py SOURCE_DIR. Exit status 77: skipped, PyYAML or matplotlib is missing; without Snakemake its part is
+left out, and the test says so.
 """
 
 import importlib.util
@@ -151,7 +151,8 @@ class Whole(Scratch):
                                 stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def in_order(self, **variables):
-        command = [sys.executable, "-m", "paper_figures.workflow.in_order", self.runs, self.ogc, "smoke", "cpu", "fig07"]
+        command = [sys.executable, "-m", "paper_figures.workflow.in_order", self.runs, self.ogc, "smoke", "cpu",
+                   "fig07"]
         return self.words(command, "fig07", **variables)
 
     def check(self, process, raw):
@@ -159,7 +160,8 @@ class Whole(Scratch):
         self.assertNotEqual(process.returncode, 0, "the stand-in's data can't be drawn")
         self.assertEqual(out, "")
         lines = said.splitlines()
-        self.assertRegex(lines[0], r"^Step 1 of 2, fig07 \(.+\): computing it exactly(, 3 of 4)?; (about|at least) \d+ s left$")
+        self.assertRegex(lines[0], r"^Step 1 of 2, fig07 \(.+\): computing it exactly(, 3 of 4)?; (about|at least) \d+ "
+                                   r"s left$")
         self.assertRegex(said, r"\nStep 1 of 2, fig07 \(.+\): computing it exactly took \d+ s\n")
         self.assertRegex(said, r"\nfig07 \(.+\): FAILED \(exit status 1\): ")
         log = self.runs.resolve() / progress.LOG
@@ -172,7 +174,8 @@ class Whole(Scratch):
 
     @unittest.skipUnless(importlib.util.find_spec("snakemake"), "Snakemake is not installed: its part is left out")
     def test_with_snakemake(self):
-        command = [sys.executable, "-m", "snakemake", "-s", SOURCE / "paper_figures/workflow/Snakefile", "-d", self.runs,
+        command = [sys.executable, "-m", "snakemake", "-s", SOURCE / "paper_figures/workflow/Snakefile", "-d",
+                   self.runs,
                    "--nolock", "--cores", "1", "--config", "figures=fig07", "scale=smoke", f"ogc={self.ogc}"]
         self.check(self.words(command, "fig07", OGC_SLOW="1"), "Building DAG of jobs")
 

@@ -1,6 +1,8 @@
-"""Makes the report, and checks it as a reader would: its verdicts are those of the claims, its first line counts them, every link resolves, every picture is one.
+"""Makes the report, and checks it as a reader would: its verdicts are those of the claims, its first line counts them,
+every link resolves, every picture is one.
 
-Usage: report.py SOURCE_DIR [--browser CHROMIUM SCREENSHOT.png]: with a browser the pages are opened in it, too. Exit status 77: skipped, matplotlib is missing.
+Usage: report.py SOURCE_DIR [--browser CHROMIUM SCREENSHOT.png]: with a browser the pages are opened in it, too. Exit
+status 77: skipped, matplotlib is missing.
 """
 
 import base64
@@ -24,10 +26,13 @@ except ImportError as error:
 from paper_figures.workflow import report, verdicts  # noqa: E402
 from paper_figures.workflow.evidence import manifest_at  # noqa: E402
 
-# Appended to a copy of a page: the browser itself says which pictures it could not show, and what it asked the network for.
-PROBE = """<script>addEventListener('load', () => { const bad = [...document.images].filter(i => !i.complete || i.naturalWidth === 0).length;
+# Appended to a copy of a page: the browser itself says which pictures it could not show, and what it asked the network
+# for.
+PROBE = """<script>addEventListener('load', () => {
+const bad = [...document.images].filter(i => !i.complete || i.naturalWidth === 0).length;
 const asked = performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length;
-document.body.innerHTML = `PROBE ${document.images.length} ${bad} ${asked} ${document.body.innerText.trim().split('\\n')[0]}`; });</script>"""
+const first = document.body.innerText.trim().split('\\n')[0];
+document.body.innerHTML = `PROBE ${document.images.length} ${bad} ${asked} ${first}`; });</script>"""
 
 
 class Page(HTMLParser):
@@ -35,8 +40,8 @@ class Page(HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.ids, self.links, self.pictures, self.movies, self.marked, self.shown, self.words, self.foreign = set(), [], [], [], {}, {}, [], []
-        self.late = set()
+        self.ids, self.late, self.marked, self.shown = set(), set(), {}, {}
+        self.links, self.pictures, self.movies, self.words, self.foreign = [], [], [], [], []
         self.row = self.cell = self.head = None
         self.feed(text)
 
@@ -102,10 +107,13 @@ def faults(folder):
     if pages["index.html"].marked != expected:
         found.append("index.html: the verdicts are not those of the claims")
     for name, page in pages.items():
-        found += [f"{name}: {row} shows '{page.shown.get(row)}', not '{expected.get(row)}'" for row, verdict in page.marked.items() if not page.shown.get(row) == verdict == expected.get(row)]
+        found += [f"{name}: {row} shows '{page.shown.get(row)}', not '{expected.get(row)}'"
+                  for row, verdict in page.marked.items() if not page.shown.get(row) == verdict == expected.get(row)]
         found += [f"{name}: the link {link} leads nowhere" for link in page.links if not resolves(link, name, pages)]
-        found += [f"{name}: picture {number} can't be read" for number, source in enumerate(page.pictures) if not png(source)]
-        found += [f"{name}: movie {number} can't be read" for number, source in enumerate(page.movies) if not mp4(source)]
+        found += [f"{name}: picture {number} can't be read"
+                  for number, source in enumerate(page.pictures) if not png(source)]
+        found += [f"{name}: movie {number} can't be read"
+                  for number, source in enumerate(page.movies) if not mp4(source)]
         found += [f"{name}: holds a {tag}" for tag in page.foreign]
     return found
 
@@ -123,10 +131,14 @@ def check_faults_are_found(folder):
     plants = [(lambda t: re.sub(r"\d+ of (\d+ claims)", r"0 of \1", t, count=1), "does not count"),
               (lambda t: t.replace(report.LATE, "", 2), "not marked"),
               (lambda t: t.replace('data-verdict="refuted"', 'data-verdict="reproduced"', 1), "not those"),
-              (lambda t: t.replace(">refuted</td>", ">reproduced</td>", 1), "shows 'reproduced'"), (lambda t: t.replace('href="twist.html"', 'href="twists.html"', 1), "leads nowhere"),
-              (lambda t: t.replace('src="data:image/png;base64,iVBOR', 'src="data:image/png;base64,AAAAA', 1), "can't be read"),
-              (lambda t: t.replace('src="data:image/png', 'src="http://example.org/a.png" title="', 1), "can't be read"), (lambda t: t.replace("<body>", "<body><script></script>", 1), "holds a script"),
-              (lambda t: t.replace("<body>", '<body><video src="data:video/mp4;base64,AAAAAAAAAAAAAAAA"></video>', 1), "movie 0 can't be read")]
+              (lambda t: t.replace(">refuted</td>", ">reproduced</td>", 1), "shows 'reproduced'"),
+              (lambda t: t.replace('href="twist.html"', 'href="twists.html"', 1), "leads nowhere"),
+              (lambda t: t.replace('src="data:image/png;base64,iVBOR', 'src="data:image/png;base64,AAAAA', 1),
+               "can't be read"),
+              (lambda t: t.replace('src="data:image/png', 'src="http://example.org/a.png" title="', 1),
+               "can't be read"), (lambda t: t.replace("<body>", "<body><script></script>", 1), "holds a script"),
+              (lambda t: t.replace("<body>", '<body><video src="data:video/mp4;base64,AAAAAAAAAAAAAAAA"></video>', 1),
+               "movie 0 can't be read")]
     for plant, words in plants:
         planted = plant(good)
         assert planted != good, f"could not plant: {words}"
@@ -166,8 +178,10 @@ def check_just_made(folder):
 
 
 def browse(browser, folder, screenshot):
-    """Opens every page in the browser: all pictures are shown, nothing is asked of the network. Takes a picture of the first."""
-    base = [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=10000"]
+    """Opens every page in the browser: all pictures are shown, nothing is asked of the network. Takes a picture of the
+    first."""
+    base = [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+            "--virtual-time-budget=10000"]
     for path in sorted(Path(folder).glob("*.html")):
         copy = path.with_suffix(".probe.html")
         copy.write_text(path.read_text().replace("</body>", PROBE + "</body>"))
@@ -175,11 +189,13 @@ def browse(browser, folder, screenshot):
         found = re.search(r"PROBE (\d+) (\d+) (\d+) (.*)", done.stdout)
         assert found, f"{path.name}: the browser did not load it\n{done.stderr[-2000:]}"
         pictures, bad, asked, first = found.groups()
-        assert int(pictures) == len(Page(path.read_text()).pictures) and bad == "0" and asked == "0", f"{path.name}: {bad} of {pictures} pictures not shown, {asked} requests"
+        words = f"{path.name}: {bad} of {pictures} pictures not shown, {asked} requests"
+        assert int(pictures) == len(Page(path.read_text()).pictures) and bad == "0" and asked == "0", words
         if path.name == "index.html":
             assert first.startswith(verdicts.headline(judged())), first
         copy.unlink()
-    subprocess.run([*base, "--window-size=1300,2400", f"--screenshot={screenshot}", (Path(folder) / "index.html").as_uri()], capture_output=True, check=True)
+    subprocess.run([*base, "--window-size=1300,2400", f"--screenshot={screenshot}",
+                    (Path(folder) / "index.html").as_uri()], capture_output=True, check=True)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""The runner: what is finished is kept, what was cut off goes on, a limit ends with 75, what is packed and unpacked is what
-the figures' scripts want to find.
+"""The runner: what is finished is kept, what was cut off goes on, a limit ends with 75, what is packed and unpacked is
+what the figures' scripts want to find.
 
 Usage: runner.py SOURCE_DIR OGC. The standard library is enough.
 """
@@ -216,7 +216,8 @@ class Called(Scratch):
         for name in ("ipc", "newton", "vbd"):
             run = home / "fig18_solvers-smoke-cpu" / name
             manifest = jobs.manifest_of(run)
-            self.assertEqual((manifest["solver"], manifest["device"]), (name, f"{len(os.sched_getaffinity(0))} threads"))
+            self.assertEqual((manifest["solver"], manifest["device"]),
+                             (name, f"{len(os.sched_getaffinity(0))} threads"))
             self.assertGreater(json.loads((run / PROCESSOR_TIME).read_text())["user [s]"], 0)
             ended.append(manifest["ended"])
         self.assertEqual(ended, sorted(ended))
@@ -224,13 +225,15 @@ class Called(Scratch):
         self.assertEqual([job.name for job in chain], ["ipc", "newton", "vbd", "vbd_cuda"])
 
     def test_each_part_is_packed_as_soon_as_it_is_finished(self):
-        """A machine that was taken away in the second part must have left the first."""
+        """What was killed in the second part must have left the first."""
         there, home, packed = self.folder / "there", self.folder / "home", self.folder / "packed"
         code = ("import sys\nfrom paper_figures.workflow import runner\nmake = runner.Runner.make\n"
-                "runner.Runner.make = lambda self, name, part: make(self, name, part) if name == 'fig20' else sys.exit(9)\n"
+                "runner.Runner.make = lambda self, name, part: make(self, name, part) if name == 'fig20' else "
+                "sys.exit(9)\n"
                 "runner.main()")
         command = [sys.executable, "-c", code, "--out", there, "--program", OGC, *self.OPTIONS, "--pack", packed]
-        done = subprocess.run(list(map(str, [*command, "fig20", "fig12"])), cwd=SOURCE, capture_output=True, check=False)
+        done = subprocess.run(list(map(str, [*command, "fig20", "fig12"])), cwd=SOURCE, capture_output=True,
+                              check=False)
         self.assertEqual(done.returncode, 9)
         self.assertEqual(self.say(home, "--unpack", packed), [str(home / "fig20-smoke-cpu/vbd")])
 
@@ -253,7 +256,8 @@ class Called(Scratch):
         self.assertEqual(list((self.folder / "cut").iterdir()), [])
 
     def test_wrong_words_exit_2(self):
-        for words, said in ((["twisted"], "no part or figure 'twisted'"), (["--figures", "twist"], "no part or figure 'twist'"),
+        for words, said in ((["twisted"], "no part or figure 'twisted'"),
+                            (["--figures", "twist"], "no part or figure 'twist'"),
                             (["--windw", "3"], "--windw"), (["--program", "/nowhere"], "no program at '/nowhere'")):
             done = self.call(self.folder, *words)
             self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
@@ -269,7 +273,8 @@ class Book(Scratch):
     def test_a_figure_is_all_of_its_parts_and_a_part_itself(self):
         book = parts.book(parts.Wanted())
         self.assertEqual(list(parts.chosen(book, ["fig02"])), ["fig02"])
-        self.assertEqual(set(parts.chosen(book, [], ["fig02", "growth"])), {"fig02", "fig02_ipc", "growth_cuda", "growth_cpu", "threads"})
+        self.assertEqual(set(parts.chosen(book, [], ["fig02", "growth"])),
+                         {"fig02", "fig02_ipc", "growth_cuda", "growth_cpu", "threads"})
         everything = parts.chosen(book)
         self.assertLessEqual({"twist", "windows_knot", "fig21", "minimiser"}, set(everything))
         self.assertFalse({"judge", "sanitizer"} & set(everything))
@@ -371,7 +376,8 @@ class Judge(Scratch):
         stub, root = self.program(JUDGE), self.folder / "counts"
         job = judge_counts.Counts("cpu", stages=("truncate", "spring"))
         for _ in "ab":
-            with self.assertRaisesRegex(jobs.RunFailure, "(?s)spring.s1000: exit status 1.*truncate.s1000: exit status 1"):
+            with self.assertRaisesRegex(jobs.RunFailure,
+                                        "(?s)spring.s1000: exit status 1.*truncate.s1000: exit status 1"):
                 job.make(stub, root)
         sums = json.loads((root / "counts.json").read_text())["stages"]
         self.assertEqual((sums["truncate"]["mismatches"], sums["spring"]["cases"]), (1, 0))
@@ -394,25 +400,30 @@ class Growth(Scratch):
         Job(f"run_{side}", ("--audit", "end"), scene=layers.Stack(side, 1)).make(OGC, self.folder)
         run = run_at(self.folder / f"run_{side}")
         self.assertTrue(run.manifest["guarantee_kept"])
-        self.assertEqual(sum(body["vertex_count"] for body in run.manifest["scene"]["bodies"] if not body["fixed"]), layers.vertices(side))
+        self.assertEqual(sum(body["vertex_count"] for body in run.manifest["scene"]["bodies"] if not body["fixed"]),
+                         layers.vertices(side))
         return table1.contacts(run)[0] / layers.vertices(side)
 
     def test_stacks_of_two_sizes_differ_in_density_by_their_rim_alone(self):
-        """Of side² vertices of a sheet less than 4 side lie at the rim, and a rim vertex has at least half the contacts of an inner one: it loses one side of its
-        neighbourhood. So density (1 - 2/side) D at least, and at most D."""
+        """Of side² vertices of a sheet less than 4 side lie at the rim, and a rim vertex has at least half the contacts
+        of an inner one: it loses one side of its neighbourhood. So density (1 - 2/side) D at least, and at most D."""
         small, large = self.contacts(10), self.contacts(20)
         self.assertGreater(large, small)
         self.assertLess(large, small / (1 - 2 / 10))
         self.assertGreater(small, 5)  # pairs of neighbouring sheets, not of the ground alone
 
     def test_a_power_law_and_its_words(self):
-        rows = [{"over": "vertices", "backend": "cuda", "vertices": n, "median [ms]": 2e-3 * n**1.25, "contacts a vertex": 7} for n in (10**4, 10**5, 10**6)]
-        rows += [{"over": "threads", "backend": "cpu", "vertices": 9, "threads": n, "median [ms]": 8 / n, "final_hash": bits} for n, bits in ((1, "a"), (4, "b"))]
+        rows = [{"over": "vertices", "backend": "cuda", "vertices": n, "median [ms]": 2e-3 * n**1.25,
+                 "contacts a vertex": 7} for n in (10**4, 10**5, 10**6)]
+        rows += [{"over": "threads", "backend": "cpu", "vertices": 9, "threads": n, "median [ms]": 8 / n,
+                  "final_hash": bits} for n, bits in ((1, "a"), (4, "b"))]
         slope, factor = growth.exponent(rows[:3])
         self.assertAlmostEqual(slope, 1.25)
         self.assertAlmostEqual(factor, 2e-3)
-        self.assertEqual(growth.in_words(rows), ["cuda: time ∝ vertices^1.250 from 10,000 to 1,000,000, ^1.250 from 10,000 on; 7 to 7 contacts a vertex",
-                                                 "4 threads are 4 times as fast as 1 (9 vertices), NOT with the same bits"])
+        self.assertEqual(growth.in_words(rows), ["cuda: time ∝ vertices^1.250 from 10,000 to 1,000,000, ^1.250 from "
+                                                 "10,000 on; 7 to 7 contacts a vertex",
+                                                 "4 threads are 4 times as fast as 1 (9 vertices), NOT with the same "
+                                                 "bits"])
 
     def test_threads_are_powers_of_two_and_all_cores(self):
         for cores, numbers in ((1, [1]), (6, [1, 2, 4, 6]), (16, [1, 2, 4, 8, 16])):

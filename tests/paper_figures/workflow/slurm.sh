@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The workflow on a real Slurm: installs slurm-wlm, starts munged, slurmctld and slurmd for this machine alone, in a folder of their own, sends a sweep of 60 points through
-# them, kills one job while it runs, and checks that it was sent again and that all points are there. Ends its daemons in any case. Not part of tests/run.
-# Usage: slurm.sh (as root: slurmd starts jobs for others)
+# The workflow on a real Slurm: installs slurm-wlm, starts munged, slurmctld and slurmd for this machine alone, in a
+# folder of their own, sends a sweep of 60 points through them, kills one job while it runs, and checks that it was sent
+# again and that all points are there. Ends its daemons in any case. Not part of tests/run. Usage: slurm.sh (as root:
+# slurmd starts jobs for others)
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 # shellcheck source=experiments/dependencies.sh
@@ -11,7 +12,10 @@ install_packages "${packages[@]}" slurm-wlm munge procps
 
 # Jobs look for their configuration where a cluster has it: the workflow passes no SLURM_ variable on to them.
 configuration=/etc/slurm/slurm.conf
-[ ! -e "$configuration" ] || { say "slurm.sh: $configuration exists: this machine belongs to a cluster, which is left alone"; exit 77; }
+if [ -e "$configuration" ]; then
+  say "slurm.sh: $configuration exists: this machine belongs to a cluster, which is left alone"
+  exit 77
+fi
 folder=$(mktemp -d) node=$(hostname -s) runs=$root/runs
 mkdir -p "$folder"/{state,spool,log}
 daemons=()
@@ -50,17 +54,23 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP OverSubscribe=
 CONF
 head -c 1024 /dev/urandom > "$folder/munge.key"
 chmod 711 "$folder" && chmod 600 "$folder/munge.key"
-munged --force --foreground --socket="$folder/munge.socket" --key-file="$folder/munge.key" --pid-file="$folder/munge.pid" --log-file="$folder/log/munged" \
-  --seed-file="$folder/munge.seed" --num-threads=2 & daemons+=($!)
+munged --force --foreground --socket="$folder/munge.socket" --key-file="$folder/munge.key" \
+  --pid-file="$folder/munge.pid" --log-file="$folder/log/munged" --seed-file="$folder/munge.seed" \
+  --num-threads=2 & daemons+=($!)
 for _ in $(seq 50); do [ -S "$folder/munge.socket" ] && break; sleep 0.1; done
 slurmctld -D -L "$folder/log/slurmctld" > /dev/null 2>&1 & daemons+=($!)
 slurmd -D -N "$node" -L "$folder/log/slurmd" > /dev/null 2>&1 & daemons+=($!)
 for _ in $(seq 100); do sinfo -h -o %T 2>/dev/null | grep -q '^idle' && break; sleep 0.3; done
-sinfo -h -o %T | grep -q '^idle' || { say "slurm.sh: the cluster did not come up"; tail -n 20 "$folder"/log/* >&2; exit 1; }
+if ! sinfo -h -o %T | grep -q '^idle'; then
+  say "slurm.sh: the cluster did not come up"
+  tail -n 20 "$folder"/log/* >&2
+  exit 1
+fi
 say "Slurm $(sinfo --version | cut -d' ' -f2) is up: $(sinfo -h -o '%D node, %c cores')"
 
 rm -rf "$runs/sweep-smoke-cpu"
-"$root/experiments/reproduce" sweep --scale smoke --slurm --jobs 8 -- --slurm-status-command squeue --slurm-no-account --seconds-between-status-checks 5 \
+"$root/experiments/reproduce" sweep --scale smoke --slurm --jobs 8 -- --slurm-status-command squeue \
+  --slurm-no-account --seconds-between-status-checks 5 \
   > "$folder/log/workflow" 2>&1 & workflow=$!
 daemons+=("$workflow")
 # One job is killed while it runs, and not the first: its point must be there at the end all the same.
@@ -73,7 +83,12 @@ while kill -0 "$workflow" 2>/dev/null && [ -z "$killed" ]; do
 done
 status=0
 wait "$workflow" || status=$?
-[ "$status" -eq 0 ] || { say "slurm.sh: the workflow ended with exit status $status"; tail -n 60 "$folder/log/workflow" >&2; tail -n 20 "$folder/log/slurmctld" >&2; exit 1; }
+if [ "$status" -ne 0 ]; then
+  say "slurm.sh: the workflow ended with exit status $status"
+  tail -n 60 "$folder/log/workflow" >&2
+  tail -n 20 "$folder/log/slurmctld" >&2
+  exit 1
+fi
 [ -n "$killed" ] || { say "slurm.sh: no job could be killed while it ran"; exit 1; }
 
 points=$(find "$runs/sweep-smoke-cpu" -mindepth 3 -maxdepth 3 -name run.json | wc -l)
@@ -81,5 +96,8 @@ rows=$(($(wc -l < "$runs/sweep-smoke-cpu/sweep.csv") - 1))
 sent=$(squeue -h -t all -o %i | wc -l)
 again=$(grep -c 'Trying to restart job' "$folder/log/workflow" || true)
 [ "$points" -eq 60 ] && [ "$rows" -eq 60 ] || { say "slurm.sh: $points runs and $rows rows, not 60"; exit 1; }
-[ "$again" -ge 1 ] && [ "$sent" -ge 62 ] || { say "slurm.sh: the killed job was not sent again ($sent jobs, $again restarts)"; exit 1; }
+if [ "$again" -lt 1 ] || [ "$sent" -lt 62 ]; then
+  say "slurm.sh: the killed job was not sent again ($sent jobs, $again restarts)"
+  exit 1
+fi
 say "60 points in $sent jobs; job $killed was killed, and its point computed by another"

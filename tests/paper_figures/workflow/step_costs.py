@@ -40,7 +40,8 @@ class StepCosts(unittest.TestCase):
             step_costs.costs(self.run_of([(k, 2, 10, 10, 1) for k in range(1, 9)]))
 
     def test_a_folder_without_a_run_is_named(self):
-        done = subprocess.run([sys.executable, "-m", "paper_figures.workflow.step_costs", "plots"], cwd=SOURCE, capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-m", "paper_figures.workflow.step_costs", "plots"], cwd=SOURCE,
+                              capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("step_costs: plots: no run", done.stderr)
 

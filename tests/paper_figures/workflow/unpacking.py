@@ -1,5 +1,5 @@
-"""What an archive from elsewhere may not do is refused by name before anything is written; a sound one is unpacked as it
-was packed.
+"""What an archive from elsewhere may not do is refused by name before anything is written; a sound one is unpacked as
+it was packed.
 
 Usage: unpacking.py SOURCE_DIR. The standard library is enough.
 """
@@ -32,7 +32,8 @@ def sound():
 REFUSED = {"/tmp/x": member("/tmp/x"), "../x": member("../x"), "a/../../x": member("a/../../x"), "b\\x": member("b\\x"),
            "etc": member("etc", b"", tarfile.SYMTYPE, "/etc"), "up": member("up", b"", tarfile.SYMTYPE, "../.."),
            "in/out": member("in/out", b"", tarfile.SYMTYPE, "../a/../../b"),
-           "hard": member("hard", b"", tarfile.LNKTYPE, "a/run/run.json"), "pipe": member("pipe", b"", tarfile.FIFOTYPE),
+           "hard": member("hard", b"", tarfile.LNKTYPE, "a/run/run.json"),
+           "pipe": member("pipe", b"", tarfile.FIFOTYPE),
            "disk": member("disk", b"", tarfile.BLKTYPE), "fig/run/frames/f.h5": member("fig/run/frames/f.h5"),
            "a/run/run.json": member("a/run/run.json"),
            "large": member("large", b"x" * 101)}
