@@ -176,6 +176,7 @@ constexpr void visit_stages(Visit visit) {
   visit("membrane", &Contestant::membrane);
   visit("bending", &Contestant::bending);
   visit("spring", &Contestant::spring);
+  visit("tetrahedron", &Contestant::tetrahedron);
   visit("truncate", &Contestant::truncate);
   visit("rest_state", &Contestant::rest_state);
   visit("sweep", &Contestant::sweep);

@@ -84,6 +84,7 @@ Authority remembering(const Authority& a, std::size_t parts) {
   r.membrane = remembered(a.membrane, parts);
   r.bending = remembered(a.bending, parts);
   r.spring = remembered(a.spring, parts);
+  r.tetrahedron = remembered(a.tetrahedron, parts);
   r.contact_force = remembered(a.contact_force, parts);
   r.friction_force = remembered(a.friction_force, parts);
   r.block = remembered(a.block, parts);

@@ -20,6 +20,7 @@ struct Generator {
   CaseData (*make)(Random&);
   /// left out of a run of fewer cases than this, of which one of its meshes would be too large a part
   std::uint64_t least = 0;
+  bool solids = false;  ///< scenes with tetrahedra, which only a contestant with that stage is asked about
 };
 
 /// The generators of a stage, without those that take real states: `states` as they are, `mutated`

@@ -142,10 +142,11 @@ class GeneratorRun {
 };
 
 /// The generators to run, with their shares.
-std::vector<Generator> chosen(Stage stage, const JudgeOptions& options) {
+std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
-  std::erase_if(rows, [&](const Generator& row) { return row.least > options.cases; });
+  std::erase_if(
+      rows, [&](const Generator& row) { return row.least > options.cases || (row.solids && !contestant.tetrahedron); });
   if (options.states && options.states->missing(stage).empty())
     for (const std::string_view name : {"states", "mutated"}) rows.push_back(find_generator(stage, name));
   return rows;
@@ -172,7 +173,7 @@ StageReport judge_stage(Stage stage, const Contestant& contestant, const Authori
     if (const std::string why = options.states->missing(stage); !why.empty())
       report.note = "no states of " + options.states->folder() + ": " + why;
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Generator> rows = chosen(stage, options);
+  const std::vector<Generator> rows = chosen(stage, contestant, options);
   double shares = 0;
   for (const Generator& row : rows) shares += row.share;
   for (const Generator& row : rows) {

@@ -11,6 +11,7 @@
 #include "compare/problem/error.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/problem/solid_scene.hpp"
 #include "tests/compare/record/small_run.hpp"
 
 using namespace ogc::compare;
@@ -25,7 +26,7 @@ std::filesystem::path write_run(const std::filesystem::path& folder, const Scene
   return folder;
 }
 
-/// Something for every stage: the yarn held, a hinge in the cloth, a spring.
+/// Something for every stage but that of solids: the yarn held, a hinge in the cloth, a spring.
 Scene full_scene() {
   Scene scene = recorded_scene();
   scene.bodies[0].fixed = false;
@@ -33,6 +34,22 @@ Scene full_scene() {
   scene.springs.push_back({1, 5, 20, 0.5, 0.001});
   scene.settings.contact_radius = 2;  // frames lie within it
   return scene;
+}
+
+/// One frame of a block, stretched.
+std::filesystem::path write_solid_run(const std::filesystem::path& folder) {
+  Scene scene = solid_scene();
+  round_to_single(scene);
+  RunWriter run(folder, scene, recorded_provenance(), {});
+  std::vector<Vec3f> positions = to_single(scene.mesh.positions);
+  for (Vec3f& x : positions) x.y *= 1.25f;
+  run.add_frame({.step = 0,
+                 .time = 0,
+                 .positions = positions,
+                 .velocities = std::vector<Vec3f>(positions.size()),
+                 .bounds = std::vector<float>(positions.size(), 0.005f)});
+  run.finish("finished");
+  return folder;
 }
 
 /// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the
@@ -98,9 +115,11 @@ TEST_CASE("frames of a run become cases, whole for detection and pair by pair", 
 TEST_CASE("every stage has cases of a run that has everything, as they are and mutated, and the same ones again",
           "[property]") {
   const Scratch scratch;
-  const States states(write_run(scratch / "run", full_scene()), ogc::reference::authority());
+  const States surfaces(write_run(scratch / "run", full_scene()), ogc::reference::authority());
+  const States solids(write_solid_run(scratch / "solid"), ogc::reference::authority());
   for (const Stage stage : all_stages) {
     INFO(stage_name(stage));
+    const States& states = stage == Stage::tetrahedron ? solids : surfaces;
     REQUIRE(states.missing(stage).empty());
     for (const std::string generator : {"states", "mutated"}) {
       const CaseName name{stage, generator, 1, 4, states.folder(), {}};
