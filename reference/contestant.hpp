@@ -1,7 +1,7 @@
 // The reference as the judge's authority: exact where the answer is discrete, correctly bounded where it is not.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/definitions/block_margins.hpp"
 #include "reference/definitions/contact_sets.hpp"
 #include "reference/definitions/gauss_map.hpp"

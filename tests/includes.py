@@ -20,18 +20,27 @@ LONGEST_FILE = 800
 
 PROBLEM = ("compare/problem/", "compare/stages/")
 FILES = PROBLEM + ("compare/files/", "compare/record/")
+CONTESTANT = ("compare/contestant.hpp",)
+CASES = FILES + CONTESTANT + ("compare/judge/cases/",)
+ENGINE = CASES + ("compare/judge/engine/",)
+REPORT = ENGINE + ("compare/judge/report/",)
 
 # Room -> beginnings of the project includes that it may have.
 PROJECT = {
     "compare/problem": PROBLEM,
     "compare/stages": PROBLEM,
+    "compare/contestant.hpp": PROBLEM,
     "compare/files": FILES,
-    "compare/record": FILES,
-    "compare/judge": FILES + ("compare/judge/",),
+    "compare/record": FILES + CONTESTANT,
+    # Each may include those before it; nobody includes a stage, which the list in cases/ points to.
+    "compare/judge/cases": CASES,
+    "compare/judge/engine": ENGINE,
+    "compare/judge/report": REPORT,
+    "compare/judge/stages": REPORT + ("compare/judge/stages/",),
     "compare/oracle": PROBLEM + ("compare/oracle/",),
     "compare/plugin.h": (),
-    "reference": PROBLEM + ("reference/",),
-    "fast": PROBLEM + ("fast/",),
+    "reference": PROBLEM + CONTESTANT + ("reference/",),
+    "fast": PROBLEM + CONTESTANT + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
     "experiments/examples": ("compare/", "fast/contact_sets.hpp"),
     "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
@@ -90,9 +99,6 @@ STANDARD = set(
     streambuf string string_view syncstream system_error thread tuple type_traits typeindex typeinfo unordered_map
     unordered_set utility valarray variant vector version""".split()
 )
-
-# It stands above the two folders of ogc_problem, whose stages it lists; neither of them may include it.
-ABOVE_ITS_FOLDER = "compare/problem/contestant.hpp"
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
@@ -196,11 +202,8 @@ class House:
         edges = {}
         for file, included in self.includes.items():
             for number, other in included:
-                if other == ABOVE_ITS_FOLDER and below(file, "compare/problem", "compare/stages"):
-                    self.report(file, number, f'"{other}" stands above the folders of ogc_problem; they may not '
-                                              'include it')
                 assembles = "/" not in folder(file) and file.endswith(".cpp") or file.endswith("/main.cpp")
-                if file != ABOVE_ITS_FOLDER and not assembles:
+                if not assembles:
                     edges.setdefault((folder(file), folder(other)), (file, number, other))
         for (one, two), (file, number, other) in sorted(edges.items()):
             if one < two and (two, one) in edges:
@@ -227,12 +230,12 @@ def longest_beginning(table, name):
 
 SOUND = {
     "compare/problem/mesh.hpp": "#include <vector>\n",
-    "compare/problem/contestant.hpp": '#include "compare/stages/bound.hpp"\n',
+    "compare/contestant.hpp": '#include "compare/stages/bound.hpp"\n',
     "compare/stages/bound.hpp": '#include "compare/problem/mesh.hpp"\n',
     "compare/files/scene.cpp": "#include <nlohmann/json.hpp>\n#include <fcntl.h>\n",
     "compare/oracle/audit.cpp": '#include <CGAL/AABB_tree.h>\n#include "compare/problem/mesh.hpp"\n',
-    "reference/contestant.hpp": '#include "compare/problem/contestant.hpp"\n',
-    "fast/contestant.hpp": '#include "compare/problem/contestant.hpp"\n',
+    "reference/contestant.hpp": '#include "compare/contestant.hpp"\n',
+    "fast/contestant.hpp": '#include "compare/contestant.hpp"\n',
     "fast/contact_sets.hpp": "#include <span>\n",
     "fast/cpu/cpu.hpp": '#include "fast/contestant.hpp"\n',
     "fast/contestant.cpp": '#include "fast/cpu/cpu.hpp"\n',
@@ -259,8 +262,12 @@ PLANTED = {
         "reference may not include", "reference/x.cpp:1",
     ),
     "oracle includes the judge": (
-        {"compare/judge/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/x.hpp"\n'},
+        {"compare/judge/cases/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/cases/x.hpp"\n'},
         "compare/oracle may not", "compare/oracle/x.cpp:1",
+    ),
+    "the engine of the judge includes a stage": (
+        {"compare/judge/stages/x.hpp": "", "compare/judge/engine/x.cpp": '#include "compare/judge/stages/x.hpp"\n'},
+        "compare/judge/engine may not", "compare/judge/engine/x.cpp:1",
     ),
     "experiments includes the inside": (
         {"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'},
@@ -305,8 +312,8 @@ PLANTED = {
         "fast/x.hpp:1",
     ),
     "a stage includes contestant.hpp": (
-        {"compare/stages/x.hpp": '#include "compare/problem/contestant.hpp"\n'},
-        "stands above the folders",
+        {"compare/contestant.hpp": "", "compare/stages/x.hpp": '#include "compare/contestant.hpp"\n'},
+        "compare/stages may not include",
         "compare/stages/x.hpp:1",
     ),
     "a long file": ({"fast/x.cpp": "\n" * (LONGEST_FILE + 1)}, "has 801 lines", "fast/x.cpp:801"),

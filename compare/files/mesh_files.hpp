@@ -22,7 +22,7 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// Whether the extension is one of a mesh file that can be read, in capitals or not.
 bool is_mesh_file(const std::filesystem::path& path);
 
-enum class PlyEncoding { ascii, binary };
+enum class PlyEncoding { ascii, binary };  ///< how a PLY file is written
 
 /// Writes by extension: .obj or .ply. Coordinates are printed so that reading gives the same double (OBJ, ascii) or
 /// stored as double (binary). Throws InputError for another extension, ResourceError where the disk does not take it.

@@ -11,7 +11,7 @@
 
 namespace ogc::compare {
 
-inline constexpr int scene_format_version = 1;
+inline constexpr int scene_format_version = 1;  ///< a newer file is refused by name
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that
 /// lists every problem found.
@@ -19,7 +19,7 @@ Scene read_scene(const std::filesystem::path& file);
 
 /// What a scene file says beyond the scene.
 struct SceneFile {
-  Scene scene;
+  Scene scene;                     ///< as it was read, valid or not
   MeshSources sources;             ///< where the bodies' elements stand in their files
   std::vector<std::string> notes;  ///< a sentence about whatever was taken otherwise than it stands
 };

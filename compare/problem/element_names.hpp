@@ -16,7 +16,7 @@ struct Scene;
 /// Where the elements of a mesh stand in the file that it was read from. Numbers "in the file" are from 0 here;
 /// messages add `first`.
 struct MeshSource {
-  std::string file;
+  std::string file;             ///< where the elements stand
   Index first = 0;              ///< the number that the file gives its first vertex and face: 1 in OBJ
   bool shares_vertices = true;  ///< false: its faces have corners of their own (STL), and no vertex has a number
   std::vector<Index> vertices;  ///< number in the file, by vertex, ascending; empty: its own
@@ -40,7 +40,7 @@ class ElementNames {
   /// (…; sheet.obj, line 7; …)".
   explicit ElementNames(const Scene& scene, const MeshSources& sources = {});
 
-  std::string vertex(Index v) const;
+  std::string vertex(Index v) const;  ///< "vertex 3", with its place in the file
   /// "vertices 3, 4"; empty where the file gives vertices no numbers.
   std::string vertices(std::span<const Index> list) const;
   std::string triangle(Index t, const Triangle& corners) const;

@@ -59,8 +59,8 @@ struct DeclaredSetting {
 
 /// One row of the table of settings.
 struct SettingInfo {
-  std::string_view name, unit, meaning;
-  double minimum, maximum;  ///< inclusive
+  std::string_view name, unit, meaning;  ///< "contact_radius", "m", one line
+  double minimum, maximum;               ///< inclusive
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
                DeclaredSetting>
       field;

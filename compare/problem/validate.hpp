@@ -13,7 +13,7 @@ namespace ogc::compare {
 /// One thing that is wrong with a mesh or scene: where it stands ("face 18 (line 40)", "motion 'left', vertex 3 of body
 /// 'sheet'") and what to do.
 struct Problem {
-  std::string where, what, remedy;
+  std::string where, what, remedy;  ///< which element, what is wrong, what to do
 };
 
 /// Index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity, coordinate beyond 2²⁰ m, edge

@@ -13,10 +13,10 @@ inline constexpr double most_length = 0x1p20;    ///< [m] of an edge, and of a c
 
 /// What is checked, what its elements are called, and where problems go: at most `limit` of each sort, then a count.
 struct MeshCheck {
-  const Mesh& mesh;
-  const ElementNames& names;
-  std::size_t limit;
-  std::vector<Problem>& problems;
+  const Mesh& mesh;                ///< what is looked at
+  const ElementNames& names;       ///< what its elements are called
+  std::size_t limit;               ///< of each sort
+  std::vector<Problem>& problems;  ///< where they go
 };
 
 /// Whether all faces name existing, distinct vertices; lists those that do not.

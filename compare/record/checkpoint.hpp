@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::compare {
 
-inline constexpr std::int64_t checkpoint_format_version = 2;
+inline constexpr std::int64_t checkpoint_format_version = 2;  ///< a newer file is refused by name
 
 /// A state that was judged, where states are judged at all.
 struct Checkpoint {

@@ -7,7 +7,7 @@
 
 namespace ogc::compare {
 
-enum class ExportFormat { obj, ply, vtp };
+enum class ExportFormat { obj, ply, vtp };  ///< of a sequence of meshes
 
 /// "obj", "ply" or "vtp". Throws InputError that lists them.
 ExportFormat parse_export_format(std::string_view text);

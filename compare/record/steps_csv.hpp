@@ -10,13 +10,13 @@
 #include <variant>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::compare {
 
 /// One column: "name [unit]" in the header.
 struct StepColumn {
-  std::string_view name, unit;
+  std::string_view name, unit;  ///< of the heading: "wall_ms", "ms"
   std::variant<double StepMetrics::*, std::int64_t StepMetrics::*, std::uint32_t StepMetrics::*> field;
   std::string_view former_name{};  ///< in run format 1, where it is another one; read, never written
 };
@@ -34,8 +34,8 @@ std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_coun
 
 /// What steps.csv holds so far.
 struct StepTable {
-  std::vector<std::string> stage_names;
-  std::vector<StepMetrics> rows;
+  std::vector<std::string> stage_names;  ///< columns of `--profile`
+  std::vector<StepMetrics> rows;         ///< in the order of the steps
 };
 
 /// Reads steps.csv of a run up to the row of step `last`. A last line without its end (the run was killed) is left out.

@@ -10,7 +10,7 @@
 namespace ogc::compare {
 
 struct BoundIn {
-  const Topology* topology = nullptr;
+  const Topology* topology = nullptr;                               ///< of the mesh
   std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
   float bound_relaxation = 0.45f;                                   ///< γ_p
 };
@@ -21,7 +21,7 @@ struct BoundOut {
 
 /// Exact: the largest single-precision number that is not above the real product.
 struct BoundTruth {
-  BoundOut exact;
+  BoundOut exact;  ///< rounded down
 };
 
 /// One-sided. Largest shortfall in units of u · b: one product, rounded down (2 u), in a kernel that may round to

@@ -1,6 +1,6 @@
-// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths,
-// materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both sides then sweep with
-// the very same single-precision numbers.
+// Stage rest_state: what a simulation computes once of the rest shape: masses, membrane and hinge stencils, rest
+// lengths, materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both sides then
+// sweep with the very same single-precision numbers.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,17 @@ namespace ogc::compare {
 
 struct RestTriangle {
   Triangle corner{};  ///< in the order of the mesh
-  Index body = -1;
-  float area = 0;  ///< A [m²]
+  Index body = -1;    ///< whose material it has
+  float area = 0;     ///< A [m²]
   /// ∇N₁, ∇N₂ [1/m] in the frame whose first axis points from corner 0 to corner 1, corner 2 above it
   std::array<std::array<float, 2>, 2> gradient{};
 };
 
 struct RestHinge {
   std::array<Index, 4> vertex{};  ///< x0 < x1 of the edge, then Hinge::opposite
-  Index body = -1;
-  float rest_angle = 0;  ///< θ₀ [rad], as θ of compare/stages/bending.hpp
-  float stiffness = 0;   ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
+  Index body = -1;                ///< whose material it has
+  float rest_angle = 0;           ///< θ₀ [rad], as θ of compare/stages/bending.hpp
+  float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
   /// Of the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) =
   /// −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖, w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ of the sums K of
   /// cotangents.
@@ -31,21 +31,21 @@ struct RestHinge {
 
 /// Two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
 struct MeetingMaterial {
-  float stiffness = 0, friction = 0;
+  float stiffness = 0, friction = 0;  ///< k_c [N/m], μ_c
 };
 
 /// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no
 /// fixed body holds has a triangle. Topology: `build_topology(scene)`.
 struct RestStateIn {
-  const Scene* scene = nullptr;
-  const Topology* topology = nullptr;
+  const Scene* scene = nullptr;        ///< rounded
+  const Topology* topology = nullptr;  ///< of its mesh
 };
 
 /// Triangles and hinges in the order of the topology, without those of fixed bodies and of models `none`.
 struct RestStateOut {
-  std::vector<float> mass;  ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
-  std::vector<RestTriangle> triangles;
-  std::vector<RestHinge> hinges;
+  std::vector<float> mass;                 ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
+  std::vector<RestTriangle> triangles;     ///< in the order of the mesh
+  std::vector<RestHinge> hinges;           ///< in the order of the topology
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
 };

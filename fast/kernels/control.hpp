@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/kernels/atomic.hpp"
 #include "fast/kernels/qualifiers.hpp"
 #include "fast/kernels/vector.hpp"

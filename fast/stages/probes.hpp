@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/kernels/activation.hpp"
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/truncate.hpp"
@@ -170,7 +170,7 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   backend.for_each(static_cast<int>(n),
                    ProbeTruncate{memory.template in<Vec>(in.previous), memory.template in<Vec>(in.position),
                                  memory.template in<float>(in.bound), memory.template out<Vec>(out.position, n),
-                                 memory.template out<std::uint8_t>(out.exceeded, n)});
+                                 memory.template out<std::uint8_t>(out.cut, n)});
   memory.fetch();
   return out;
 }

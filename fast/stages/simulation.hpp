@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/trace.hpp"
 

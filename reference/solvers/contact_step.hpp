@@ -7,7 +7,7 @@
 //     the solver's iterations, with detect_here where detect_next_ says so ── finish
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/solvers/detection.hpp"
 
 namespace ogc::reference {

@@ -2,7 +2,7 @@
 // an iteration.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/solvers/detection.hpp"
 
 namespace ogc::reference {

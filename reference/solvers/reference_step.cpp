@@ -98,7 +98,7 @@ class ReferenceStep {
   /// Where v goes on its way to its target; counts a cut.
   Vec3f truncated(std::size_t v, Index& cut) const {
     const compare::TruncateTruth truth = truncate({{previous_[v]}, {out_.target[v]}, {bound_[v]}});
-    if (truth.exceeded[0] == 0) return out_.target[v];
+    if (truth.cut[0] == 0) return out_.target[v];
     ++cut;
     return stored_within(truth.position[0], previous_[v], bound_[v]);
   }

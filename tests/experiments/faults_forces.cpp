@@ -44,6 +44,12 @@ bool is_closed_by_rounding(const SpringCase& c) {
 
 }  // namespace
 
+void add_right_forces(Contestant& exact, const Authority& authority) {
+  exact.membrane = [authority](const MembraneIn& in) { return rounded(authority.membrane(in)); };
+  exact.bending = [authority](const BendingIn& in) { return rounded(authority.bending(in)); };
+  exact.spring = [authority](const SpringIn& in) { return rounded(authority.spring(in)); };
+}
+
 std::vector<Fault> force_faults() {
   return {
       asked_wrongly<MembraneIn>("membrane: damping forgotten", Stage::membrane, &Contestant::membrane,

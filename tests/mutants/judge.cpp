@@ -29,8 +29,8 @@
 #include <thread>
 #include <vector>
 
-#include "compare/judge/corpus.hpp"
-#include "compare/judge/judge.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/corpus.hpp"
 #include "reference/contestant.hpp"
 #include "tests/mutants/apart.hpp"
 #include "tests/mutants/contestant.hpp"

@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
+#include "compare/contestant.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/certificate.hpp"
 #include "compare/oracle/smallest_distances.hpp"
-#include "compare/problem/contestant.hpp"
 #include "compare/problem/element_names.hpp"
 
 namespace ogc::experiments {

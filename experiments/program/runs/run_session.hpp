@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/program/audits/auditor.hpp"
 #include "experiments/program/output.hpp"
