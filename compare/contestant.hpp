@@ -25,6 +25,7 @@
 #include "compare/stages/spring.hpp"
 #include "compare/stages/step.hpp"
 #include "compare/stages/sweep.hpp"
+#include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
@@ -79,8 +80,9 @@ struct StepMetrics {
   double query_radius = 0;                                ///< r_q of the step [m]
   double residual = 0;                                    ///< Eq. 29
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
-  double smallest_distance = 0;  ///< smallest d_min at the last detection (r_q where nothing is near) [m]
-  std::int64_t repeats = 0;      ///< times the step was repeated because a list grew
+  double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
+  std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step
+  std::int64_t repeats = 0;              ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
   /// what the solver ran into, by name, and how it went on; shown to the user, not in steps.csv
   std::vector<std::string> notes;
@@ -146,6 +148,7 @@ struct Contestant {
   std::function<ForceOut(const MembraneIn&)> membrane;
   std::function<ForceOut(const BendingIn&)> bending;
   std::function<ForceOut(const SpringIn&)> spring;
+  std::function<ForceOut(const TetrahedronIn&)> tetrahedron;
   std::function<ForceOut(const ContactForceIn&)> contact_force;
   std::function<ForceOut(const FrictionForceIn&)> friction_force;
   std::function<BlockOut(const BlockIn&)> block;
@@ -193,6 +196,7 @@ struct Authority {
   std::function<ForceTruth(const MembraneIn&)> membrane;
   std::function<ForceTruth(const BendingIn&)> bending;
   std::function<ForceTruth(const SpringIn&)> spring;
+  std::function<ForceTruth(const TetrahedronIn&)> tetrahedron;
   std::function<ForceTruth(const ContactForceIn&)> contact_force;
   std::function<ForceTruth(const FrictionForceIn&)> friction_force;
   std::function<BlockTruth(const BlockIn&)> block;

@@ -20,15 +20,10 @@ from pathlib import Path
 THRESHOLDS = {"compare": 0.95, "reference": 0.65, "fast": 0.45, "experiments": 0.65}
 HEADERS = (".hpp", ".cuh")
 
-TYPE = re.compile(
-    r"^(?:template\s*<.*>\s*)?(?:struct|class|union|enum\s+class|enum)\s+(?:\[\[.*?\]\]\s*)?"
-    r"(?:alignas\(.*?\)\s*)?(\w+)?[^()=]*$",
-    re.S,
-)
-IGNORED = re.compile(
-    r"^(?:(?:struct|class|enum class) \w+$|using|typedef|friend|static_assert|extern\s+template|public|private|"
-    r"protected|#|requires\b.*;$)"
-)
+TYPE = re.compile(r"^(?:template\s*<.*>\s*)?(?:struct|class|union|enum\s+class|enum)\s+(?:\[\[.*?\]\]\s*)?"
+                  r"(?:alignas\(.*?\)\s*)?(\w+)?[^()=]*$", re.S)
+IGNORED = re.compile(r"^(?:(?:struct|class|enum class) \w+$|using|typedef|friend|static_assert|extern\s+template|"
+                     r"public|private|protected|#|requires\b.*;$)")
 NAME = re.compile(r"(~?\w+|operator\S+)\s*\($")
 
 
@@ -42,10 +37,9 @@ class Declaration:
 
 def blanked(text):
     """The text with comments, strings and preprocessor lines as spaces, line by line as long as before."""
-    pattern = re.compile(
-        r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|^[ \t]*#[^\n]*(?:\\\n[^\n]*)*',
-        re.S | re.M,
-    )
+    pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|'
+                         r'^[ \t]*#[^\n]*(?:\\\n[^\n]*)*',
+                         re.S | re.M)
     return pattern.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
 
 
@@ -64,9 +58,8 @@ def name_of(text):
     """What a declaration at namespace or class scope introduces; None for what is not counted."""
     flat = " ".join(text.split())
     flat = re.sub(r"^template ?<.*?> (?=\w)", "", flat) if flat.startswith("template") else flat
-    flat = re.sub(
-        r"^requires [^{;]*?\) (?=\w)|^requires [\w:<>, ]+? (?=(?:void|auto|bool|inline|constexpr)\b)", "", flat
-    )
+    flat = re.sub(r"^requires [^{;]*?\) (?=\w)|^requires [\w:<>, ]+? (?=(?:void|auto|bool|inline|constexpr)\b)", "",
+                  flat)
     if not flat or IGNORED.match(flat) or " override" in flat or "operator" in flat:
         return None
     declared = re.split(r"(?<![=!<>])=(?!=)", re.sub(r"\[\[.*?\]\]", "", flat))[0]
@@ -126,22 +119,14 @@ class Header:
             if public and kind[1]:
                 self.add(start, at, owner, kind[1])
                 if "enum" not in head:
-                    self.scope(
-                        at + 1,
-                        end - 1,
-                        kind[1],
-                        not re.search(r"\bclass\b", re.sub(r"^template\s*<.*?>", "", head, flags=re.S)),
-                    )
+                    bare = re.sub(r"^template\s*<.*?>", "", head, flags=re.S)
+                    self.scope(at + 1, end - 1, kind[1], not re.search(r"\bclass\b", bare))
             after = re.compile(r"[^;]*;").match(self.text, end)
             end = after.end() if after else end
             return end, end
-        behind = self.text[end : end + 200].lstrip()
-        if (
-            "(" in head
-            and not behind.startswith((";", ","))
-            or "(" in head
-            and re.search(r"\)\s*(const|noexcept|->.*)?\s*$", head)
-        ):
+        behind = self.text[end:end + 200].lstrip()
+        if "(" in head and (not behind.startswith((";", ",")) or
+                            re.search(r"\)\s*(const|noexcept|->.*)?\s*$", head)):
             if public:
                 self.add(start, at, owner, behind=end)
             return end, end
@@ -176,11 +161,8 @@ def counts(files):
 
 def headers_of(source, room):
     names = subprocess.run(["git", "-C", source, "ls-files", room], capture_output=True, text=True, check=True).stdout
-    return {
-        name: (Path(source) / name).read_text(encoding="utf-8")
-        for name in names.split("\n")
-        if name.endswith(HEADERS) and (Path(source) / name).is_file()
-    }
+    return {name: (Path(source) / name).read_text(encoding="utf-8") for name in names.split("\n")
+            if name.endswith(HEADERS) and (Path(source) / name).is_file()}
 
 
 PLANTED = """
@@ -227,19 +209,8 @@ int local();
 
 }  // namespace a
 """
-EXPECTED = {
-    "Told": True,
-    "first": True,
-    "second": False,
-    "one": True,
-    "two": True,
-    "list": False,
-    "Untold": False,
-    "value": False,
-    "limit": True,
-    "function": True,
-    "generic": False,
-}
+EXPECTED = {"Told": True, "first": True, "second": False, "one": True, "two": True, "list": False, "Untold": False,
+            "value": False, "limit": True, "function": True, "generic": False}
 
 
 def self_test():
@@ -262,14 +233,12 @@ def main(arguments):
         for room, least in THRESHOLDS.items():
             documented, total = counts(headers_of(arguments[0], room))
             share = documented / max(total, 1)
-            print(
-                f"{room}: {documented} of {total} public declarations documented, {100 * share:.1f} %", file=sys.stderr
-            )
+            print(f"{room}: {documented} of {total} public declarations documented, {100 * share:.1f} %",
+                  file=sys.stderr)
             if share < least:
-                findings.append(
-                    f"{room}: {100 * share:.1f} % of the public declarations are documented, {100 * least:.0f} % "
-                    f"are asked for: tests/documented.py SOURCE_DIR --list {room}"
-                )
+                findings.append(f"{room}: {100 * share:.1f} % of the public declarations are documented, "
+                                f"{100 * least:.0f} % "
+                                f"are asked for: tests/documented.py SOURCE_DIR --list {room}")
     print("\n".join(findings))
     return 1 if findings else 0
 

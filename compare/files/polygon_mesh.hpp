@@ -18,7 +18,9 @@ struct PolygonMesh {
   std::vector<Index> corners;      ///< of all faces, one after the other, each in its own order
   std::vector<Index> face_ends{};  ///< by face: end of its corners
   std::vector<Edge> loose_edges;   ///< edges of no face
+  std::vector<Tetrahedron> tetrahedra{};
   MeshSource source;  ///< file, first number, lines; the numbers of vertices and faces are still the file's
+  std::vector<std::string> notes{};  ///< what the file has and the mesh has not
 
   std::size_t face_count() const { return face_ends.size(); }  ///< number of polygons
   std::span<const Index> face(std::size_t f) const {
@@ -40,7 +42,7 @@ struct MeshOptions {
 };
 
 /// A mesh, where its elements stand in the file, and a sentence for each thing that was taken otherwise than it stands
-/// there.
+/// there. Of tetrahedra the triangles are the boundary.
 struct LoadedMesh {
   Mesh mesh;                       ///< of triangles
   MeshSource source;               ///< where its elements come from

@@ -19,11 +19,13 @@ struct CompressedRows {
   }
 };
 
-/// What a mesh file gives: positions [m], triangles, and edges that belong to no triangle (yarn).
+/// What a mesh file gives: positions [m], triangles, edges that belong to no triangle (yarn), and tetrahedra. In a
+/// scene the boundary of the tetrahedra stands among the triangles (compare/problem/tetrahedra.hpp).
 struct Mesh {
   std::vector<Vec3> positions;      ///< by vertex [m]
   std::vector<Triangle> triangles;  ///< by numbers of vertices
   std::vector<Edge> loose_edges;    ///< edges of no triangle
+  std::vector<Tetrahedron> tetrahedra{};
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
@@ -52,6 +54,10 @@ struct Topology {
   std::vector<Index> boundary_edges;      ///< edges with exactly one triangle
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
+
+  /// Whether v belongs to an edge: only vertices inside solids do not. They take no part in detection, contact or
+  /// audit, and no bound holds them (method.md §2).
+  bool on_surface(Index v) const { return !vertex_edges[static_cast<std::size_t>(v)].empty(); }
 };
 
 /// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws

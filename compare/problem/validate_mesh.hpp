@@ -26,6 +26,14 @@ bool check_indices(const MeshCheck& check);
 /// nouns: "" or "rest ".
 void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind);
 
+/// Faces that more than two tetrahedra have, or two on one side, and tetrahedra that stand twice; indices are valid.
+void check_tetrahedra(const MeshCheck& check);
+
+/// Tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so little
+/// that their rest data are beyond the limits of compare/stages/tetrahedron.hpp. Positions are numbers of single
+/// precision, indices are valid.
+void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
+
 /// Whether all three coordinates are finite.
 bool is_finite(const Vec3& v);
 

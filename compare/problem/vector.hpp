@@ -24,6 +24,8 @@ using Index = std::int32_t;
 using Edge = std::array<Index, 2>;
 /// Vertex indices of a triangle, in the order of the mesh file.
 using Triangle = std::array<Index, 3>;
+/// Vertex indices of a tetrahedron; at rest det(x₁ − x₀, x₂ − x₀, x₃ − x₀) > 0.
+using Tetrahedron = std::array<Index, 4>;
 
 /// A face of the complex (method.md §2.1): a vertex, the interior of an edge, or the interior of a triangle.
 enum class FaceKind : std::uint8_t { vertex = 0, edge = 1, triangle = 2 };

@@ -13,8 +13,9 @@
 
 namespace ogc::compare {
 
-/// The newest frames that this program writes and reads. Format 1 has neither its number nor a checksum.
-inline constexpr std::int64_t frame_format_version = 2;
+/// The newest frames that this program writes and reads. Format 1 has neither its number nor a checksum; format 3
+/// reserves `orientations` [segments × 4] of rods, which readers leave alone.
+inline constexpr std::int64_t frame_format_version = 3;
 
 /// One stored state.
 struct Frame {

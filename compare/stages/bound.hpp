@@ -16,7 +16,9 @@ struct BoundIn {
 };
 
 struct BoundOut {
-  std::vector<float> bound;  ///< b_v [m], by vertex; never above γ_p · min(…)
+  /// b_v [m], by vertex; never above γ_p · min(…). Of a vertex inside a solid (Topology::on_surface), which nothing
+  /// bounds, the largest finite number.
+  std::vector<float> bound;
 };
 
 /// Exact: the largest single-precision number that is not above the real product.

@@ -29,30 +29,44 @@ struct RestHinge {
   std::array<float, 3> weight{};
 };
 
+/// A tetrahedron of a solid. What the elastic energy reads (`weight`, `inverse`) and what else reads F (`gradient`,
+/// `volume`) is rounded each by itself.
+struct RestTetrahedron {
+  Tetrahedron corner{};  ///< in the order of the mesh
+  Index body = -1;
+  float volume = 0;                                ///< V [m³]
+  float inverse = 0;                               ///< 1/(6V) [1/m³]
+  std::array<float, 6> weight{};                   ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
+  std::array<std::array<float, 3>, 3> gradient{};  ///< ∇N₁, ∇N₂, ∇N₃ [1/m]
+};
+
 /// Two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
 struct MeetingMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ_c
 };
 
 /// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no
-/// fixed body holds has a triangle. Topology: `build_topology(scene)`.
+/// fixed body holds has a triangle or a tetrahedron. Topology: `build_topology(scene)`.
 struct RestStateIn {
   const Scene* scene = nullptr;        ///< rounded
   const Topology* topology = nullptr;  ///< of its mesh
 };
 
-/// Triangles and hinges in the order of the topology, without those of fixed bodies and of models `none`.
+/// Triangles and hinges in the order of the topology, without those of fixed bodies, of solids and of models `none`;
+/// tetrahedra in the order of the mesh, without those of fixed bodies.
 struct RestStateOut {
-  std::vector<float> mass;                 ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
+  /// m_v [kg]: a third of ρ A of each triangle at v, on solids a quarter of ρ V of each tetrahedron; 0 on fixed bodies
+  std::vector<float> mass;
   std::vector<RestTriangle> triangles;     ///< in the order of the mesh
   std::vector<RestHinge> hinges;           ///< in the order of the topology
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
+  std::vector<RestTetrahedron> tetrahedra{};
 };
 
 /// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one
 /// vertex. `gradient` units are of ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its
-/// triangles; a meeting's is its value.
+/// triangles or tetrahedra; a meeting's is its value.
 struct RestStateTruth {
   RestStateOut exact;  ///< correctly rounded
   std::vector<double> mass, mass_scale;
@@ -64,6 +78,11 @@ struct RestStateTruth {
   std::vector<std::array<double, 3>> weight;
   std::vector<double> weight_scale;
   std::vector<double> meeting_stiffness, meeting_friction;
+  std::vector<double> volume, volume_scale, inverse, inverse_scale;
+  /// one unit for all weights of a tetrahedron, and one for all gradients
+  std::vector<std::array<double, 6>> tetrahedron_weight;
+  std::vector<std::array<std::array<double, 3>, 3>> tetrahedron_gradient;
+  std::vector<double> tetrahedron_weight_scale, tetrahedron_gradient_scale;
 };
 
 /// In units of u · scale. The one rounding to single precision: u of the value, and no scale is below its value but

@@ -16,16 +16,16 @@
 namespace ogc::compare {
 
 /// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's),
-/// contact and friction as in the stages of these names. Prescribed vertices (`is_prescribed`) go to y, truncated; all
-/// others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one;
-/// own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and
-/// rounded at most once.
+/// tetrahedra, contact and friction as in the stages of these names. Prescribed vertices (`is_prescribed`) go to y,
+/// truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else
+/// at its old one; own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given
+/// numbers and rounded at most once.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
   const Topology* topology = nullptr;  ///< of the scene's mesh
   const RestStateOut* rest = nullptr;  ///< of the scene
-  /// by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil or of a spring share
-  /// one
+  /// by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil, of a spring or of a
+  /// tetrahedron share one
   std::span<const Index> colour;
   std::span<const Vec3f> old, start, target, previous;  ///< x, xᵗ, y, X_prev [m]; contacts were found at X_prev
   std::span<const float> bound;                         ///< b_v [m]

@@ -8,6 +8,7 @@
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/membrane.hpp"
+#include "fast/kernels/tetrahedron.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -68,6 +69,22 @@ struct BeginHinge {
     const int* v = hinges[i].vertex;
     const Vec base = start[v[0]];
     angle_start[i] = hinge_shape(start[v[1]] - base, start[v[2]] - base, start[v[3]] - base).angle;
+  }
+};
+
+/// for_each over tetrahedra: Gᵗ, for the damping.
+struct BeginTetrahedron {
+  const TetrahedronRest* tetrahedra;
+  const Vec* start;
+  SolidStrain* strain_start;
+
+  OGC_HD void operator()(int t) const {
+    const TetrahedronRest& rest = tetrahedra[t];
+    TetrahedronGradients gradients;
+    for (int k = 0; k < 3; ++k) gradients.other[k] = {rest.gradient[k][0], rest.gradient[k][1], rest.gradient[k][2]};
+    const Vec own = start[rest.corner[0]];
+    strain_start[t] = solid_strain(solid_deformation(gradients, start[rest.corner[1]] - own,
+                                                     start[rest.corner[2]] - own, start[rest.corner[3]] - own));
   }
 };
 

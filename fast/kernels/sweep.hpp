@@ -65,6 +65,10 @@ struct SpringIncidence;
 struct SpringRow;
 struct IsometricStencil;
 struct SurfaceModels;
+struct TetrahedronIncidence;
+struct TetrahedronRow;
+struct TetrahedronGradients;
+struct SolidMaterial;
 
 /// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
@@ -97,6 +101,12 @@ struct SweepView {
   const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
   const SpringIncidence* springs = nullptr;
   ContactActivation activation = ContactActivation::ogc;
+  // Read where there are tetrahedra (sweep_solids.hpp).
+  const TetrahedronRow* tetrahedron_rows = nullptr;  ///< by slot
+  const TetrahedronIncidence* tetrahedra = nullptr;
+  const TetrahedronGradients* gradients = nullptr;  ///< beside `tetrahedra`; null where no body damps
+  const SolidMaterial* solids = nullptr;            ///< by body
+  const Symmetric3* solid_start = nullptr;          ///< Gᵗ by tetrahedron
 
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
   /// The same for the team of a vertex that has been read: on a device whose turn it is comes beside it, and nobody

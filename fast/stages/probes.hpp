@@ -201,6 +201,7 @@ compare::Contestant probe_contestant(
   contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
   contestant.spring = [backend](const compare::SpringIn& in) { return probe_spring(*backend, in); };
+  contestant.tetrahedron = [backend](const compare::TetrahedronIn& in) { return probe_tetrahedron(*backend, in); };
   contestant.contact_force = [backend](const compare::ContactForceIn& in) { return probe_contact_force(*backend, in); };
   contestant.friction_force = [backend](const compare::FrictionForceIn& in) {
     return probe_friction_force(*backend, in);

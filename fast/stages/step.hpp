@@ -49,7 +49,7 @@ inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, in
   return 4 * redetections < steps * iterations ? 5 : 1;
 }
 
-/// `moving`: K, the number of free and prescribed vertices.
+/// `moving`: K, as compare::bounded_count.
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
   StepSettings to{};
@@ -80,7 +80,8 @@ struct StepState {
   using Buffer = typename Backend::template Buffer<T>;
 
   int vertex_count = 0, triangle_count = 0, hinge_count = 0, spring_count = 0, prescribed_count = 0;
-  bool damped = false;
+  int tetrahedron_count = 0;
+  bool damped = false, solids_damped = false;
   Buffer<Vec> start, velocity, target, previous, position;
   Buffer<Place> start_places, places;
   Buffer<float> mass;
@@ -90,7 +91,9 @@ struct StepState {
   Buffer<HingeRest> hinges;
   Buffer<HingeWeights> weights;
   Buffer<SpringRest> springs;
+  Buffer<TetrahedronRest> tetrahedra;
   Buffer<Symmetric2> strain_start;
+  Buffer<SolidStrain> solid_start;
   Buffer<float> angle_start;
   Buffer<StepControl> control;
   Buffer<StepRow> rows;
@@ -159,6 +162,9 @@ class Step {
       backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
       backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
     }
+    if (s.solids_damped)
+      backend_.for_each(s.tetrahedron_count,
+                        BeginTetrahedron{s.tetrahedra.data(), s.start.data(), s.solid_start.data()});
   }
 
   /// Bounds that end here are certified, then X_prev ← x and everything is found anew, the stream of contacts included.
@@ -249,6 +255,7 @@ class Step {
     sweep_.complete(view);
     view.strain_start = s.strain_start.data();
     view.angle_start = s.angle_start.data();
+    view.solid_start = s.solid_start.data();
     view.start = {s.start_places.data()};
     view.target = s.target.data();
     view.previous = s.previous.data();
@@ -274,7 +281,7 @@ class Step {
     if (settings_.energies)
       reduction_.sum(s.sums_end.data(), vertices(energies()));
     else
-      reduction_.sum(s.sums_end.data(), vertices());
+      reduction_.sum(s.sums_end.data(), vertices(tetrahedra()));
     backend_.for_each(s.vertex_count,
                       CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
     backend_.for_each(1,
@@ -292,6 +299,12 @@ class Step {
                  rest);
   }
 
+  template <class Rest = NoItems>
+  auto tetrahedra(const Rest& rest = {}) {
+    const StepState<Backend>& s = state_;
+    return items(s.tetrahedron_count, TetrahedronTerm{s.tetrahedra.data(), sweep_.solids(), s.position.data()}, rest);
+  }
+
   auto energies() {
     const StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
@@ -302,7 +315,7 @@ class Step {
     const auto contacts = items(view.vertex_facet_count,
                                 VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius},
                                 edge_edge);
-    const auto springs = items(s.spring_count, SpringTerm{s.springs.data(), position}, contacts);
+    const auto springs = items(s.spring_count, SpringTerm{s.springs.data(), position}, tetrahedra(contacts));
     const auto hinges = items(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position},
                               springs);
     return items(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position},

@@ -33,6 +33,7 @@ ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& t
       exclusions_(exclusions(scene)),
       potential_(scene, topology),
       stage_ms_(stages, 0) {
+  bounded_ = static_cast<std::size_t>(compare::bounded_count(topology, exclusions_.groups));
   for (std::size_t v = 0; v < exclusions_.groups.size(); ++v)
     if (potential_.mobility()[v] != Mobility::fixed) movable_.push_back(v);
 }
@@ -73,7 +74,7 @@ void ContactStep::detect_here() {
 }
 
 bool ContactStep::many(std::size_t cut) const {
-  return cut > 0 && static_cast<double>(cut) >= settings_.redetect_fraction * static_cast<double>(movable_.size());
+  return cut > 0 && static_cast<double>(cut) >= settings_.redetect_fraction * static_cast<double>(bounded_);
 }
 
 bool ContactStep::detection_due(std::size_t cut) const {
@@ -154,7 +155,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.vertex_facet_contacts = static_cast<std::int64_t>(detected_.sets.vertex_facet.size());
   metrics_.edge_edge_contacts = static_cast<std::int64_t>(detected_.sets.edge_edge.size());
   metrics_.vertices_cut = static_cast<std::int64_t>(cut_);
-  metrics_.share_cut = movable_.empty() ? 0 : static_cast<double>(cut_) / static_cast<double>(movable_.size());
+  metrics_.share_cut = bounded_ == 0 ? 0 : static_cast<double>(cut_) / static_cast<double>(bounded_);
   metrics_.query_radius = double{query_radius_};
   metrics_.residual = residual_;
   metrics_.smallest_distance = detected_.smallest_distance;

@@ -85,7 +85,8 @@ class ContactStep {
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   Potential potential_;
-  std::vector<std::size_t> movable_;  ///< free and prescribed vertices: K of them
+  std::vector<std::size_t> movable_;  ///< free and prescribed vertices
+  std::size_t bounded_ = 0;           ///< K, those of them that have a bound
 
   State start_, target_, x_;
   Detected detected_;

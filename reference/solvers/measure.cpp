@@ -59,6 +59,7 @@ double largest_lag(const State& x, const State& target, const std::vector<Mobili
 
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted) {
+  metrics.inverted_tetrahedra = potential.inverted_tetrahedra(states.x);
   if (!wanted) {
     metrics.kinetic_energy = metrics.elastic_energy = metrics.contact_energy = metrics.gravity_energy =
         std::numeric_limits<double>::quiet_NaN();

@@ -38,8 +38,7 @@ class ReferenceStep {
     out_.colour = colours_of(*in_.scene, out_.rest, exclusions_.groups);
     set_targets();
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
-    StepOrder order(settings_, static_cast<Index>(std::count_if(exclusions_.groups.begin(), exclusions_.groups.end(),
-                                                                [](Index group) { return group != 0; })));
+    StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups));
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;

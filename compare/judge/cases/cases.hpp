@@ -15,6 +15,7 @@
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
+#include "compare/stages/tetrahedron.hpp"
 
 namespace ogc::compare {
 

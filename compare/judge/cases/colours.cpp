@@ -6,7 +6,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Vertices that share a stencil with each, as the topology and the springs tell.
+/// Vertices that share a stencil with each, as the topology, the tetrahedra and the springs tell.
 std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topology) {
   std::vector<std::set<Index>> near(static_cast<std::size_t>(topology.vertex_count));
   const auto join = [&](Index a, Index b) {
@@ -15,6 +15,9 @@ std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topol
   };
   for (const Edge& e : topology.edges) join(e[0], e[1]);
   for (const Hinge& hinge : topology.hinges) join(hinge.opposite[0], hinge.opposite[1]);
+  for (const Tetrahedron& t : scene.mesh.tetrahedra)
+    for (std::size_t k = 1; k < 4; ++k)
+      for (std::size_t l = 0; l < k; ++l) join(t[k], t[l]);
   for (const Spring& spring : scene.springs) {
     join(spring.first, spring.second);
     if (spring.third < 0) continue;

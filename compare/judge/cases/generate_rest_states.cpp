@@ -11,6 +11,7 @@
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/rest_cases.hpp"
+#include "compare/judge/cases/solid_block.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/validate.hpp"
 #include "compare/problem/validate_mesh.hpp"
@@ -94,6 +95,7 @@ Material material_of(Random& random) {
   material.bending_stiffness = random.one_in(4) ? 0 : random.magnitude(-9, 3);
   material.contact_stiffness = random.one_in(4) ? 100 : random.magnitude(-2, 8);
   material.friction = random.one_in(4) ? 0 : random.magnitude(-3, 1);
+  material.solid_density = random.one_in(4) ? double{random.pattern()} : random.magnitude(1, 4);
   return material;
 }
 
@@ -206,6 +208,23 @@ CaseData needle(Random& random) {
   });
 }
 
+/// A block of tetrahedra whose vertices are moved a little, `height` times as high, beside a sheet.
+CaseData block_beside_sheet(Random& random, double height) {
+  Scene scene;
+  Body body;
+  body.name = "solid";
+  body.material = material_of(random);
+  append_body(scene, body, jittered_block(random, random.magnitude(-2, 0), height));
+  if (random.one_in(3)) hold(random, scene, scene.bodies.back());
+  add_body(random, scene, case_of<MeshCase>(find_generator(Stage::detect_vertex_facet, cloth).make(random)));
+  return finished(std::move(scene));
+}
+
+CaseData solid(Random& random) { return block_beside_sheet(random, random.between(0.3, 3)); }
+
+/// Tetrahedra without thickness, nearly.
+CaseData sliver(Random& random) { return block_beside_sheet(random, std::pow(10.0, -random.below(6))); }
+
 /// Equal, extreme and zero stiffnesses and frictions of five small bodies.
 CaseData meetings(Random& random) {
   constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40},
@@ -232,7 +251,7 @@ CaseData isometric(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 16> table{{{soup, 15, true, of<soup>},
+constexpr std::array<Generator, 18> table{{{soup, 15, true, of<soup>},
                                            {cloth, 20, true, of<cloth>},
                                            {any_bits, 8, false, bits},
                                            {lattice, 12, false, of<lattice>},
@@ -247,7 +266,9 @@ constexpr std::array<Generator, 16> table{{{soup, 15, true, of<soup>},
                                            {"ladder.meetings", 3, false, meetings},
                                            {"isometric", 10, true, isometric<of<cloth>>},
                                            {"ladder.isometric_flat", 3, false, isometric<flat>},
-                                           {"ladder.isometric_needle", 6, false, isometric<needle>}}};
+                                           {"ladder.isometric_needle", 6, false, isometric<needle>},
+                                           {"solid", 10, true, solid},
+                                           {"ladder.sliver", 6, false, sliver}}};
 
 }  // namespace
 
@@ -264,7 +285,7 @@ std::string problems_of(const RestStateCase& c) {
     for (const Index v : motion.vertices) held[at(v)] = true;
   for (const Body& body : scene.bodies)
     for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v)
-      if (!body.fixed && !held[at(v)] && c.topology->vertex_triangles[at(v)].empty())
+      if (!body.fixed && !body.is_solid() && !held[at(v)] && c.topology->vertex_triangles[at(v)].empty())
         return "vertex " + std::to_string(v) + " moves and has no triangle";
   return {};
 }

@@ -12,6 +12,7 @@
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/placement.hpp"
+#include "compare/judge/cases/solid_block.hpp"
 
 namespace ogc::compare {
 
@@ -377,6 +378,39 @@ CaseData bits(Random& random) {
   return test;
 }
 
+/// A block of tetrahedra near rest, sheared or turned inside out, over a sheet, with damping in half of the cases.
+CaseData solid(Random& random) {
+  SweepCase test = case_of<SweepCase>(sheets(random));
+  Scene scene = *test.scene;
+  Body body;
+  body.name = "solid";
+  body.material.solid_density = random.magnitude(2, 4);
+  body.material.solid_mu = random.magnitude(3, 6);
+  body.material.solid_lambda = random.magnitude(3, 6);
+  if (random.one_in(2)) body.material.solid_damping = random.magnitude(-5, -2);
+  body.material.contact_stiffness = scene.bodies.front().material.contact_stiffness;
+  const double size = 0.02, moved = size * (random.one_in(3) ? random.magnitude(-5, -2) : random.between(0.1, 1));
+  const Mesh block = jittered_block(random, size, 1);
+  append_body(scene, body, block);
+  if (random.one_in(4)) scene.settings.damping = DampingForm::per_vertex;
+  round_to_single(scene);
+  const std::size_t first = scene.mesh.positions.size() - block.positions.size();
+  for (std::size_t v = first; v < scene.mesh.positions.size(); ++v) {
+    const Vec3 x = placement::sum(scene.mesh.positions[v], placement::scaled(in_box(random, -1, 1), moved));
+    const auto near = [&](double by) {
+      return placement::single(placement::sum(x, placement::scaled(in_box(random, -1, 1), by * size)));
+    };
+    test.previous.push_back(near(0));
+    test.start.push_back(near(1e-3));
+    test.old.push_back(near(1e-3));
+    test.target.push_back(near(1e-2));
+    test.largest_bound.push_back(1);
+  }
+  test.colour = random_colours(random, scene, build_topology(scene));
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
 /// Other models than the default ones, with the colours that their springs ask for.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
@@ -388,7 +422,7 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 21> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 22> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -405,6 +439,7 @@ constexpr std::array<Generator, 21> table{{{"sheets", 16, true, sheets},
                                            {"ladder.strands", 4, false, strands},
                                            {"ladder.collapse", 5, false, collapse},
                                            {"ladder.bound", 6, false, at_bound},
+                                           {"solid", 8, false, solid},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},

@@ -23,7 +23,7 @@ struct Generator {
 };
 
 /// The generators of a stage, without those that take real states: `states` as they are, `mutated`
-/// (compare/judge/mutate.hpp).
+/// (compare/judge/cases/mutate.hpp).
 std::span<const Generator> generators(Stage stage);
 
 /// The row of a generator, `states` and `mutated` included. Throws InputError that lists the known names.

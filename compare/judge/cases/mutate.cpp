@@ -10,7 +10,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Within what is legal (compare/judge/legal.hpp).
+/// Within what is legal (compare/judge/cases/legal.hpp).
 float legal(double x) { return std::clamp(static_cast<float>(x), -most_coordinate, most_coordinate); }
 
 Vec3f point(double x, double y, double z) { return {legal(x), legal(y), legal(z)}; }

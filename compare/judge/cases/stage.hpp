@@ -25,6 +25,7 @@ enum class Stage : std::uint8_t {
   membrane,
   bending,
   spring,
+  tetrahedron,
   sweep,
   truncate,
   step
@@ -36,7 +37,8 @@ struct StageTraits;
 namespace stages {
 /// Each defined in compare/judge/stages, in the file of its name.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
-    initial_guess, activation, contact_force, friction_force, membrane, bending, spring, sweep, truncate, step;
+    initial_guess, activation, contact_force, friction_force, membrane, bending, spring, tetrahedron, sweep, truncate,
+    step;
 }  // namespace stages
 
 /// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
@@ -57,6 +59,7 @@ constexpr const StageTraits* find_traits(Stage stage) {
     case Stage::membrane: return &stages::membrane;
     case Stage::bending: return &stages::bending;
     case Stage::spring: return &stages::spring;
+    case Stage::tetrahedron: return &stages::tetrahedron;
     case Stage::sweep: return &stages::sweep;
     case Stage::truncate: return &stages::truncate;
     case Stage::step: return &stages::step;

@@ -65,6 +65,7 @@ class States {
   MembraneCase triangle(std::size_t frame, Random& random) const;
   BendingCase hinge(std::size_t frame, Random& random) const;
   SpringCase spring(std::size_t frame, Random& random) const;
+  TetrahedronCase tetrahedron(std::size_t frame, Random& random) const;
 
  private:
   /// Vertices sorted by cell of a grid of about one edge length, to find neighbours.

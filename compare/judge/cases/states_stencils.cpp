@@ -85,4 +85,24 @@ SpringCase States::spring(std::size_t frame, Random& random) const {
   return c;
 }
 
+TetrahedronCase States::tetrahedron(std::size_t frame, Random& random) const {
+  const State& state = states_[frame];
+  const RestTetrahedron& rest = any(random, rest_.tetrahedra);
+  const Material& material = scene_->bodies[static_cast<std::size_t>(rest.body)].material;
+  TetrahedronCase c;
+  for (std::size_t k = 0; k < 4; ++k) {  // as corner 0 sees them
+    c.corner[k] = moved(state, rest.corner[k]);
+    c.start[k] = state.positions[static_cast<std::size_t>(rest.corner[k])];
+  }
+  c.weight = {rest.weight[0], rest.weight[1], rest.weight[2]};
+  c.inverse = rest.inverse;
+  c.gradient = rest.gradient;
+  c.volume = rest.volume;
+  c.lame_lambda = single(material.solid_lambda);
+  c.lame_mu = single(material.solid_mu);
+  c.damping = single(material.solid_damping / scene_->settings.time_step);
+  c.damping_form = scene_->settings.damping;
+  return c;
+}
+
 }  // namespace ogc::compare

@@ -59,6 +59,24 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
+/// The members of a tetrahedron.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, TetrahedronCase>
+void visit_members(Case& c, Visit visit) {
+  visit("corner", "m", c.corner);
+  visit("start", "m", c.start);
+  visit("weight", "m", c.weight);
+  visit("inverse", "1/m³", c.inverse);
+  visit("gradient_1", "1/m", c.gradient[0]);
+  visit("gradient_2", "1/m", c.gradient[1]);
+  visit("gradient_3", "1/m", c.gradient[2]);
+  visit("volume", "m³", c.volume);
+  visit("lame_lambda", "Pa", c.lame_lambda);
+  visit("lame_mu", "Pa", c.lame_mu);
+  visit("damping", "1", c.damping);
+  visit("damping_form", "", c.damping_form);
+}
+
 /// The members of a contact.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, ContactForceCase>

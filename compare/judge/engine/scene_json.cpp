@@ -43,6 +43,7 @@ Json body_to_json(const Body& body) {
   return {{"name", body.name},
           {"vertices", {body.first_vertex, body.vertex_count}},
           {"triangles", {body.first_triangle, body.triangle_count}},
+          {"tetrahedra", {body.first_tetrahedron, body.tetrahedron_count}},
           {"fixed", body.fixed},
           {"material", material}};
 }
@@ -58,8 +59,13 @@ Body to_body(const Json& json) {
   const Json& material = json.at("material");
   body.material.membrane = to_model<MembraneModel>(material.at("membrane"), membrane_model_names());
   body.material.bending = to_model<BendingModel>(material.at("bending"), bending_model_names());
+  if (json.contains("tetrahedra")) {
+    body.first_tetrahedron = json.at("tetrahedra").at(0).get<Index>();
+    body.tetrahedron_count = json.at("tetrahedra").at(1).get<Index>();
+  }
+  // A case that is older than a constant has its default.
   for (const MaterialInfo& info : material_table())
-    body.material.*info.field = material.at(std::string(info.name)).get<double>();
+    body.material.*info.field = material.value(std::string(info.name), body.material.*info.field);
   return body;
 }
 
@@ -130,6 +136,7 @@ Json scene_to_json(const Scene& scene) {
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_to_json(motion));
   for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
   if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = scene.excluded_pairs;
+  if (!scene.mesh.tetrahedra.empty()) json["tetrahedra"] = scene.mesh.tetrahedra;
   for (const SettingInfo& info : setting_table())
     json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
   return json;
@@ -140,6 +147,7 @@ Scene to_scene(const Json& json) {
   scene.name = json.at("name").get<std::string>();
   scene.mesh = {to_vectors(json.at("positions")), json.at("triangles").get<std::vector<Triangle>>(),
                 json.at("loose_edges").get<std::vector<Edge>>()};
+  if (json.contains("tetrahedra")) scene.mesh.tetrahedra = json.at("tetrahedra").get<std::vector<Tetrahedron>>();
   scene.rest_positions = to_vectors(json.at("rest_positions"));
   scene.velocities = to_vectors(json.at("velocities"));
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));

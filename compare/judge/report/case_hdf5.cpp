@@ -16,7 +16,7 @@ enum class Leaf { none, single, real, integer };
 
 constexpr std::array<std::string_view, 4> leaf_names{"", "float", "double", "integer"};
 
-/// Hexadecimal text is a number of single precision (compare/judge/numbers_json.hpp).
+/// Hexadecimal text is a number of single precision (compare/judge/engine/numbers_json.hpp).
 bool is_hexadecimal(const std::string& text) { return text.starts_with("0x") || text.starts_with("-0x"); }
 
 Leaf leaf_of(const Json& json) {

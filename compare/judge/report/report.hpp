@@ -1,4 +1,4 @@
-// Reports: one JSON object a stage, and a table for people (as a page: compare/judge/page.hpp).
+// Reports: one JSON object a stage, and a table for people (as a page: compare/judge/report/page.hpp).
 #pragma once
 
 #include <array>

@@ -25,7 +25,8 @@ enum Metric : std::size_t {
   of_rest_angle,
   of_stiffness,
   of_weight,
-  of_meeting
+  of_meeting,
+  of_tetrahedron
 };
 
 /// Whether θ₀ cannot be told from its turn by 2π.
@@ -47,6 +48,7 @@ class RestVerdict {
       one(of_edge_length_squared, "edge", e, out_.edge_length_squared[e], truth_.edge_length_squared[e],
           truth_.edge_length_squared_scale[e]);
     for (std::size_t i = 0; i < out_.hinges.size(); ++i) judge_hinge(i);
+    for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) judge_tetrahedron(t);
     for (std::size_t i = 0; i < out_.meetings.size(); ++i) {
       one(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i],
           truth_.meeting_stiffness[i]);
@@ -77,6 +79,7 @@ class RestVerdict {
     return has_length("mass", out_.mass.size(), exact_.mass.size()) &&
            has_length("triangles", out_.triangles.size(), exact_.triangles.size()) &&
            has_length("hinges", out_.hinges.size(), exact_.hinges.size()) &&
+           has_length("tetrahedra", out_.tetrahedra.size(), exact_.tetrahedra.size()) &&
            has_length("edge_length_squared", out_.edge_length_squared.size(), exact_.edge_length_squared.size()) &&
            has_length("meetings", out_.meetings.size(), exact_.meetings.size());
   }
@@ -89,6 +92,10 @@ class RestVerdict {
     for (std::size_t i = 0; i < out_.hinges.size(); ++i) {
       const RestHinge &a = out_.hinges[i], &b = exact_.hinges[i];
       if (a.vertex != b.vertex || a.body != b.body) return wrong_name("hinge", i);
+    }
+    for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) {
+      const RestTetrahedron &a = out_.tetrahedra[t], &b = exact_.tetrahedra[t];
+      if (a.corner != b.corner || a.body != b.body) return wrong_name("tetrahedron", t);
     }
     return true;
   }
@@ -123,6 +130,19 @@ class RestVerdict {
     error(of_weight, "weights of hinge", i,
           std::hypot(weight[0] - right[0], weight[1] - right[1], weight[2] - right[2]), truth_.weight_scale[i],
           std::hypot(weight[0], weight[1], weight[2]), std::hypot(right[0], right[1], right[2]));
+  }
+
+  void judge_tetrahedron(std::size_t t) {
+    const RestTetrahedron& rest = out_.tetrahedra[t];
+    one(of_tetrahedron, "volume of tetrahedron", t, rest.volume, truth_.volume[t], truth_.volume_scale[t]);
+    one(of_tetrahedron, "inverse of tetrahedron", t, rest.inverse, truth_.inverse[t], truth_.inverse_scale[t]);
+    for (std::size_t k = 0; k < 6; ++k)
+      one(of_tetrahedron, "a weight of tetrahedron", t, rest.weight[k], truth_.tetrahedron_weight[t][k],
+          truth_.tetrahedron_weight_scale[t]);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        one(of_tetrahedron, "a gradient of tetrahedron", t, rest.gradient[k][axis],
+            truth_.tetrahedron_gradient[t][k][axis], truth_.tetrahedron_gradient_scale[t]);
   }
 
   const RestStateTruth& truth_;
@@ -207,6 +227,7 @@ Json body_to_json(const Body& body) {
   Json json{{"name", body.name},
             {"vertices", body.vertex_count},
             {"triangles", body.triangle_count},
+            {"tetrahedra", body.tetrahedron_count},
             {"fixed", body.fixed},
             {"membrane", name_of(body.material.membrane)},
             {"bending", name_of(body.material.bending)}};
@@ -222,13 +243,17 @@ Body to_body(const Json& json, const Scene& scene) {
   if (!scene.bodies.empty()) {
     body.first_vertex = scene.bodies.back().first_vertex + scene.bodies.back().vertex_count;
     body.first_triangle = scene.bodies.back().first_triangle + scene.bodies.back().triangle_count;
+    body.first_tetrahedron = scene.bodies.back().first_tetrahedron + scene.bodies.back().tetrahedron_count;
   }
   body.vertex_count = json.at("vertices").get<Index>();
   body.triangle_count = json.at("triangles").get<Index>();
+  body.tetrahedron_count = json.value("tetrahedra", Index{0});
   body.fixed = json.at("fixed").get<bool>();
   body.material.membrane = static_cast<MembraneModel>(number_of(json.at("membrane"), membrane_model_names()));
   body.material.bending = static_cast<BendingModel>(number_of(json.at("bending"), bending_model_names()));
-  for (const MaterialInfo& info : material_table()) body.material.*info.field = number(json.at(std::string(info.name)));
+  // A case that is older than a constant has its default.
+  for (const MaterialInfo& info : material_table())
+    if (json.contains(info.name)) body.material.*info.field = number(json.at(std::string(info.name)));
   return body;
 }
 
@@ -251,7 +276,8 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
                                       MetricInfo{"rest_angle", "u cond", rest_state_angle_tolerance},
                                       MetricInfo{"stiffness", "u cond", rest_state_tolerance},
                                       MetricInfo{"weight", "u cond", rest_state_tolerance},
-                                      MetricInfo{"meeting", "u value", rest_state_tolerance}};
+                                      MetricInfo{"meeting", "u value", rest_state_tolerance},
+                                      MetricInfo{"tetrahedron", "u cond", rest_state_tolerance}};
 
   static std::span<const Generator> generators() { return rest_state_generators(); }
 
@@ -288,6 +314,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
             {"positions", wide_points_to_json(scene.mesh.positions)},
             {"triangles", scene.mesh.triangles},
             {"loose_edges", scene.mesh.loose_edges},
+            {"tetrahedra", scene.mesh.tetrahedra},
             {"bodies", bodies},
             {"motions", held}};
   }
@@ -298,6 +325,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     scene.mesh.positions = to_wide_points(data.at("positions"));
     scene.mesh.triangles = data.at("triangles").get<std::vector<Triangle>>();
     scene.mesh.loose_edges = data.at("loose_edges").get<std::vector<Edge>>();
+    if (data.contains("tetrahedra")) scene.mesh.tetrahedra = data.at("tetrahedra").get<std::vector<Tetrahedron>>();
     scene.velocities.resize(scene.mesh.positions.size());
     for (const Json& body : data.at("bodies")) scene.bodies.push_back(to_body(body, scene));
     for (const Json& json : data.at("motions")) {
@@ -333,12 +361,17 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     for (const RestTriangle& t : out.triangles)
       gradients.push_back({t.gradient[0][0], t.gradient[0][1], t.gradient[1][0], t.gradient[1][1]});
     for (const RestHinge& h : out.hinges) weights.push_back(h.weight);
+    std::vector<std::array<float, 6>> tetrahedron_weights;
+    for (const RestTetrahedron& t : out.tetrahedra) tetrahedron_weights.push_back(t.weight);
     return {compare::numbers("mass", "kg", out.mass),
             each("area", "m²", out.triangles, [](const RestTriangle& t) { return t.area; }),
             rows("gradient", "1/m", gradients),
             each("rest_angle", "rad", out.hinges, [](const RestHinge& h) { return h.rest_angle; }),
             each("hinge_stiffness", "J", out.hinges, [](const RestHinge& h) { return h.stiffness; }),
             rows("weight", "1/m", weights),
+            each("volume", "m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.volume; }),
+            each("inverse", "1/m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.inverse; }),
+            rows("tetrahedron_weight", "m", tetrahedron_weights),
             compare::numbers("edge_length_squared", "m²", out.edge_length_squared),
             each("meeting_stiffness", "N/m", out.meetings, [](const MeetingMaterial& m) { return m.stiffness; }),
             each("meeting_friction", "1", out.meetings, [](const MeetingMaterial& m) { return m.friction; })};

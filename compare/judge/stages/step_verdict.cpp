@@ -90,6 +90,7 @@ class StepVerdict {
     if (!right()) return;
     for (const RestTriangle& t : out_.rest.triangles) apart(t.corner);
     for (const RestHinge& h : out_.rest.hinges) apart(h.vertex);
+    for (const RestTetrahedron& t : out_.rest.tetrahedra) apart(t.corner);
   }
 
   void judge_targets() {

@@ -36,7 +36,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
 /// Every vertex decides whether it is cut, and for each of its stencils on which side of that stencil's jumps it lies.
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
-  std::uint64_t count = in.old.size() + 3 * in.rest->triangles.size() + 4 * in.rest->hinges.size();
+  std::uint64_t count = in.old.size() + 3 * in.rest->triangles.size() + 4 * in.rest->hinges.size() +
+                        4 * in.rest->tetrahedra.size();
   for (const VertexFacetContact& c : in.vertex_facet) count += 1 + corners[static_cast<std::size_t>(c.face.kind)];
   for (const EdgeEdgeContact& c : in.edge_edge)
     count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
@@ -133,6 +134,7 @@ std::vector<WrongForm> sweep_forms() {
       sweep_asked("friction_missing", "no friction", meetings([](MeetingMaterial& m) { m.friction = 0; })),
       sweep_asked("membranes_missing", "no membrane acts", [](Read& read) { read.rest.triangles.clear(); }),
       sweep_asked("bending_missing", "no hinge acts", [](Read& read) { read.rest.hinges.clear(); }),
+      sweep_asked("tetrahedra_missing", "no tetrahedron acts", [](Read& read) { read.rest.tetrahedra.clear(); }),
       sweep_asked("springs_missing", "no spring acts", [](Read& read) { read.scene.springs.clear(); }),
       sweep_asked("mollifier_missing", "e_k is 1: nearly parallel edges act in full",
                   [](Read& read) { read.rest.edge_length_squared.assign(read.rest.edge_length_squared.size(), -1); }),

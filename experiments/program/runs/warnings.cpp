@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/program/output.hpp"
+#include "experiments/program/runs/thin_solids.hpp"
 
 namespace ogc::experiments {
 
@@ -60,7 +61,7 @@ std::string radius_warning(const compare::Scene& scene) {
 
 Warnings::Warnings(const compare::Scene& scene)
     : radius_(scene.settings.contact_radius), guess_rounds_(scene.settings.guess_rounds) {
-  for (std::string text : {box_warning(scene), radius_warning(scene)})
+  for (std::string text : {box_warning(scene), radius_warning(scene), thin_solid_warning(scene)})
     if (!text.empty()) of_scene_.push_back(std::move(text));
 }
 

@@ -8,6 +8,7 @@
 #include "compare/files/scene_files.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "experiments/scenes/shapes.hpp"
+#include "experiments/scenes/solid_box.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"
 
@@ -136,4 +137,19 @@ TEST_CASE("no built-in scene begins with a warning", "[unit]") {
       INFO(info.name);
       CHECK(Warnings(make_scene(std::string(info.name), scale)).list() == std::vector<std::string>{});
     }
+}
+
+TEST_CASE("a solid that is thinner than r at rest is reported with its pairs and its thickness, and not refused",
+          "[unit]") {
+  compare::Scene scene;
+  scene.name = "slab";
+  append_body(scene, {.name = "slab", .material = {}}, solid_box({4, 2, 4}, {}, {0.3, 0.008, 0.3}));
+  scene.settings.contact_radius = 0.01;
+  const std::vector<std::string> texts = Warnings(scene).list();
+  REQUIRE(texts.size() == 1);
+  CHECK_THAT(texts[0], Contains("body 'slab' is thinner than contact_radius (0.01 m) at rest") &&
+                           Contains("pairs of a vertex and a face of its own") &&
+                           Contains("the thinnest place is 0.008 m"));
+  scene.settings.contact_radius = 0.005;
+  CHECK(Warnings(scene).list().empty());
 }
