@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 
+from plots.columns import column_and_unit
+
 RESULTS = Path(__file__).parent / "results"
 AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.audited)
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
@@ -44,7 +46,7 @@ class Columns(Mapping):
         with (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="") as file:
             names, *rows = [row for row in csv.reader(file) if row]
         rows = [row for row in rows if len(row) == len(names)]
-        self._texts = dict(zip((name.partition("[")[0].strip() for name in names), zip(*rows) if rows else [()] * len(names)))
+        self._texts = dict(zip((column_and_unit(name)[0] for name in names), zip(*rows) if rows else [()] * len(names)))
         self._numbers = {}
 
     def __getitem__(self, name):

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures.timed_runs import Job, Limit, RunFailure, make
+from plots.columns import column_and_unit
 from plots.run_folder import Run, RunError
 
 
@@ -42,7 +43,7 @@ def iterations(run, step):
         raise RunError(f"{path} is missing: run with --iterations")
     with path.open(newline="") as file:
         rows = list(csv.reader(file))
-    names = [title.partition("[")[0].strip() for title in rows[0]]
+    names = [column_and_unit(title)[0] for title in rows[0]]
     values = np.array([[float(text) for text in row] for row in rows[1:] if row and int(row[0]) == step])
     if not len(values):
         raise RunError(f"{path} has no row of step {step}")

@@ -9,6 +9,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from plots.columns import column_and_unit
+
 
 class RunError(Exception):
     """Something about a run folder keeps it from being drawn; the message says what, where and what to do."""
@@ -124,12 +126,7 @@ def _read_steps(path):
         rows = [row for row in csv.reader(file) if row]
     if len(rows) < 2:
         raise RunError(f"{path} holds no step yet")
-    names, units = zip(*(_split_unit(text) for text in rows[0]))
+    names, units = zip(*(column_and_unit(text) for text in rows[0]))
     width = len(names)
     table = [[float(text) if text else np.nan for text in row] for row in rows[1:] if len(row) == width]
     return {name: np.array([row[i] for row in table]) for i, name in enumerate(names)}, dict(zip(names, units))
-
-
-def _split_unit(text):
-    name, _, unit = text.partition("[")
-    return name.strip(), unit.rstrip("] ").strip()

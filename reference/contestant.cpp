@@ -16,8 +16,8 @@
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/ipc/simulation.hpp"
+#include "reference/simulation.hpp"
 #include "reference/solvers/initial_guess.hpp"
-#include "reference/solvers/simulation.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/sweep.hpp"
 

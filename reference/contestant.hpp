@@ -2,16 +2,16 @@
 #pragma once
 
 #include "compare/problem/contestant.hpp"
-#include "reference/energies/activation_drawing.hpp"
-#include "reference/geometry/block_margins.hpp"
-#include "reference/geometry/contact_sets.hpp"
+#include "reference/definitions/block_margins.hpp"
+#include "reference/definitions/contact_sets.hpp"
+#include "reference/definitions/gauss_map.hpp"
+#include "reference/definitions/nearest.hpp"
+#include "reference/definitions/pair_margins.hpp"
 #include "reference/geometry/filter_counts.hpp"
-#include "reference/geometry/gauss_map.hpp"
-#include "reference/geometry/illustrations.hpp"
-#include "reference/geometry/nearest.hpp"
-#include "reference/geometry/pair_margins.hpp"
 #include "reference/geometry/primitive_distances.hpp"
-#include "reference/solvers/minimiser.hpp"
+#include "reference/illustrations/activation_drawing.hpp"
+#include "reference/illustrations/illustrations.hpp"
+#include "reference/solvers/newton/minimiser.hpp"
 #include "reference/solvers/residual.hpp"
 
 namespace ogc::reference {

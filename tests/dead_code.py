@@ -40,6 +40,7 @@ KEPT = {
     **dict.fromkeys(("skin_state", "step_columns"), WINDOW),
     "has_assimp": "tests skip what a build without assimp can't read",
     "read_mesh": "meshes alone, without where their elements come from: what tests read",
+    "declaration": "an object whose constructor adds rows to the table of settings",
     **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_closest_points", "ogc_detect_vertex_facet", "ogc_spring",
                      "ogc_truncate", "reference_point"), CALLED),
 }

@@ -32,7 +32,7 @@ PROJECT = {
     "fast": PROBLEM + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
     "experiments/examples": ("compare/", "fast/contact_sets.hpp"),
-    "experiments/command_contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp", "fast/contact_sets.hpp"),
+    "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp", "fast/contact_sets.hpp"),
     "tests": ("",),
 }
 
@@ -53,9 +53,9 @@ FOREIGN = {
     "H5": ("compare/files", "compare/record"),
     "zlib.h": ("compare/files",),
     "expat.h": ("compare/files",),
-    "png.h": ("experiments/audits",),
+    "png.h": ("experiments/program/audits",),
     "unzip.h": ("compare/files",),
-    "glob.h": ("experiments/audits",),
+    "glob.h": ("experiments/program/audits",),
     "tbb/": ("compare/oracle", "reference", "fast/cpu", "experiments"),
     "oneapi/tbb": ("compare/oracle", "reference", "fast/cpu", "experiments"),
     "cuda": ("fast/cuda",),
@@ -184,13 +184,14 @@ class House:
                     stack.append(iter(self.includes[included]))
 
     def check_folder_pairs(self):
-        """A .cpp at the top of a room assembles its parts, which see the room's interface headers beside it: that is no pair, two headers are."""
+        """A .cpp at the top of a room and the program's main.cpp assemble their parts, which see the headers beside them:
+        that is no pair, two headers are."""
         edges = {}
         for file, included in self.includes.items():
             for number, other in included:
                 if other == ABOVE_ITS_FOLDER and below(file, "compare/problem", "compare/stages"):
                     self.report(file, number, f'"{other}" stands above the folders of ogc_problem; they may not include it')
-                assembles = "/" not in folder(file) and file.endswith(".cpp")
+                assembles = "/" not in folder(file) and file.endswith(".cpp") or file.endswith("/main.cpp")
                 if file != ABOVE_ITS_FOLDER and not assembles:
                     edges.setdefault((folder(file), folder(other)), (file, number, other))
         for (one, two), (file, number, other) in sorted(edges.items()):
@@ -228,7 +229,7 @@ SOUND = {
     "fast/contestant.cpp": '#include "fast/cpu/cpu.hpp"\n',
     "fast/cuda/backend.cu": "#include <cub/cub.cuh>\n#include <cuda_runtime.h>\n",
     "experiments/run.cpp": '#include <CLI/CLI.hpp>\n#include "fast/contestant.hpp"\n#include "reference/contestant.hpp"\n',
-    "experiments/command_contacts.cpp": '#include "fast/contact_sets.hpp"\n',
+    "experiments/program/commands/contacts.cpp": '#include "fast/contact_sets.hpp"\n',
     "tests/fast/all.cpp": '#include <catch2/catch.hpp>\n#include "fast/contact_sets.hpp"\n',
     "README.md": "See https://example.org/work/page and ../work/notes.\n",
 }

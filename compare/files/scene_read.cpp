@@ -32,10 +32,16 @@ void read_settings(const JsonNode& node, Settings& settings) {
   JsonObject object(node);
   for (const SettingInfo& info : setting_table()) {
     object.optional(std::string(info.name), [&](const JsonNode& value) {
-      if (!info.choices.empty()) return read_choice(value, info, settings);
-      if (const auto* field = std::get_if<double Settings::*>(&info.field)) value.read(settings.**field);
-      if (const auto* field = std::get_if<std::int64_t Settings::*>(&info.field)) value.read(settings.**field);
-      const double number = get_setting(settings, info);
+      if (kind_of(info) == SettingKind::choice) return read_choice(value, info, settings);
+      double number = get_setting(settings, info);
+      if (kind_of(info) == SettingKind::whole) {
+        auto whole = static_cast<std::int64_t>(number);
+        value.read(whole);
+        number = static_cast<double>(whole);
+      } else {
+        value.read(number);
+      }
+      set_setting(settings, info, number);
       if (!in_range(info, number)) value.fail("is " + shortest(number), "give " + describe_range(info));
     });
   }

@@ -47,13 +47,13 @@ Json settings_schema() {
       row["description"] = info.meaning;
       continue;
     }
-    const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+    const bool whole = kind_of(info) == SettingKind::whole;
     Json& row = properties[std::string(info.name)] = value(whole ? "integer" : "number",
                                                            with_unit(info.meaning, info.unit));
     row["minimum"] = info.minimum;
     row["maximum"] = info.maximum;
-    if (const auto* field = std::get_if<double Settings::*>(&info.field)) row["default"] = defaults.**field;
-    if (const auto* field = std::get_if<std::int64_t Settings::*>(&info.field)) row["default"] = defaults.**field;
+    row["default"] = get_setting(defaults, info);
+    if (whole) row["default"] = static_cast<std::int64_t>(get_setting(defaults, info));
   }
   properties["lanes"]["enum"] = {0, 1, 2, 4, 8, 16, 32};
   return object(properties, {});

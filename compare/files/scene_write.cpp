@@ -30,9 +30,11 @@ Json settings_json(const Settings& settings) {
   Json json = Json::object();
   for (const SettingInfo& info : setting_table()) {
     Json& value = json[std::string(info.name)];
-    if (const auto* field = std::get_if<double Settings::*>(&info.field)) value = as_typed(settings.**field);
-    if (const auto* field = std::get_if<std::int64_t Settings::*>(&info.field)) value = settings.**field;
-    if (!info.choices.empty()) value = setting_text(settings, info);
+    switch (kind_of(info)) {
+      case SettingKind::real: value = as_typed(get_setting(settings, info)); break;
+      case SettingKind::whole: value = static_cast<std::int64_t>(get_setting(settings, info)); break;
+      case SettingKind::choice: value = setting_text(settings, info); break;
+    }
   }
   return json;
 }

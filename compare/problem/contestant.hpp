@@ -50,7 +50,7 @@ struct IterationMetrics {
   double energy = 0;                     ///< incremental potential with these contacts [J]
   double largest_change = 0;             ///< ‖δ‖_∞ of the solve, before any truncation [m]
   double share = 0;                      ///< of δ' that the line search took, 0 where no step was taken
-  std::int64_t vertices_at_bound = 0;    ///< cut in this iteration
+  std::int64_t vertices_cut = 0;         ///< cut in this iteration
   std::int64_t detected = 0;             ///< 1 where contacts were detected anew for this state
   double condition_number = 0;           ///< of the matrix; not-a-number where it was not asked for
   /// Of the matrix without friction, and without contact and friction: with stencils projected where the rest is not
@@ -73,8 +73,8 @@ struct StepMetrics {
   /// the first contact of all pairs, or of the active ones, found along one motion
   std::int64_t continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0;
-  std::int64_t vertices_at_bound = 0;                     ///< cut in the last iteration
-  double share_at_bound = 0;                              ///< vertices_at_bound / K
+  std::int64_t vertices_cut = 0;                          ///< cut in the last iteration
+  double share_cut = 0;                                   ///< vertices_cut / K
   double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5.3)
   double largest_lag = 0;                                 ///< of prescribed vertices behind their targets [m]
   double query_radius = 0;                                ///< r_q of the step [m]

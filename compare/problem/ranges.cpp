@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <variant>
 
 #include "compare/problem/text.hpp"
 
@@ -24,7 +23,7 @@ bool vanishes_in_single(double value) { return value != 0 && std::abs(value) < l
 std::string range_text(const SettingInfo& info) {
   if (!info.choices.empty()) return joined(info.choices);
   if (info.name == "lanes") return "0 or a power of two up to 32";
-  return range(info.minimum, info.maximum, std::holds_alternative<double Settings::*>(info.field));
+  return range(info.minimum, info.maximum, kind_of(info) == SettingKind::real);
 }
 
 std::string range_text(const MaterialInfo& info) { return range(info.minimum, info.maximum, true); }

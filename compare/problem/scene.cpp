@@ -96,8 +96,8 @@ void round_to_single(Scene& scene) {
   }
   scene.gravity = rounded(scene.gravity);
   for (const SettingInfo& info : setting_table()) {
-    if (const auto* field = std::get_if<double Settings::*>(&info.field))
-      scene.settings.** field = rounded(scene.settings.**field);
+    if (kind_of(info) == SettingKind::real)
+      set_setting(scene.settings, info, rounded(get_setting(scene.settings, info)));
   }
 }
 

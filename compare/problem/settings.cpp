@@ -17,15 +17,11 @@ namespace {
 constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
-constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
 constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 3> bounds_names{"ball", "planes", "off"};
-constexpr std::array<std::string_view, 2> adaptation_names{"distance", "gap"};
-constexpr std::array<std::string_view, 2> stopping_names{"displacement", "velocity"};
-constexpr std::array<std::string_view, 2> ccd_names{"partial", "full"};
 
-constexpr std::array<SettingInfo, 32> table{{
+constexpr std::array<SettingInfo, 17> problem_table{{
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
@@ -58,50 +54,35 @@ constexpr std::array<SettingInfo, 32> table{{
      &Settings::frame_steps},
     {"lanes", "1", "partial sums that forces on a vertex are added up in, W (vbd); bits depend on it; 0: by mesh size",
      0, 32, &Settings::lanes},
-    {"newton_iterations", "1", "Newton's iterations in a step at most", 1, most_count, &Settings::newton_iterations},
-    {"newton_tolerance", "1",
-     "relative force that may remain when a Newton step has converged (Eq. 29); 0: all iterations are done", 0, 1,
-     &Settings::newton_tolerance},
-    {"newton_step_tolerance", "m/s",
-     "a Newton step has also converged where no vertex wants to move faster than this; 0: this does not end it", 0,
-     0x1p10, &Settings::newton_step_tolerance},
-    {"friction_solves", "1", "Newton's solves in a step, each with the friction that the one before led to", 1, 1 << 20,
-     &Settings::friction_solves},
-    {"projection", "1",
-     "what Newton does with negative curvature of an energy: keep it, cut it off at zero, or take its absolute value",
-     0, 2, &Settings::projection, projection_names},
     {"activation", "1",
      "how the repulsion grows as surfaces approach: the paper's, as printed there, or another to compare with", 0, 4,
      &Settings::activation, activations},
     {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0, 1,
      &Settings::damping, damping_forms},
-    {"ipc_distance", "m", "IPC: distance at which the barrier begins to act; 0: by ipc_relative_distance", 0,
-     most_length, &Settings::ipc_distance},
-    {"ipc_relative_distance", "1", "IPC: the same distance as a share of the diagonal of the scene's box at rest",
-     least_length, 1, &Settings::ipc_relative_distance},
-    {"ipc_thickness", "m", "IPC: the distance that surfaces keep at least", 0, most_length, &Settings::ipc_thickness},
-    {"ipc_stiffness", "J/m⁴", "IPC: stiffness of the barrier, held fixed; 0: it adapts", 0, 0x1p120,
-     &Settings::ipc_stiffness},
-    {"ipc_adaptation", "1",
-     "IPC: whether the stiffness adapts to distances, or to the gaps that a thickness leaves of them", 0, 1,
-     &Settings::ipc_adaptation, adaptation_names},
-    {"ipc_stopping", "1",
-     "IPC: whether the last iteration's displacement ends a step, or the mean velocity of the last three", 0, 1,
-     &Settings::ipc_stopping, stopping_names},
-    {"ipc_ccd", "1", "IPC: whether the pairs near each other alone limit a move, or all pairs", 0, 1,
-     &Settings::ipc_ccd, ccd_names},
-    {"ipc_tolerance", "1/s",
-     "IPC, displacement: motion at which a step ends, in diagonals of the box a second; 0: all iterations are done", 0,
-     0x1p10, &Settings::ipc_tolerance},
-    {"ipc_velocity_tolerance", "m/s", "IPC, velocity: mean velocity at which a step ends; 0: all iterations are done",
-     0, 0x1p10, &Settings::ipc_velocity_tolerance},
-    {"ipc_iterations", "1", "IPC: iterations in a step at most", 1, most_count, &Settings::ipc_iterations},
     {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
 }};
 
+/// The problem's settings, and those that contestants have declared.
+struct Table {
+  std::map<std::string_view, std::span<const SettingInfo>> declared;  ///< by contestant
+  std::vector<SettingInfo> rows;
+
+  Table() { join(); }
+  void join() {
+    rows.assign(problem_table.begin(), problem_table.end());
+    for (const auto& [contestant, own] : declared) rows.insert(rows.end(), own.begin(), own.end());
+  }
+};
+
+/// Made when it is first asked for: declarations of other files may come before the objects of this one.
+Table& known() {
+  static Table table;
+  return table;
+}
+
 const SettingInfo& find_setting(std::string_view name) {
-  const auto found = std::find_if(table.begin(), table.end(),
-                                  [&](const SettingInfo& info) { return info.name == name; });
+  const std::span<const SettingInfo> table = setting_table();
+  const auto found = std::ranges::find(table, name, &SettingInfo::name);
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
   for (const SettingInfo& info : table) names.push_back(info.name);
@@ -114,38 +95,47 @@ bool parse(std::string_view text, Number& number) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-void set_number(Settings& settings, const SettingInfo& info, std::string_view value) {
-  const auto assign = [&]<class T>(T Settings::*field) {
-    if constexpr (!std::is_enum_v<T>) {
-      T number = settings.*field;
-      if (!parse(value, number) || !in_range(info, static_cast<double>(number)))
-        throw InputError("setting '" + std::string(info.name) + "' can't be '" + shown(value) + "'; give " +
-                         describe_range(info));
-      settings.*field = number;
-    }
-  };
-  std::visit(assign, info.field);
+[[noreturn]] void refuse(const SettingInfo& info, std::string_view value) {
+  throw InputError("setting '" + std::string(info.name) + "' can't be '" + shown(value) + "'; give " +
+                   describe_range(info));
 }
 
-void set_choice(Settings& settings, const SettingInfo& info, std::string_view value) {
-  const auto found = std::find(info.choices.begin(), info.choices.end(), value);
-  if (found == info.choices.end())
-    throw InputError("setting '" + std::string(info.name) + "' can't be '" + shown(value) + "'; give " +
-                     describe_range(info));
-  std::visit([&]<class T>(T Settings::*field) { settings.*field = static_cast<T>(found - info.choices.begin()); },
-             info.field);
+double number_of(const SettingInfo& info, std::string_view text) {
+  double number = 0;
+  std::int64_t whole = 0;
+  const bool parsed = kind_of(info) == SettingKind::whole ? parse(text, whole) : parse(text, number);
+  if (kind_of(info) == SettingKind::whole) number = static_cast<double>(whole);
+  if (!parsed || !in_range(info, number)) refuse(info, text);
+  return number;
+}
+
+double place_of(const SettingInfo& info, std::string_view name) {
+  const auto found = std::find(info.choices.begin(), info.choices.end(), name);
+  if (found == info.choices.end()) refuse(info, name);
+  return static_cast<double>(found - info.choices.begin());
 }
 
 }  // namespace
 
-std::span<const SettingInfo> setting_table() { return table; }
+std::span<const SettingInfo> setting_table() { return known().rows; }
+
+SettingsDeclaration::SettingsDeclaration(std::string_view contestant, std::span<const SettingInfo> rows) {
+  known().declared[contestant] = rows;
+  known().join();
+}
+
+SettingKind kind_of(const SettingInfo& info) {
+  if (!info.choices.empty()) return SettingKind::choice;
+  if (const auto* declared = std::get_if<DeclaredSetting>(&info.field)) return declared->kind;
+  return std::holds_alternative<double Settings::*>(info.field) ? SettingKind::real : SettingKind::whole;
+}
 
 std::span<const std::string_view> activation_names() { return activations; }
 
 std::span<const std::string_view> damping_form_names() { return damping_forms; }
 
 std::string describe_range(const SettingInfo& info) {
-  const bool whole = std::holds_alternative<std::int64_t Settings::*>(info.field);
+  const bool whole = kind_of(info) == SettingKind::whole;
   const std::string kind = !info.choices.empty()  ? "one of "
                            : info.name == "lanes" ? ""
                            : whole                ? "a whole number from "
@@ -156,7 +146,7 @@ std::string describe_range(const SettingInfo& info) {
 
 bool in_range(const SettingInfo& info, double value) {
   if (!(value >= info.minimum && value <= info.maximum)) return false;
-  if (std::holds_alternative<double Settings::*>(info.field)) return !vanishes_in_single(value);
+  if (kind_of(info) == SettingKind::real) return !vanishes_in_single(value);
   if (info.name != "lanes") return true;
   const auto lanes = static_cast<std::int64_t>(value);
   return (lanes & (lanes - 1)) == 0;
@@ -164,10 +154,25 @@ bool in_range(const SettingInfo& info, double value) {
 
 void set_setting(Settings& settings, std::string_view name, std::string_view value) {
   const SettingInfo& info = find_setting(name);
-  if (info.choices.empty())
-    set_number(settings, info, value);
-  else
-    set_choice(settings, info, value);
+  set_setting(settings, info, info.choices.empty() ? number_of(info, value) : place_of(info, value));
+}
+
+void set_setting(Settings& settings, std::string_view name, double value) {
+  set_setting(settings, find_setting(name), value);
+}
+
+void set_setting(Settings& settings, const SettingInfo& info, double value) {
+  if (const auto* row = std::get_if<DeclaredSetting>(&info.field)) {
+    settings.declared.erase(std::string(info.name));
+    if (value != row->standard) settings.declared.emplace(info.name, value);
+    return;
+  }
+  std::visit(
+      [&]<class Field>(Field field) {
+        if constexpr (!std::is_same_v<Field, DeclaredSetting>)
+          settings.*field = static_cast<std::remove_reference_t<decltype(settings.*field)>>(value);
+      },
+      info.field);
 }
 
 std::string setting_text(const Settings& settings, const SettingInfo& info) {
@@ -177,7 +182,16 @@ std::string setting_text(const Settings& settings, const SettingInfo& info) {
 }
 
 double get_setting(const Settings& settings, const SettingInfo& info) {
-  return std::visit([&](auto field) { return static_cast<double>(settings.*field); }, info.field);
+  return std::visit(
+      [&]<class Field>(Field field) {
+        if constexpr (std::is_same_v<Field, DeclaredSetting>) {
+          const auto found = settings.declared.find(info.name);
+          return found == settings.declared.end() ? field.standard : found->second;
+        } else {
+          return static_cast<double>(settings.*field);
+        }
+      },
+      info.field);
 }
 
 double get_setting(const Settings& settings, std::string_view name) {

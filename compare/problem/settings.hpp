@@ -1,8 +1,10 @@
 // Every number a user can set, each with unit, range and default, in one table: `--set`, scene files, `--help` and
-// run.json read it.
+// run.json read it. Settings of the problem, which every contestant reads, are fields of a struct. What one contestant
+// alone reads it declares itself (SettingsDeclaration), and the problem carries it as name and value.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,20 +15,8 @@ namespace ogc::compare {
 // Choices among named variants. As wide as every other setting, so that a test can see that the table reaches all of
 // them.
 
-/// How Newton's method makes a stencil's Hessian positive semidefinite: not at all, negative eigenvalues to 0, or to
-/// their absolute values.
-enum class HessianProjection : std::int64_t { none, clamp, absolute };
 /// Contact energy over distance (method.md §4.2): Eq. 18 with Eq. 19 corrected, or one of the variants of the ablation.
 enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ipc_log, cubic };
-/// How IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by gaps, which a thickness leaves of them
-/// (Li et al. 2021).
-enum class IpcAdaptation : std::int64_t { distance, gap };
-/// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), or root mean square of ‖p_v‖/h of
-/// the last three iterations (2021).
-enum class IpcStopping : std::int64_t { displacement, velocity };
-/// Which pairs bound an IPC step: the active ones and d̂/2 of motion for the others while that takes at most half of it
-/// (Li et al. 2020), or all (2021).
-enum class IpcCcd : std::int64_t { partial, full };
 /// What stiffness-proportional damping acts on (method.md §4.9): the change of a stencil's strain, or each vertex's own
 /// motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
@@ -54,49 +44,55 @@ struct Settings {
   std::int64_t frame_steps = 0;     ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   /// W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
   std::int64_t lanes = 0;
-  std::int64_t newton_iterations = 50;  ///< Newton: iterations a step at most
-  /// Newton: residual (Eq. 29) at which a step has converged; 0: all iterations are done
-  double newton_tolerance = 1e-4;
-  /// Newton: a step has also converged where no vertex wants to move faster than this [m/s]
-  double newton_step_tolerance = 0;
-  std::int64_t friction_solves = 1;  ///< Newton: solves a step, each with friction lagged to the one before
-  HessianProjection projection = HessianProjection::clamp;  ///< Newton: of each stencil's Hessian
-  ContactActivation activation = ContactActivation::ogc;    ///< contact energy over distance
+  ContactActivation activation = ContactActivation::ogc;  ///< contact energy over distance
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
-  double ipc_distance = 0;              ///< IPC: barrier distance d̂ [m]; 0: by ipc_relative_distance
-  double ipc_relative_distance = 1e-3;  ///< IPC: d̂ in units of the rest box's diagonal
-  double ipc_thickness = 0;             ///< IPC: ξ, the distance that surfaces keep at least [m]
-  double ipc_stiffness = 0;             ///< IPC: κ, fixed [J/m⁴]; 0: adaptive
-  IpcAdaptation ipc_adaptation = IpcAdaptation::distance;  ///< IPC: how κ adapts
-  IpcStopping ipc_stopping = IpcStopping::displacement;    ///< IPC: which of the two rules ends a step
-  IpcCcd ipc_ccd = IpcCcd::partial;                        ///< IPC: which pairs bound a step
-  /// IPC, `displacement`: in diagonals of the rest box a second [1/s]; 0: all iterations are done
-  double ipc_tolerance = 1e-2;
-  double ipc_velocity_tolerance = 1e-3;  ///< IPC, `velocity` [m/s]; 0: all iterations are done
-  /// IPC: iterations a step at most; the step then ends where it is, as in the published codes
-  std::int64_t ipc_iterations = 10000;
   std::int64_t seed = 0;  ///< of whatever the scene draws at random
+  /// Declared by contestants, where not the default: numbers, of a choice the place of its name. By set_setting.
+  std::map<std::string, double, std::less<>> declared;
   friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+/// What kind of value a setting has.
+enum class SettingKind : std::uint8_t { real, whole, choice };
+
+/// In place of a field: a setting that a contestant declares.
+struct DeclaredSetting {
+  SettingKind kind = SettingKind::real;
+  double standard = 0;  ///< default; of a choice the place of its name
 };
 
 /// One row of the table of settings.
 struct SettingInfo {
   std::string_view name, unit, meaning;
   double minimum, maximum;  ///< inclusive
-  std::variant<double Settings::*, std::int64_t Settings::*, HessianProjection Settings::*,
-               ContactActivation Settings::*, DampingForm Settings::*, Bounds Settings::*, IpcAdaptation Settings::*,
-               IpcStopping Settings::*, IpcCcd Settings::*>
+  std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
+               Bounds Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };
 
-/// All settings, in the order of the struct.
+/// All settings: those of the struct in its order, then what contestants have declared, by the contestants' names.
 std::span<const SettingInfo> setting_table();
+
+/// Adds a contestant's settings to the table, so that scene files, `--set`, `--help`, run.json and checks know them.
+/// Make it an object of static storage beside the code that reads the settings: a program knows those of the
+/// contestants that it is linked with. `rows`: of static storage, too, each with a DeclaredSetting.
+class SettingsDeclaration {
+ public:
+  SettingsDeclaration(std::string_view contestant, std::span<const SettingInfo> rows);
+};
+
+SettingKind kind_of(const SettingInfo& info);
 
 /// Sets `name` from text. Throws InputError that names the setting, its unit and its range (and the nearest known name
 /// for an unknown one).
 void set_setting(Settings& settings, std::string_view name, std::string_view value);
+
+/// Sets a number, or a choice by the place of its name, without a check of its range (validate.hpp). Throws InputError
+/// for an unknown name.
+void set_setting(Settings& settings, std::string_view name, double value);
+void set_setting(Settings& settings, const SettingInfo& info, double value);
 
 /// "a number from 1 to 1024 r (cap of …)": what may stand in this row, for messages and help.
 std::string describe_range(const SettingInfo& info);

@@ -22,7 +22,7 @@ constexpr std::array<IterationColumn, 15> columns{{
     {"energy [J]", &IterationMetrics::energy},
     {"largest_change [m]", &IterationMetrics::largest_change},
     {"share [1]", &IterationMetrics::share},
-    {"vertices_at_bound [1]", &IterationMetrics::vertices_at_bound},
+    {"vertices_cut [1]", &IterationMetrics::vertices_cut},
     {"broad_phases [1]", &IterationMetrics::broad_phases},
     {"discrete_detections [1]", &IterationMetrics::discrete_detections},
     {"continuous_detections [1]", &IterationMetrics::continuous_detections},

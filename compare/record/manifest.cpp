@@ -45,8 +45,11 @@ Json settings_json(const Settings& settings) {
   Json json = Json::object();
   for (const SettingInfo& info : setting_table()) {
     Json& entry = json[std::string(info.name)] = quantity(get_setting(settings, info), info.unit);
-    if (const auto* whole = std::get_if<std::int64_t Settings::*>(&info.field)) entry["value"] = settings.**whole;
-    if (!info.choices.empty()) entry["value"] = setting_text(settings, info);
+    switch (kind_of(info)) {
+      case SettingKind::real: break;
+      case SettingKind::whole: entry["value"] = static_cast<std::int64_t>(get_setting(settings, info)); break;
+      case SettingKind::choice: entry["value"] = setting_text(settings, info); break;
+    }
     entry["meaning"] = info.meaning;
   }
   return json;

@@ -11,8 +11,9 @@
 
 namespace ogc::compare {
 
-/// The newest run.json that this program writes and reads.
-inline constexpr int run_format_version = 1;
+/// The newest run folder that this program writes and reads. Of format 1, with other names of two columns of rows, it
+/// reads, too (StepColumn::former_name).
+inline constexpr int run_format_version = 2;
 
 /// What run.json says besides the scene: who ran what, where, when.
 struct Provenance {

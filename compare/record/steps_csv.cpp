@@ -21,8 +21,8 @@ constexpr std::array<StepColumn, 23> columns{{
     {"continuous_detections", "1", &StepMetrics::continuous_detections},
     {"guess_rounds", "1", &StepMetrics::guess_rounds},
     {"iterations", "1", &StepMetrics::iterations},
-    {"vertices_at_bound", "1", &StepMetrics::vertices_at_bound},
-    {"share_at_bound", "1", &StepMetrics::share_at_bound},
+    {"vertices_cut", "1", &StepMetrics::vertices_cut, "vertices_at_bound"},
+    {"share_cut", "1", &StepMetrics::share_cut, "share_at_bound"},
     {"momentum_lost_guess", "1", &StepMetrics::momentum_lost_guess},
     {"momentum_lost_end", "1", &StepMetrics::momentum_lost_end},
     {"largest_lag", "m", &StepMetrics::largest_lag},
@@ -66,8 +66,15 @@ bool parse(std::string_view text, T& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-std::string column_title(const StepColumn& column) {
-  return std::string(column.name) + " [" + std::string(column.unit) + "]";
+std::string title_of(std::string_view name, std::string_view unit) {
+  return std::string(name) + " [" + std::string(unit) + "]";
+}
+
+std::string column_title(const StepColumn& column) { return title_of(column.name, column.unit); }
+
+bool is_titled(const StepColumn& column, std::string_view title) {
+  return title == column_title(column) ||
+         (!column.former_name.empty() && title == title_of(column.former_name, column.unit));
 }
 
 std::vector<std::string> parse_header(const std::string& file, std::string_view line) {
@@ -78,7 +85,7 @@ std::vector<std::string> parse_header(const std::string& file, std::string_view 
                      "' is expected: the run was written by another version of the program; read it with that one");
   };
   for (std::size_t i = 0; i < columns.size(); ++i)
-    if (i >= titles.size() || titles[i] != column_title(columns[i])) refuse(i, column_title(columns[i]));
+    if (i >= titles.size() || !is_titled(columns[i], titles[i])) refuse(i, column_title(columns[i]));
   std::vector<std::string> stage_names;
   for (std::size_t i = columns.size(); i < titles.size(); ++i) {
     if (!titles[i].starts_with(stage_prefix) || !titles[i].ends_with(stage_unit)) refuse(i, "stage_NAME [ms]");

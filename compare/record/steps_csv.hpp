@@ -18,6 +18,7 @@ namespace ogc::compare {
 struct StepColumn {
   std::string_view name, unit;
   std::variant<double StepMetrics::*, std::int64_t StepMetrics::*, std::uint32_t StepMetrics::*> field;
+  std::string_view former_name{};  ///< in run format 1, where it is another one; read, never written
 };
 
 /// All columns but those of the stages, in the order of the file.

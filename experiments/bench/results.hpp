@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output.hpp"
+#include "experiments/program/output.hpp"
 
 namespace ogc::experiments {
 
@@ -33,12 +33,14 @@ struct BenchChange {
   enum class Verdict { faster, slower, none_found, too_few } verdict = Verdict::none_found;
 };
 
+/// One benchmark in two results.
 struct BenchComparison {
   std::vector<BenchChange> changes;  ///< by name
   std::vector<std::string> only_before, only_after;
   std::vector<std::string> differing_context;  ///< "device_cpu: 2 threads, then 16 threads"
   /// false: one of the files is of a single process, and p knows nothing of what differs between starts
   bool is_of_processes = true;
+  /// Whether any benchmark has become slower.
   bool has_slower() const;
 };
 
@@ -49,7 +51,9 @@ inline constexpr double significance = 0.01;
 /// significant.
 BenchComparison compare_results(const BenchResults& before, const BenchResults& after);
 
+/// For people.
 std::string describe(const BenchComparison& comparison);
+/// For programs.
 Json to_json(const BenchComparison& comparison);
 
 /// "1.23 ms": with a unit that fits.

@@ -10,7 +10,9 @@
 
 namespace ogc::experiments {
 
+/// Of a stage whose cases stand alone.
 QuestionSizes sizes_of(std::size_t cases);
+/// Of a stage that is asked about a mesh.
 QuestionSizes sizes_of(const compare::Topology& topology);
 
 /// The arrays of ogc_topology, in its order.
@@ -42,6 +44,7 @@ class Outputs {
 
 /// As the plug-in wrote them; throw compare::ContestantFailure for a kind of face that does not exist.
 compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
+/// The contact in the judge's terms.
 compare::EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c);
 
 }  // namespace ogc::experiments

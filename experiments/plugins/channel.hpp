@@ -17,6 +17,7 @@
 
 namespace ogc::experiments {
 
+/// A block to send.
 using Bytes = std::span<const std::byte>;
 
 /// The bytes of items that lie one behind the other.
@@ -45,6 +46,7 @@ struct BlockHead {
 struct BlockLength {
   std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
 };
+/// A block of this length alone.
 constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }
 
 /// What came is no block, or not of the length that is due. what() ends the sentence "a message …".
@@ -52,6 +54,7 @@ struct MalformedBlock : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// How a block came through.
 enum class Transfer {
   whole,
   end,  ///< the other side is gone, also in the middle of a block
@@ -77,8 +80,11 @@ class Channel {
   Channel(Channel&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
   Channel& operator=(Channel&& other) noexcept;
 
+  /// The other side reads an end.
   void close();
+  /// Whether there is another side.
   bool is_open() const { return descriptor_ >= 0; }
+  /// Of the socket; negative where closed.
   int descriptor() const { return descriptor_; }
   Transfer send(Bytes block, const Patience& patience = {});
   /// Waits for a block. Throws MalformedBlock, before it takes memory for it, where its head is none or its length not

@@ -16,8 +16,10 @@ namespace ogc::experiments {
 inline constexpr std::uint32_t unwritten_word = 0x7fadc0de;
 inline constexpr std::uint8_t unwritten_byte = 0xe7;
 
+/// Where bytes around an array were written.
 enum class Damage { none, before, behind };
 
+/// Where arrays of a question and its answer lie.
 class PluginMemory {
  public:
   virtual ~PluginMemory() = default;
@@ -31,12 +33,14 @@ class PluginMemory {
   virtual Damage damage(std::size_t k) = 0;
   /// The first `bytes` of the k-th output.
   virtual std::vector<std::byte> content(std::size_t k, std::size_t bytes) = 0;
+  /// All arrays are gone.
   virtual void release() = 0;
   /// Whether the process can be asked again after a call that broke the rules: not where it may have written anywhere
   /// in the process, nor where the device has given up.
   virtual bool can_go_on() = 0;
 };
 
+/// The CPU's.
 std::unique_ptr<PluginMemory> host_memory();
 
 /// Memory of CUDA device 0, through the driver's library, so that no build of `ogc` needs to know it. Throws

@@ -16,12 +16,14 @@ namespace ogc::experiments {
 /// The next block; throws MalformedBlock where it has no allowed length, and whatever else where there is none.
 using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
+/// What a worker says of the library that it has loaded.
 struct Greeting {
   LoadStatus status = LoadStatus::loaded;
   std::string text;               ///< the plug-in's name, or why it was not loaded
   std::vector<std::uint8_t> has;  ///< of plugin_stages(), where it was loaded: 1 where the library has the stage
 };
 
+/// What a worker says of one question.
 struct WorkerAnswer {
   CallResult result;
   std::string why;  ///< where it was not answered

@@ -15,6 +15,7 @@
 
 namespace ogc::experiments {
 
+/// How a plug-in is asked.
 struct PluginOptions {
   std::filesystem::path file;                        ///< the shared library
   std::filesystem::path program = "/proc/self/exe";  ///< `ogc`, which is the worker, too
@@ -27,6 +28,7 @@ struct PluginNotes {
   std::map<std::string, std::uint64_t, std::less<>> not_a_number, unwritten;
 };
 
+/// A plug-in in a process of its own, which is started again where it breaks.
 class PluginProcess {
  public:
   /// Loads the library. Throws InputError where there is no such file, it can't be loaded, is no plug-in or of another
@@ -37,11 +39,14 @@ class PluginProcess {
   PluginProcess(const PluginProcess&) = delete;
   PluginProcess& operator=(const PluginProcess&) = delete;
 
+  /// What the plug-in calls itself.
   const std::string& name() const { return name_; }
+  /// Whether it answers this stage.
   bool has(std::string_view stage) const;
   /// The stages that it offers, separated by commas.
   std::string offered() const;
 
+  /// What a plug-in answered.
   struct Answer {
     std::vector<std::vector<std::byte>> outputs;  ///< of the stage, in its order
     ListSizes counts{};

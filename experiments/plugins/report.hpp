@@ -5,8 +5,8 @@
 #include <string>
 
 #include "compare/judge/judge.hpp"
-#include "experiments/output.hpp"
 #include "experiments/plugins/contestant.hpp"
+#include "experiments/program/output.hpp"
 
 namespace ogc::experiments {
 

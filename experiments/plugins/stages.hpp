@@ -33,6 +33,7 @@ inline constexpr std::size_t list_count = 7;
 /// Of each list how many entries there are, or room for; 1 of `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
+/// One array that a stage answers with.
 struct OutputInfo {
   std::string_view name;
   Element element;
@@ -85,6 +86,7 @@ class CallArrays {
   std::size_t next_input_ = 0, next_output_ = 0;
 };
 
+/// One stage of compare/plugin.h.
 struct PluginStage {
   std::string_view name;  ///< of the stage; its function is ogc_NAME
   std::size_t inputs;     ///< how many arrays
@@ -92,6 +94,7 @@ struct PluginStage {
   int (*call)(void* function, CallArrays& arrays);  ///< what the function returned
 };
 
+/// All of them.
 std::span<const PluginStage> plugin_stages();
 
 /// Position in plugin_stages().

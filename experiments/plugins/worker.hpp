@@ -6,14 +6,15 @@
 #include <array>
 #include <cstdint>
 
-#include "experiments/commands.hpp"
 #include "experiments/plugins/stages.hpp"
+#include "experiments/program/commands.hpp"
 
 namespace ogc::experiments {
 
 /// The socket's descriptor in the worker.
 inline constexpr int worker_descriptor = 3;
 
+/// What became of a library.
 enum class LoadStatus : std::uint8_t {
   loaded,   ///< a block with the name follows, one with a byte for each of plugin_stages(): 1 where the library has it
   refused,  ///< wrong file, version or memory: a block with the reason follows

@@ -14,7 +14,7 @@ compare::Scene activation_drop(const ActivationDropSizes& sizes) {
               ground(sizes.vertices_a_side, -0.272));
   scene.settings.iterations = sizes.iterations;
   scene.settings.redetect_fraction = 0;
-  scene.settings.newton_iterations = 200;
+  set_setting(scene.settings, "newton_iterations", 200);
   return scene;
 }
 

@@ -27,9 +27,9 @@ compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 40;
   scene.settings.contact_radius = 5e-3 * 69 / (sizes.vertices_a_side - 1);
-  scene.settings.ipc_distance = scene.settings.contact_radius / 5;
-  scene.settings.ipc_stopping = compare::IpcStopping::velocity;
-  scene.settings.ipc_ccd = compare::IpcCcd::full;
+  set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius / 5);
+  set_setting(scene.settings, "ipc_stopping", "velocity");
+  set_setting(scene.settings, "ipc_ccd", "full");
   return scene;
 }
 

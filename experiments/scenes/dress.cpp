@@ -73,7 +73,7 @@ Vec3 laid_flat(double upper, double lower, double slant, double down, double tur
 }
 
 /// Where a vertex of the upper edge of a band is stitched: between slots `second` and `second` + 1 of the band above.
-struct Place {
+struct StitchPoint {
   Index second;
   double ratio;
 };
@@ -127,12 +127,12 @@ class Band {
         {radius * std::sin(angle), heights_[0] + share * (heights_[1] - heights_[0]), radius * std::cos(angle)});
   }
 
-  Place place_above(const Band& above, Index slot) const {
+  StitchPoint place_above(const Band& above, Index slot) const {
     const Index whole = slot * above.columns_ / columns_, rest = slot * above.columns_ % columns_;
     return {whole, static_cast<double>(rest) / columns_};
   }
 
-  Vec3 between(const Scene& scene, const Place& place) const {
+  Vec3 between(const Scene& scene, const StitchPoint& place) const {
     const Vec3 &a = scene.mesh.positions[at(vertices_at(rows_, place.second)[0])],
                &b = scene.mesh.positions[at(vertices_at(rows_, place.second + 1)[0])];
     if (place.ratio == 0) return a;

@@ -12,9 +12,9 @@ compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes) {
   for (compare::PrescribedMotion& motion : scene.motions) motion.angular_velocity /= 2;
   scene.settings.iterations = 20;
   scene.settings.contact_radius = 5e-3 * 199 / (sizes.vertices_a_side - 1);
-  scene.settings.ipc_distance = scene.settings.contact_radius;
-  scene.settings.ipc_stopping = compare::IpcStopping::velocity;
-  scene.settings.ipc_ccd = compare::IpcCcd::full;
+  set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius);
+  set_setting(scene.settings, "ipc_stopping", "velocity");
+  set_setting(scene.settings, "ipc_ccd", "full");
   return scene;
 }
 

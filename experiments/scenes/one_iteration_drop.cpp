@@ -10,8 +10,10 @@ compare::Scene one_iteration_drop(const OneIterationDropSizes& sizes) {
   scene.name = "one_iteration_drop";
   scene.settings.time_step = 1.0 / 500;
   scene.settings.frame_steps = 10;
-  scene.settings.iterations = scene.settings.newton_iterations = scene.settings.ipc_iterations = 1;
-  scene.settings.newton_tolerance = scene.settings.ipc_tolerance = scene.settings.ipc_velocity_tolerance = 0;
+  for (const char* iterations : {"iterations", "newton_iterations", "ipc_iterations"})
+    set_setting(scene.settings, iterations, 1);
+  for (const char* tolerance : {"newton_tolerance", "ipc_tolerance", "ipc_velocity_tolerance"})
+    set_setting(scene.settings, tolerance, 0);
   return scene;
 }
 

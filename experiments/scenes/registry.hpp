@@ -10,8 +10,10 @@
 
 namespace ogc::experiments {
 
+/// Seconds, minutes on two cores, the paper's sizes.
 enum class Scale { smoke, small, paper };
 
+/// One row of the registry.
 struct SceneInfo {
   std::string_view name, figure, summary;
   compare::Scene (*generate)(Scale);

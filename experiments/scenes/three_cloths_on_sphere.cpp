@@ -17,7 +17,7 @@ compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes) {
   scene.settings.time_step = 1.0 / 100;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = sizes.iterations;
-  scene.settings.newton_iterations = 50;
+  set_setting(scene.settings, "newton_iterations", 50);
   scene.settings.contact_radius = radius;
   return scene;
 }

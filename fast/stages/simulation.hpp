@@ -254,8 +254,8 @@ class ResidentSimulation : public compare::Simulation {
     result.broad_phases = result.discrete_detections = row.detections;
     result.guess_rounds = row.rounds;
     result.iterations = row.iterations;
-    result.vertices_at_bound = row.cut_last;
-    result.share_at_bound = moving_ > 0 ? static_cast<double>(row.cut_last) / static_cast<double>(moving_) : 0;
+    result.vertices_cut = row.cut_last;
+    result.share_cut = moving_ > 0 ? static_cast<double>(row.cut_last) / static_cast<double>(moving_) : 0;
     result.momentum_lost_guess = row.lost_guess;
     result.momentum_lost_end = row.lost_end;
     result.largest_lag = row.largest_lag;

@@ -41,8 +41,7 @@ ActivationValue activation_at(ContactActivation kind, double distance, double co
   const Twice g = activation_energy(kind, Twice(Once(Precise(distance), 0), 0), Twice(Once(Precise(contact_radius))),
                                     Twice(Once(Precise(stiffness))));
   ActivationValue value{plain(g.value.value), plain(g.value.slope[0]), plain(g.slope[0].slope[0])};
-  const bool logarithmic = (kind == ContactActivation::ogc || kind == ContactActivation::ogc_as_printed) &&
-                           2 * distance < contact_radius;
+  const bool logarithmic = form_of(kind).has_stages && 2 * distance < contact_radius;
   const double terms = logarithmic ? printed_terms(kind == ContactActivation::ogc_as_printed, distance, contact_radius,
                                                    stiffness)
                                    : value.energy;

@@ -15,6 +15,7 @@ struct ActivationValue {
   double energy = 0, slope = 0, curvature = 0;
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
+/// At one distance d ≥ 0 [m]; r [m], k_c [N/m].
 ActivationValue activation_at(compare::ContactActivation kind, double distance, double contact_radius,
                               double stiffness);
 

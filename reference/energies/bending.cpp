@@ -3,12 +3,16 @@
 #include <numbers>
 #include <vector>
 
-#include "reference/energies/fold.hpp"
+#include "reference/energies/hinge_terms.hpp"
 #include "reference/energies/inputs.hpp"
 #include "reference/energies/parallel.hpp"
 
 namespace ogc::reference {
 namespace {
+
+using compare::BendingModel;
+using compare::DampingForm;
+using compare::ForceAnswer;
 
 Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
   const auto own = static_cast<std::size_t>(q.own);
@@ -30,38 +34,19 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-/// What of a hinge's angle an energy holds: elastic/2 (θ − θ₀)² + damping/2 (θ − θᵗ)².
-struct AngleTerms {
-  Input elastic, rest_angle, damping;
-};
-
-struct Part {
-  ByVertex energy;
-  Block block;
-};
-
-Part at_angle(const AngleTerms& terms, const ByVertex& angle, const Input& start) {
-  const ByVertex bent = angle - ByVertex(terms.rest_angle), moved = angle - ByVertex(start);
-  Part part{ByVertex(Input(0.5) * terms.elastic) * bent * bent + ByVertex(Input(0.5) * terms.damping) * moved * moved,
-            {}};
-  add_outer(part.block, terms.elastic + terms.damping, angle, angle);
-  return part;
-}
-
 /// What is left of the scales where first derivatives vanish: errors of n u · cond in the gradient, twice in the block,
 /// and in the force beside one of the moment, which takes the other roundings of a force.
 struct SecondOrder {
   double force, block;
 };
 
-SecondOrder second_order(const Inputs& inputs, const AngleTerms& terms, const ByVertex& angle, const Input& start) {
+SecondOrder second_order(const Inputs& inputs, const HingeTermOf<Input>& term, const ByVertex& angle) {
   constexpr double moment_share = (compare::bending_force_tolerance - compare::bending_gradient) /
                                   compare::bending_force_tolerance;
-  const Input moment = terms.elastic * (angle.value - terms.rest_angle) + terms.damping * (angle.value - start);
+  const Second<1, Input> energy = along(angle.value, [&](const Second<1, Input>& a) { return term.energy_of(a); });
   const double gradient = inputs.condition(angle.slope),
                error = compare::bending_gradient * compare::unit_roundoff * gradient;
-  return {moment_share * error * inputs.condition({&moment, 1}),
-          error * (terms.elastic.value + terms.damping.value) * gradient};
+  return {moment_share * error * inputs.condition(energy.slope), error * energy.bend(0).value * gradient};
 }
 
 /// What is asked, as numbers that know their inputs.
@@ -70,48 +55,57 @@ struct Question {
   Inputs inputs;
   Hinge<ByVertex> x;
   Fold<Input> before;
-  Input stiffness, rest_angle, damping;
-  Triple<Input> moved;  ///< of the vertex, with damping by vertex
+  HingeTermOf<Input> term;  ///< with damping of the angle
+  Input damping;            ///< whatever it acts on
+  Triple<Input> moved;      ///< of the vertex, with damping by vertex
 
   explicit Question(const compare::BendingCase& q)
-      : asked(q),
-        x(now_of(q, inputs)),
-        before(inputs.stencil(q.start, 0)),
-        stiffness(inputs.number(q.stiffness)),
-        rest_angle(inputs.number(q.rest_angle)),
-        damping(inputs.number(q.damping)) {
+      : asked(q), x(now_of(q, inputs)), before(inputs.stencil(q.start, 0)) {
+    term.model = q.model;
+    term.stiffness = inputs.number(q.stiffness);
+    term.rest_angle = inputs.number(q.rest_angle);
+    damping = inputs.number(q.damping);
     const auto own = static_cast<std::size_t>(q.own);
-    if (by_vertex()) moved = inputs.vector(q.vertex[own], q.start[own]);
+    switch (q.damping_form) {
+      case DampingForm::strain: term.damping = damping; break;
+      case DampingForm::per_vertex: moved = inputs.vector(q.vertex[own], q.start[own]); break;
+    }
   }
-  bool by_vertex() const { return asked.damping_form == compare::DampingForm::per_vertex; }
+  bool by_vertex() const { return asked.damping_form == DampingForm::per_vertex; }
+  /// The term with this angle at the start.
+  HingeTermOf<Input> from(const Input& start) const {
+    HingeTermOf<Input> result = term;
+    result.start = start;
+    return result;
+  }
 };
 
 /// The answers over the angles that are accepted now and at the start, and none where the hinge may count as collapsed.
 template <class AnswerAt>
-std::vector<compare::ForceAnswer> over_angles(const Question& q, bool damped, AnswerAt answer_at) {
+std::vector<ForceAnswer> over_angles(const Question& q, bool damped, AnswerAt answer_at) {
   const Fold<ByVertex> now(q.x);
-  if (now.collapsed()) return {compare::ForceAnswer{}};
+  if (now.collapsed()) return {ForceAnswer{}};
   const std::vector<ByVertex> angles = with_turn(q.inputs, now.angle());
   std::vector<Input> starts = damped && !q.before.collapsed() ? with_turn(q.inputs, q.before.angle())
                                                               : std::vector{Input(0.0)};
   if (damped && !q.before.collapsed() && q.before.may_count_as_collapsed()) starts.push_back(Input(0.0));
-  std::vector<compare::ForceAnswer> answers;
+  std::vector<ForceAnswer> answers;
   for (const ByVertex& angle : angles)
     for (const Input& start : starts) answers.push_back(answer_at(angle, start));
   if (now.may_count_as_collapsed()) answers.push_back({});
   return answers;
 }
 
-std::vector<compare::ForceAnswer> hinge_answers(const Question& q) {
-  const AngleTerms terms{q.stiffness, q.rest_angle, q.by_vertex() ? Input(0.0) : q.stiffness * q.damping};
+std::vector<ForceAnswer> hinge_answers(const Question& q) {
   constexpr double vertex_units = (compare::bending_block_tolerance + compare::per_vertex_additions) /
                                   compare::bending_force_tolerance;
-  return over_angles(q, terms.damping.value > 0, [&](const ByVertex& angle, const Input& start) {
-    const Part part = at_angle(terms, angle, start);
-    const SecondOrder left = second_order(q.inputs, terms, angle, start);
-    compare::ForceAnswer result = q.by_vertex()
-                                      ? damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved)
-                                      : answer(q.inputs, part.energy, part.block);
+  return over_angles(q, (q.term.stiffness * q.term.damping).value > 0, [&](const ByVertex& angle, const Input& start) {
+    const HingeTermOf<Input> term = q.from(start);
+    VertexSystemOf<Input> system;
+    add_angle(term, angle, system);
+    const SecondOrder left = second_order(q.inputs, term, angle);
+    ForceAnswer result = q.by_vertex() ? damped_by_vertex(q.inputs, system, q.damping, q.moved)
+                                       : answer(q.inputs, system);
     result.block_scale += q.by_vertex() ? (1 + q.damping.value) * left.block : left.block;
     result.force_scale += left.force;
     if (!q.by_vertex()) return result;
@@ -121,48 +115,43 @@ std::vector<compare::ForceAnswer> hinge_answers(const Question& q) {
   });
 }
 
-/// c/2 ‖ℓ‖².
-Part isometric(Question& q) {
-  std::array<Input, 4> weight;
-  for (std::size_t k = 0; k < 3; ++k) weight[k + 1] = q.inputs.number(q.asked.weight[k]);
-  weight[0] = -weight[1] - weight[2] - weight[3];
-  Triple<ByVertex> curvature;
-  for (std::size_t k = 0; k < 4; ++k) curvature = curvature + ByVertex(weight[k]) * q.x[k];
-  Part part{ByVertex(Input(0.5) * q.stiffness) * dot(curvature, curvature), {}};
-  for (const ByVertex& component : curvature) add_outer(part.block, q.stiffness, component, component);
-  return part;
-}
-
-std::vector<compare::ForceAnswer> isometric_answers(Question& q) {
+std::vector<ForceAnswer> isometric_answers(Question& q) {
   constexpr double force_units = compare::isometric_force_tolerance / compare::bending_force_tolerance;
   constexpr double block_units = compare::isometric_block_tolerance / compare::bending_block_tolerance;
   constexpr double vertex_units = (compare::isometric_block_tolerance + compare::per_vertex_additions) /
                                   compare::bending_force_tolerance;
-  const Part part = isometric(q);
+  for (std::size_t k = 0; k < 3; ++k) q.term.weight[k + 1] = q.inputs.number(q.asked.weight[k]);
+  q.term.weight[0] = -q.term.weight[1] - q.term.weight[2] - q.term.weight[3];
+  VertexSystemOf<Input> system;
+  add_positions(q.term, q.x, system);
   if (q.by_vertex())
-    return {
-        with_units(damped_by_vertex(q.inputs, part.energy, part.block, q.damping, q.moved), vertex_units, block_units)};
-  const compare::ForceAnswer elastic = with_units(answer(q.inputs, part.energy, part.block), force_units, block_units);
-  if (q.damping.value == 0) return {elastic};
-  const AngleTerms terms{Input(0.0), Input(0.0), q.stiffness * q.damping};
-  std::vector<compare::ForceAnswer> answers = over_angles(q, true, [&](const ByVertex& angle, const Input& start) {
-    const Part damping = at_angle(terms, angle, start);
-    compare::ForceAnswer result = answer(q.inputs, damping.energy, damping.block);
-    const SecondOrder left = second_order(q.inputs, terms, angle, start);
+    return {with_units(damped_by_vertex(q.inputs, system, q.damping, q.moved), vertex_units, block_units)};
+  const ForceAnswer elastic = with_units(answer(q.inputs, system), force_units, block_units);
+  if (!q.term.has_angle()) return {elastic};
+  std::vector<ForceAnswer> answers = over_angles(q, true, [&](const ByVertex& angle, const Input& start) {
+    const HingeTermOf<Input> term = q.from(start);
+    VertexSystemOf<Input> damping;
+    add_angle(term, angle, damping);
+    ForceAnswer result = answer(q.inputs, damping);
+    const SecondOrder left = second_order(q.inputs, term, angle);
     result.force_scale += left.force;
     result.block_scale += left.block;
     return result;
   });
-  for (compare::ForceAnswer& one : answers) one = sum(one, elastic);
+  for (ForceAnswer& one : answers) one = sum(one, elastic);
   return answers;
 }
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question) {
-  if (question.model == compare::BendingModel::none) return {compare::ForceAnswer{}};
-  Question q(question);
-  return question.model == compare::BendingModel::isometric_quadratic ? isometric_answers(q) : hinge_answers(q);
+std::vector<ForceAnswer> bending(const compare::BendingCase& asked) {
+  Question q(asked);
+  switch (asked.model) {
+    case BendingModel::none: break;
+    case BendingModel::discrete_hinge: return hinge_answers(q);
+    case BendingModel::isometric_quadratic: return isometric_answers(q);
+  }
+  return {ForceAnswer{}};
 }
 
 compare::ForceTruth bending(const compare::BendingIn& in) {

@@ -91,8 +91,9 @@ ClosestForm closest_form(compare::ContactSides sides, const Corners& x) {
     case compare::ContactSides::point_edge: return point_segment(x, 0, 1, 2);
     case compare::ContactSides::edge_edge: return edge_edge(x);
     case compare::ContactSides::point_triangle: return point_triangle(x);
-    default: return points(0, 1);
+    case compare::ContactSides::point_point: break;
   }
+  return points(0, 1);
 }
 
 }  // namespace ogc::reference

@@ -24,13 +24,35 @@ T activation_energy(compare::ContactActivation kind, const T& d, const P& r, con
   using std::log;
   const P tau = P(0.5) * r;
   const T depth = T(r) - d;
+  T energy(0.0);
   switch (kind) {
-    case compare::ContactActivation::ogc_as_printed: return two_stage_energy(d, r, k, tau * k * (tau - r) * (tau - r));
-    case compare::ContactActivation::quadratic: return P(0.5) * k * depth * depth;
-    case compare::ContactActivation::ipc_log: return -k * depth * depth * log(P(1.0) / r * d);
-    case compare::ContactActivation::cubic: return P(2.0) * k / (P(3.0) * r) * depth * depth * depth;
-    default: return two_stage_energy(d, r, k, tau * k * (r - tau));
+    case compare::ContactActivation::ogc: energy = two_stage_energy(d, r, k, tau * k * (r - tau)); break;
+    case compare::ContactActivation::ogc_as_printed:
+      energy = two_stage_energy(d, r, k, tau * k * (tau - r) * (tau - r));
+      break;
+    case compare::ContactActivation::quadratic: energy = P(0.5) * k * depth * depth; break;
+    case compare::ContactActivation::ipc_log: energy = -k * depth * depth * log(P(1.0) / r * d); break;
+    case compare::ContactActivation::cubic: energy = P(2.0) * k / (P(3.0) * r) * depth * depth * depth; break;
   }
+  return energy;
+}
+
+/// Where g is not smooth.
+struct ActivationForm {
+  bool has_stages = false;  ///< another formula below τ = r/2
+  bool jumps = false;       ///< g' jumps at τ
+  bool ends_flat = false;   ///< g' is 0 at r and has no slope there
+};
+/// Of one activation.
+inline ActivationForm form_of(compare::ContactActivation kind) {
+  switch (kind) {
+    case compare::ContactActivation::ogc: return {.has_stages = true};
+    case compare::ContactActivation::ogc_as_printed: return {.has_stages = true, .jumps = true};
+    case compare::ContactActivation::quadratic: break;
+    case compare::ContactActivation::ipc_log:
+    case compare::ContactActivation::cubic: return {.ends_flat = true};
+  }
+  return {};
 }
 
 /// The same with its end: 0 from r on.

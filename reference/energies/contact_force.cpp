@@ -33,7 +33,7 @@ compare::ForceAnswer acting(const Meeting& meeting, const compare::ContactForceC
   const ByVertex energy = meeting.energy(meeting.acting_distance(distance));
   const Slopes at = slopes(meeting);
   Block block;
-  add_outer(block, at.second * meeting.majorant(question), of_whole, of_whole);
+  add_outer(at.second * meeting.majorant(question), of_whole.slope, of_whole.slope, block);
   compare::ForceAnswer result = answer(meeting.inputs, energy, block);
   result.force_scale += meeting.slope_doubt() / (compare::unit_roundoff * compare::contact_force_tolerance);
   add_weight_error(meeting, question, reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}),

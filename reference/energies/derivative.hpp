@@ -11,6 +11,9 @@
 
 namespace ogc::reference {
 
+/// The number without its derivatives.
+inline double plain(double x) { return x; }
+
 /// `count`: slopes from this direction on are 0. Most factors of an energy do not move, or with few of its inputs, and
 /// what is 0 need not be computed.
 template <class T, std::size_t N>
@@ -54,15 +57,27 @@ struct Derivative {
     return c;
   }
   friend Derivative operator-(const Derivative& a) { return Derivative() - a; }
+  Derivative& operator+=(const Derivative& b) { return *this = *this + b; }
+  Derivative& operator-=(const Derivative& b) { return *this = *this - b; }
+  Derivative& operator*=(const Derivative& b) { return *this = *this * b; }
+  /// Of the values, for branches.
+  friend bool operator==(const Derivative& a, double b) requires(!std::is_same_v<T, double>) { return a.value == b; }
+  friend bool operator==(const Derivative& a, const T& b) { return a.value == b; }
 };
 
-/// The number without its derivatives.
-inline double plain(double x) { return x; }
 /// −1 where x < 0, else 1.
 inline double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
 template <class T, std::size_t N>
 double plain(const Derivative<T, N>& x) {
   return plain(x.value);
+}
+
+/// max(0, x) that keeps x's derivatives: the unit of a judged error must hold on both sides of the corner.
+inline double positive_part(double x) { return std::max(0.0, x); }
+template <class T, std::size_t N>
+Derivative<T, N> positive_part(Derivative<T, N> x) {
+  x.value = positive_part(x.value);
+  return x;
 }
 
 /// f(x) from its value and slope there.
@@ -118,14 +133,16 @@ template <class T>
 Triple<T> operator*(const T& s, const Triple<T>& a) {
   return {s * a[0], s * a[1], s * a[2]};
 }
-template <std::size_t N>
-Triple<Derivative<double, N>> operator*(double s, const Triple<Derivative<double, N>>& a) {
-  return Derivative<double, N>(s) * a;
+template <class T, std::size_t N>
+Triple<Derivative<T, N>> operator*(const std::type_identity_t<T>& s, const Triple<Derivative<T, N>>& a) {
+  return Derivative<T, N>(s) * a;
 }
+/// Σ aᵢ bᵢ.
 template <class T>
 T dot(const Triple<T>& a, const Triple<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+/// a × b.
 template <class T>
 Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

@@ -30,7 +30,9 @@ struct Fold {
   Triple<T> edge, first, second;
   explicit Fold(const Hinge<T>& at)
       : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
+  /// Whether a triangle or the edge has no direction, so that there is no angle; a truth value, or one for each lane.
   auto collapsed() const { return is_zero(first) || is_zero(second); }
+  /// Whether a kernel may take the hinge as collapsed (compare/stages/bending.hpp).
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
   /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.
   bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {

@@ -61,7 +61,8 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   const ByVertex energy = chained(Input(strength * potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
-  for (const ByVertex& along : of_whole) add_outer(block, stiffness * meeting.majorant(q.contact), along, along);
+  for (const ByVertex& along : of_whole)
+    add_outer(stiffness * meeting.majorant(q.contact), along.slope, along.slope, block);
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double stiff = reach(inputs, {&stiffness, 1});
   add_weight_error(meeting, q.contact, stiff * reach(inputs, u), 2 * stiff, result);

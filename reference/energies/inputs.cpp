@@ -91,40 +91,29 @@ Triple<ByVertex> fixed(const Triple<Input>& point) {
 
 Triple<ByVertex> own_vertex() { return {ByVertex(Input(0.0), 0), ByVertex(Input(0.0), 1), ByVertex(Input(0.0), 2)}; }
 
-void add_outer(Block& block, const Input& weight, const ByVertex& a, const ByVertex& b) {
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j, ++k)
-      block[k] = block[k] + Input(0.5) * weight * (a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i]);
-}
-
-void add_identity(Block& block, const Input& weight) {
-  for (const std::size_t k : {0u, 3u, 5u}) block[k] = block[k] + weight;
-}
-
-compare::ForceAnswer answer(const Inputs& inputs, const Triple<Input>& force, const Block& block) {
+compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system) {
   compare::ForceAnswer result;
-  result.force = {force[0].value, force[1].value, force[2].value};
-  for (std::size_t k = 0; k < 6; ++k) result.block[k] = block[k].value;
-  result.force_scale = inputs.condition(force);
-  result.block_scale = inputs.condition(block);
+  result.force = {system.force[0].value, system.force[1].value, system.force[2].value};
+  for (std::size_t k = 0; k < 6; ++k) result.block[k] = system.block[k].value;
+  result.force_scale = inputs.condition(system.force);
+  result.block_scale = inputs.condition(system.block);
   return result;
 }
 
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block) {
-  return answer(inputs, Triple<Input>{-energy.slope[0], -energy.slope[1], -energy.slope[2]}, block);
+  return answer(inputs, {{-energy.slope[0], -energy.slope[1], -energy.slope[2]}, block});
 }
 
-compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block,
-                                      const Input& damping, const Triple<Input>& moved) {
+compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
+                                      const Triple<Input>& moved) {
+  const Block& block = elastic.block;
   const Triple<Input> resisted{dot(Triple<Input>{block[0], block[1], block[2]}, moved),
                                dot(Triple<Input>{block[1], block[3], block[4]}, moved),
                                dot(Triple<Input>{block[2], block[4], block[5]}, moved)};
-  Triple<Input> force;
-  Block grown;
-  for (std::size_t i = 0; i < 3; ++i) force[i] = -energy.slope[i] - damping * resisted[i];
-  for (std::size_t i = 0; i < 6; ++i) grown[i] = (Input(1.0) + damping) * block[i];
-  return answer(inputs, force, grown);
+  VertexSystemOf<Input> damped;
+  for (std::size_t i = 0; i < 3; ++i) damped.force[i] = elastic.force[i] - damping * resisted[i];
+  for (std::size_t i = 0; i < 6; ++i) damped.block[i] = (Input(1.0) + damping) * block[i];
+  return answer(inputs, damped);
 }
 
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block) {
@@ -139,12 +128,6 @@ compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b) 
   a.force_scale += b.force_scale;
   a.block_scale += b.block_scale;
   return a;
-}
-
-Input positive_part(const Input& x) {
-  Input result = x;
-  if (result.value < 0) result.value = 0;
-  return result;
 }
 
 }  // namespace ogc::reference

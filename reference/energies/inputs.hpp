@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compare/stages/force.hpp"
-#include "reference/energies/derivative.hpp"
+#include "reference/energies/vertex_block.hpp"
 
 namespace ogc::reference {
 
@@ -20,6 +20,7 @@ class Inputs {
  public:
   /// p − from as one input. Exact: differences of single-precision numbers of one size have no rounding in double.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
+  /// A number that is given, known to u of itself.
   Input number(double value) { return number(value, std::abs(value)); }
   /// A number that is known to u times `size`: with the condition of a number as its size, its own inputs need not be
   /// carried along.
@@ -57,27 +58,22 @@ Triple<ByVertex> fixed(const Triple<Input>& point);
 /// The vertex asked about, at the origin of the relative coordinates.
 Triple<ByVertex> own_vertex();
 
-/// The block of a sweep, lower triangle left out.
-using Block = std::array<Input, 6>;
-/// block += weight · ∂a/∂x ∂b/∂xᵀ, made symmetric.
-void add_outer(Block& block, const Input& weight, const ByVertex& a, const ByVertex& b);
-void add_identity(Block& block, const Input& weight);
+/// The block of a sweep that knows its inputs.
+using Block = BlockOf<Input>;
 
-/// The answer of a force, or of an energy, and its block.
-compare::ForceAnswer answer(const Inputs& inputs, const Triple<Input>& force, const Block& block);
+/// A force and its block as an answer.
+compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system);
+/// The same of an energy, whose force is minus its slope.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
 /// B moved, of a vertex that moved since the start of the step, as a force of damping `k`: −k B moved, on top of the
 /// elastic force, and (1 + k) B for B.
-compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const ByVertex& energy, const Block& block,
-                                      const Input& damping, const Triple<Input>& moved);
+compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
+                                      const Triple<Input>& moved);
 
 /// Multiplies the units of error: what a stage's tolerance is to one of its models.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
 /// Both at once, rounded apart.
 compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);
-
-/// max(0, x) that keeps x's derivatives: the unit of the errors must hold on both sides of the corner.
-Input positive_part(const Input& x);
 
 }  // namespace ogc::reference

@@ -55,8 +55,9 @@ Parameters on_triangle(const Inputs& inputs, TriangleFeature feature, const Vert
     case TriangleFeature::edge_01: return {foot(p, a, b), none(plane[1])};
     case TriangleFeature::edge_12: return {foot(p, c, b), foot(p, b, c) - none(one - plane[0] - plane[1])};
     case TriangleFeature::edge_20: return {none(plane[0]), foot(p, a, c)};
-    default: return plane;
+    case TriangleFeature::interior: break;
   }
+  return plane;
 }
 
 std::vector<Parameters> all_on_triangle(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
@@ -141,8 +142,9 @@ std::vector<Parameters> all_parameters(const Inputs& inputs, const ContactForceC
     case ContactSides::point_edge: return all_on_segment(inputs, q, x);
     case ContactSides::edge_edge: return all_on_edges(inputs, q, x);
     case ContactSides::point_triangle: return all_on_triangle(inputs, q, x);
-    default: return {{zero, zero}};
+    case ContactSides::point_point: break;
   }
+  return {{zero, zero}};
 }
 
 std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input& second) {
@@ -150,8 +152,9 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
     case ContactSides::point_edge: return {one, first - one, -first, zero};
     case ContactSides::edge_edge: return {one - first, first, second - one, -second};
     case ContactSides::point_triangle: return {one, first + second - one, -first, -second};
-    default: return {one, -one, zero, zero};
+    case ContactSides::point_point: break;
   }
+  return {one, -one, zero, zero};
 }
 
 /// e_k as one number. Its size holds, beside its condition, the square of the normal's error: 4 u ‖e‖‖e'‖ by two
@@ -195,7 +198,7 @@ Meeting begun(const ContactForceCase& q) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(q.sides)); ++k) {
     if (k != base) meeting.vertex[k] = meeting.inputs.vector(q.vertex[k], q.vertex[base]);
   }
-  meeting.radius = meeting.inputs.number(q.contact_radius);
+  meeting.contact_radius = meeting.inputs.number(q.contact_radius);
   meeting.stiffness = meeting.inputs.number(q.stiffness);
   meeting.activation = q.activation;
   return meeting;
@@ -237,8 +240,9 @@ bool near_features(const ContactForceCase& q) {
       const Corners corners{x[1], x[2], x[3]};
       return near_feature(corners, closest_feature(corners, x[0]), x[0]);
     }
-    default: return false;
+    case ContactSides::point_point: break;
   }
+  return false;
 }
 
 Input modulus(const Input& x) { return x.value < 0 ? -x : x; }
@@ -268,11 +272,9 @@ Triple<Input> Meeting::separation() const {
 }
 
 double Meeting::slope_doubt() const {
-  const bool flat = activation == compare::ContactActivation::ipc_log ||
-                    activation == compare::ContactActivation::cubic;
-  if (!flat || std::abs(distance.value - radius.value) > 2 * distance_doubt) return 0;
-  const Derivative<double, 1> d(std::max(0x1p-23 * radius.value, radius.value - 3 * distance_doubt), 0);
-  return -activation_energy(activation, d, radius.value, stiffness.value).slope[0];
+  if (!form_of(activation).ends_flat || std::abs(distance.value - contact_radius.value) > 2 * distance_doubt) return 0;
+  const Derivative<double, 1> d(std::max(0x1p-23 * contact_radius.value, contact_radius.value - 3 * distance_doubt), 0);
+  return -activation_energy(activation, d, contact_radius.value, stiffness.value).slope[0];
 }
 
 std::vector<Meeting> meetings(const ContactForceCase& question) {
@@ -303,9 +305,9 @@ std::vector<Meeting> meetings(const ContactForceCase& question) {
 bool is_near_decision(const ContactForceCase& question, const Meeting& exact) {
   const double width = exact.distance_doubt * (compare::near_factor / (compare::contact_grey * compare::unit_roundoff));
   const auto near = [&](double place) { return std::abs(exact.distance.value - place) <= width; };
-  const bool has_stages = question.activation == compare::ContactActivation::ogc ||
-                          question.activation == compare::ContactActivation::ogc_as_printed;
-  return near(exact.radius.value) || (has_stages && near(0.5 * exact.radius.value)) || near_features(question);
+  const bool has_stages = form_of(question.activation).has_stages;
+  return near(exact.contact_radius.value) || (has_stages && near(0.5 * exact.contact_radius.value)) ||
+         near_features(question);
 }
 
 LargestSlopes largest_slopes(const ContactForceCase& question, double distance) {

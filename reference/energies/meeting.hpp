@@ -23,8 +23,8 @@ namespace ogc::reference {
 struct Meeting {
   Inputs inputs;
   std::array<Triple<Input>, 4> vertex;
-  std::array<Input, 4> weight;  ///< those of the first side add up to 1, those of the second to −1
-  Input radius, stiffness;      ///< r; k_c e_k
+  std::array<Input, 4> weight;      ///< those of the first side add up to 1, those of the second to −1
+  Input contact_radius, stiffness;  ///< r; k_c e_k
   compare::ContactActivation activation = compare::ContactActivation::ogc;
   bool across = false;        ///< asked for the other side of the jump of g' at τ, which d cannot be told from
   Input distance;             ///< d, without derivatives where it is 0
@@ -41,7 +41,7 @@ struct Meeting {
   /// of that corner.
   template <class T>
   T acting_distance(T d) const {
-    const double least = 0x1p-23 * radius.value, tau = 0.5 * radius.value;
+    const double least = 0x1p-23 * contact_radius.value, tau = 0.5 * contact_radius.value;
     if (plain(d) < least) set_plain(d, least);
     if (across) set_plain(d, plain(d) < tau ? tau : std::nextafter(tau, 0.0));
     return d;
@@ -49,19 +49,19 @@ struct Meeting {
   /// g at the acting distance, over any number type.
   template <class T>
   T energy(const T& acting) const {
-    return activation_energy(activation, acting, T(radius), T(stiffness));
+    return activation_energy(activation, acting, T(contact_radius), T(stiffness));
   }
   /// Whether g' jumps where d is.
   bool may_jump() const {
-    return activation == compare::ContactActivation::ogc_as_printed &&
-           std::abs(distance.value - 0.5 * radius.value) <= distance_doubt;
+    return form_of(activation).jumps && std::abs(distance.value - 0.5 * contact_radius.value) <= distance_doubt;
   }
   /// What first order does not say of −g': of activations whose g' has no slope at r, how large it is within the doubt
   /// about r [N].
   double slope_doubt() const;
-  bool acts() const { return distance.value > 0 && distance.value < radius.value; }
+  /// Whether the contact has a force: 0 < d < r.
+  bool acts() const { return distance.value > 0 && distance.value < contact_radius.value; }
   /// Whether d cannot be told from r.
-  bool may_end() const { return std::abs(distance.value - radius.value) <= distance_doubt; }
+  bool may_end() const { return std::abs(distance.value - contact_radius.value) <= distance_doubt; }
   /// Whether the contact points cannot be told from touching ones: neither d nor n is known.
   bool may_touch() const { return distance.value <= 2 * doubt; }
 
@@ -88,6 +88,7 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
 struct LargestSlopes {
   double first = 0, second = 0;
 };
+/// At any distance from `distance` on [m].
 LargestSlopes largest_slopes(const compare::ContactForceCase& question, double distance);
 /// |w| Σ |w_u| is no larger: moduli of all weights add up to 2.
 inline double largest_majorant(const compare::ContactForceCase& question) { return question.together == 0 ? 1 : 2; }

@@ -193,13 +193,17 @@ class Builder {
                    const Inputs& inputs) {
     std::array<double, 3> weight{};
     double scale = 0;
-    if (model == compare::BendingModel::isometric_quadratic) {
-      const auto value = fold.weights(opposite[0], opposite[1]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        weight[k] = static_cast<double>(value[k]);
-        truth_.exact.hinges.back().weight[k] = static_cast<float>(value[k]);
+    switch (model) {
+      case compare::BendingModel::none:
+      case compare::BendingModel::discrete_hinge: break;
+      case compare::BendingModel::isometric_quadratic: {
+        const auto value = fold.weights(opposite[0], opposite[1]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          weight[k] = static_cast<double>(value[k]);
+          truth_.exact.hinges.back().weight[k] = static_cast<float>(value[k]);
+        }
+        scale = inputs.condition(reacting.weights(reacting_opposite[0], reacting_opposite[1]));
       }
-      scale = inputs.condition(reacting.weights(reacting_opposite[0], reacting_opposite[1]));
     }
     truth_.weight.push_back(weight);
     truth_.weight_scale.push_back(scale);

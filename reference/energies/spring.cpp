@@ -2,23 +2,10 @@
 
 #include "reference/energies/inputs.hpp"
 #include "reference/energies/parallel.hpp"
+#include "reference/energies/spring_terms.hpp"
 
 namespace ogc::reference {
 namespace {
-
-/// max(0, 1 − l₀/l), 1 where l = 0.
-Input across_spring(const Input& length, const Input& rest_length) {
-  return length.value > 0 ? positive_part(Input(1.0) - rest_length / length) : Input(1.0);
-}
-
-/// k_s (n nᵀ + max(0, 1 − l₀/l)(w² I − n nᵀ)) with n = ∂l/∂x, and w that of x.
-Block elastic_block(const ByVertex& length, const Input& weight, const Input& stiffness, const Input& rest_length) {
-  Block block;
-  const Input across = across_spring(length.value, rest_length);
-  add_identity(block, weight * weight * stiffness * across);
-  add_outer(block, stiffness * (Input(1.0) - across), length, length);
-  return block;
-}
 
 /// Σ wᵢ xᵢ now and at the start, from the vertex asked about.
 struct Separation {
@@ -62,7 +49,7 @@ double lost_block(const Inputs& inputs, const compare::SpringCase& q, const Sepa
   const double known = 4 * compare::unit_roundoff * inputs.condition(apart);
   if (length.value > 2 * known) return 0;
   const double weight = ends.weight[static_cast<std::size_t>(q.own)].value;
-  return std::sqrt(2.0) * weight * weight * q.stiffness * across_spring(length, Input(q.rest_length)).value;
+  return std::sqrt(2.0) * weight * weight * q.stiffness * held_across(length, Input(q.rest_length)).value;
 }
 
 compare::ForceAnswer with_lost(compare::ForceAnswer answer, double force, double block) {
@@ -77,28 +64,36 @@ compare::ForceAnswer spring(const compare::SpringCase& q) {
   Inputs inputs;
   const auto own = static_cast<std::size_t>(q.own);
   const Separation ends(inputs, q);
-  const Input stiffness = inputs.number(q.stiffness), rest_length = inputs.number(q.rest_length),
-              damping = inputs.number(q.damping);
-  const ByVertex length = sqrt(dot(ends.apart, ends.apart));
-  ByVertex energy = spring_energy(length, ByVertex(stiffness), ByVertex(rest_length));
-  Block block = elastic_block(length, ends.weight[own], stiffness, rest_length);
+  SpringTermOf<Input> term;
+  term.stiffness = inputs.number(q.stiffness);
+  term.rest_length = inputs.number(q.rest_length);
+  const Input damping = inputs.number(q.damping), length = sqrt(dot(ends.apart, ends.apart)).value;
   const double force_tolerance = q.ratio > 0 ? compare::stitch_force_tolerance : compare::spring_force_tolerance;
   const double block_tolerance = q.ratio > 0 ? compare::stitch_block_tolerance : compare::spring_block_tolerance;
   const double block_units = block_tolerance / compare::spring_block_tolerance;
-  const double lost = lost_block(inputs, q, ends, length.value);
-  if (q.damping_form == compare::DampingForm::per_vertex) {
-    const double units = (block_tolerance + compare::per_vertex_additions) / compare::spring_force_tolerance;
-    const Triple<Input> moved = inputs.vector(q.vertex[own], q.start[own]);
-    const double distance = sqrt(dot(moved, moved)).value;
-    return with_lost(with_units(damped_by_vertex(inputs, energy, block, damping, moved), units, block_units),
-                     q.damping * lost * distance, (1 + q.damping) * lost);
+  const double lost = lost_block(inputs, q, ends, length);
+  VertexSystemOf<Input> system;
+  compare::ForceAnswer result;
+  switch (q.damping_form) {
+    case compare::DampingForm::strain: {
+      term.damping = damping;
+      term.start = sqrt(dot(ends.before, ends.before));
+      add_spring(term, ends.weight[own], ends.apart, system);
+      const double units = force_tolerance / compare::spring_force_tolerance;
+      result = with_lost(with_units(answer(inputs, system), units, block_units), 0, lost);
+      break;
+    }
+    case compare::DampingForm::per_vertex: {
+      add_spring(term, ends.weight[own], ends.apart, system);
+      const double units = (block_tolerance + compare::per_vertex_additions) / compare::spring_force_tolerance;
+      const Triple<Input> moved = inputs.vector(q.vertex[own], q.start[own]);
+      const double distance = sqrt(dot(moved, moved)).value;
+      result = with_lost(with_units(damped_by_vertex(inputs, system, damping, moved), units, block_units),
+                         q.damping * lost * distance, (1 + q.damping) * lost);
+      break;
+    }
   }
-  const Input resistance = damping * stiffness;
-  energy = energy + spring_energy(length, ByVertex(resistance), ByVertex(sqrt(dot(ends.before, ends.before))));
-  add_outer(block, resistance, length, length);
-  return with_lost(
-      with_units(answer(inputs, energy, block), force_tolerance / compare::spring_force_tolerance, block_units), 0,
-      lost);
+  return result;
 }
 
 compare::ForceTruth spring(const compare::SpringIn& in) {

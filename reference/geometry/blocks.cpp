@@ -18,34 +18,34 @@ Complex::Vertices Complex::vertices(Face face) const {
   return {triangle(face.index), 3};
 }
 
-Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float radius) {
+Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float contact_radius) {
   const auto v = mesh.vertices(face).items;
-  if (face.kind == FaceKind::vertex) return gap_points(mesh.at(v[0]), x, radius);
-  if (face.kind == FaceKind::edge) return gap_line(mesh.at(v[0]), mesh.at(v[1]), x, radius);
-  return gap_plane(mesh.at(v[0]), mesh.at(v[1]), mesh.at(v[2]), x, radius);
+  if (face.kind == FaceKind::vertex) return gap_points(mesh.at(v[0]), x, contact_radius);
+  if (face.kind == FaceKind::edge) return gap_line(mesh.at(v[0]), mesh.at(v[1]), x, contact_radius);
+  return gap_plane(mesh.at(v[0]), mesh.at(v[1]), mesh.at(v[2]), x, contact_radius);
 }
 
-bool in_block(const Complex& mesh, Face face, const Vec3f& x, float radius) {
+bool in_block(const Complex& mesh, Face face, const Vec3f& x, float contact_radius) {
   bool inside = true;
   visit_block(mesh, face, x, [&](const Boundary& boundary) { return inside = holds(boundary.condition); });
-  return inside && sign(face_gap(mesh, face, x, radius)) <= 0;
+  return inside && sign(face_gap(mesh, face, x, contact_radius)) <= 0;
 }
 
-bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float radius) {
+bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float contact_radius) {
   bool inside = true;
   visit_block(mesh, face, x, [&](const Boundary& boundary) {
     if (boundary.condition.margin.kind == MarginKind::along) inside = holds(boundary.condition);
     return inside;
   });
-  return inside && sign(face_gap(mesh, face, x, radius)) <= 0;
+  return inside && sign(face_gap(mesh, face, x, contact_radius)) <= 0;
 }
 
-Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius) {
+Margin pair_gap(const Complex& mesh, const FacePair& pair, float contact_radius) {
   const auto a = mesh.vertices(pair.first).items, b = mesh.vertices(pair.second).items;
   if (pair.first.kind == FaceKind::edge)
-    return gap_lines(mesh.at(a[0]), mesh.at(a[1]), mesh.at(b[0]), mesh.at(b[1]), radius);
-  if (pair.second.kind == FaceKind::edge) return gap_line(mesh.at(b[0]), mesh.at(b[1]), mesh.at(a[0]), radius);
-  return gap_points(mesh.at(a[0]), mesh.at(b[0]), radius);
+    return gap_lines(mesh.at(a[0]), mesh.at(a[1]), mesh.at(b[0]), mesh.at(b[1]), contact_radius);
+  if (pair.second.kind == FaceKind::edge) return gap_line(mesh.at(b[0]), mesh.at(b[1]), mesh.at(a[0]), contact_radius);
+  return gap_points(mesh.at(a[0]), mesh.at(b[0]), contact_radius);
 }
 
 bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first,

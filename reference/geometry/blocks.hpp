@@ -18,12 +18,17 @@ struct Complex {
   const compare::Topology& topology;
   std::span<const Vec3f> positions;
 
+  /// Where a vertex is [m].
   const Vec3f& at(Index vertex) const { return positions[static_cast<std::size_t>(vertex)]; }
+  /// The ends of an edge.
   const compare::Edge& edge(Index e) const { return topology.edges[static_cast<std::size_t>(e)]; }
+  /// The corners of a triangle.
   const compare::Triangle& triangle(Index t) const { return topology.triangles[static_cast<std::size_t>(t)]; }
+  /// Edges that end at a vertex.
   std::span<const Index> edges_of(Index vertex) const {
     return topology.vertex_edges[static_cast<std::size_t>(vertex)];
   }
+  /// Triangles of an edge, at most as many as it has.
   std::span<const Index> triangles_of(Index e) const { return topology.edge_triangles[static_cast<std::size_t>(e)]; }
   /// The vertex of edge e that is not `vertex`.
   Index across(Index e, Index vertex) const { return edge(e)[0] == vertex ? edge(e)[1] : edge(e)[0]; }
@@ -35,13 +40,17 @@ struct Complex {
   struct Vertices {
     std::array<Index, 3> items{-1, -1, -1};
     int count = 0;
+    /// Those that there are.
     std::span<const Index> span() const { return {items.data(), static_cast<std::size_t>(count)}; }
   };
   Vertices vertices(Face face) const;
 };
 
+/// A vertex as a face.
 inline Face vertex_face(Index v) { return {FaceKind::vertex, v}; }
+/// An edge as a face.
 inline Face edge_face(Index e) { return {FaceKind::edge, e}; }
+/// A triangle as a face.
 inline Face triangle_face(Index t) { return {FaceKind::triangle, t}; }
 
 /// A condition of a block and the face whose block begins where it ends.
@@ -79,19 +88,20 @@ void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
 }
 
 /// The distance from x to the point, line or plane of a face, as a gap.
-Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float radius);
+Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
 /// x ∈ U_a, closed at distance r (Eq. 8, 9, 10).
-bool in_block(const Complex& mesh, Face face, const Vec3f& x, float radius);
+bool in_block(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
 /// x ∈ U_a^E for a vertex or an edge (Eq. 14, 15).
-bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float radius);
+bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
 /// Two faces of the edge-only manifold.
 struct FacePair {
   Face first, second;
   friend auto operator<=>(const FacePair&, const FacePair&) = default;
 };
+/// The lower-numbered face first.
 inline FacePair ordered(Face a, Face b) { return a < b ? FacePair{a, b} : FacePair{b, a}; }
 
 /// A condition on a pair of faces and the pair that holds the closest points where it ends.
@@ -114,6 +124,7 @@ void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   }
 }
 
+/// The conditions of Eq. 15 from both sides, for two ends.
 template <class Visit>
 void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
   for (const Index e : mesh.edges_of(p)) {
@@ -126,6 +137,7 @@ void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
   }
 }
 
+/// The conditions of Eq. 14 from both sides, for two interiors.
 template <class Visit>
 void visit_edge_edge(const Complex& mesh, Index e, Index f, Visit visit) {
   const auto [p0, p1] = mesh.edge(e);
@@ -146,7 +158,7 @@ void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
 }
 
 /// The distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
-Margin pair_gap(const Complex& mesh, const FacePair& pair, float radius);
+Margin pair_gap(const Complex& mesh, const FacePair& pair, float contact_radius);
 
 /// True where a pair of primitives, given by their vertices, is none although they share no vertex
 /// (compare::Exclusions).

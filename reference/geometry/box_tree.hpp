@@ -18,10 +18,13 @@ struct Box {
   std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
 };
 
+/// Grows the box until it holds a point.
 void include(Box& box, const compare::Vec3f& point);
+/// Grows the box until it holds another one.
 void include(Box& box, const Box& other);
 /// The box, wider by `distance` [m] on all sides, up to one rounding of double.
 Box widened(Box box, double distance);
+/// Whether two closed boxes have a point in common.
 bool meet(const Box& a, const Box& b);
 
 /// A balanced binary tree over the boxes of numbered primitives.

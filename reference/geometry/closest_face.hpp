@@ -9,6 +9,7 @@
 namespace ogc::reference {
 
 using compare::TriangleFeature;
+/// The corners of a triangle [m].
 using Corners = std::array<Vec3f, 3>;
 
 /// Decided exactly.

@@ -16,6 +16,7 @@ struct EdgePair {
   std::array<Vec3f, 2> first, second;
 };
 
+/// Which part of each of two edges is closest to the other.
 struct EdgeFeatures {
   EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;
   friend bool operator==(const EdgeFeatures&, const EdgeFeatures&) = default;
@@ -23,6 +24,7 @@ struct EdgeFeatures {
 
 /// All nine combinations in the order that breaks ties: ends first.
 inline constexpr int edge_feature_pairs = 9;
+/// The pair with this number, below edge_feature_pairs.
 inline EdgeFeatures edge_features(int number) {
   return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)};
 }
@@ -39,6 +41,7 @@ Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 /// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the projection of the second edge on the line of the first overlaps the first in more
 /// than a point.
 Membership are_nearly_parallel(const EdgePair& pair);
+/// The exact answer of are_nearly_parallel.
 bool nearly_parallel(const EdgePair& pair);
 
 /// Whether the answer lies near a boundary: of the rule for nearly parallel edges, or, where that does not hold, of the

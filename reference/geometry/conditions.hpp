@@ -12,6 +12,7 @@ struct Condition {
   bool positive = true;
 };
 
+/// Exact.
 inline bool holds(const Condition& condition) { return (sign(condition.margin) > 0) == condition.positive; }
 
 /// What a conjunction of conditions amounts to.
@@ -38,6 +39,7 @@ inline void require(Membership& membership, const Condition& condition) {
 /// condition is near.
 class Nearness {
  public:
+  /// One condition more: whether it holds, and whether it is next to its boundary.
   void add(bool held, bool near) {
     within_reach_ = within_reach_ && (held || near);
     near_ = near_ || near;
@@ -46,7 +48,9 @@ class Nearness {
     const MarginAnswer margin = examine(condition.margin);
     add((margin.sign > 0) == condition.positive, margin.near);
   }
+  /// Whether no condition fails far from its boundary.
   bool within_reach() const { return within_reach_; }
+  /// Whether a boundary is near, and the rest within reach.
   bool is_near() const { return within_reach_ && near_; }
 
  private:

@@ -8,6 +8,7 @@
 
 namespace ogc::reference {
 
+/// One pair of contact points, by its parameters.
 struct EdgeParameters {
   std::array<double, 2> values{};  ///< in [0, 1]
   /// the larger Σ|∂s/∂δᵢ||δᵢ| of the two, δ relative to the first edge's end_0; at least 1, infinite where undefined

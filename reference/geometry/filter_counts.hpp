@@ -28,6 +28,7 @@ inline constexpr std::size_t filtered_predicates = 10;
 /// "gap_plane".
 std::string_view name(Filtered predicate);
 
+/// Of one predicate.
 struct FilterCount {
   std::uint64_t calls = 0;
   std::uint64_t undecided = 0;  ///< of these, left to exact numbers
@@ -39,6 +40,7 @@ struct FilterCounts {
   std::array<FilterCount, filtered_predicates> of{};
 
   const FilterCount& operator[](Filtered predicate) const { return of[static_cast<std::size_t>(predicate)]; }
+  /// The sum over all predicates.
   FilterCount total() const;
   /// What was counted after `earlier`.
   FilterCounts since(const FilterCounts& earlier) const;

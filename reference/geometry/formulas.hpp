@@ -18,11 +18,13 @@ Point<T> operator-(const Point<T>& a, const Point<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+/// Σ aᵢ bᵢ.
 template <class T>
 T dot(const Point<T>& a, const Point<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// a × b.
 template <class T>
 Point<T> cross(const Point<T>& a, const Point<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -64,11 +66,13 @@ struct Quotient {
   T numerator{}, denominator{};
 };
 
+/// Between two points [m²].
 template <class T>
 Quotient<T> squared_distance_points(const Point<T>& a, const Point<T>& p) {
   return {dot(p - a, p - a), T(1)};
 }
 
+/// Between p and the line through a and b [m²].
 template <class T>
 Quotient<T> squared_distance_line(const Point<T>& a, const Point<T>& b, const Point<T>& p) {
   const Point<T> e = b - a;
@@ -76,6 +80,7 @@ Quotient<T> squared_distance_line(const Point<T>& a, const Point<T>& b, const Po
   return {dot(c, c), dot(e, e)};
 }
 
+/// Between p and the plane through a, b and c [m²].
 template <class T>
 Quotient<T> squared_distance_plane(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& p) {
   const Point<T> n = cross(b - a, c - a);
@@ -83,6 +88,7 @@ Quotient<T> squared_distance_plane(const Point<T>& a, const Point<T>& b, const P
   return {height * height, dot(n, n)};
 }
 
+/// Between two lines [m²].
 template <class T>
 Quotient<T> squared_distance_lines(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> n = cross(p1 - p0, q1 - q0);

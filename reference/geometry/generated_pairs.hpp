@@ -29,6 +29,7 @@ struct Assembled {
   std::vector<compare::EdgeEdgeContact> contacts;
   std::vector<compare::GreyDecision<compare::EdgeEdgeContact>> grey;
 };
+/// Equal pairs of faces as one contact each, with its decision.
 Assembled assemble(const Complex& mesh, std::vector<Generated> generated, const std::vector<Doubt>& doubts);
 
 }  // namespace ogc::reference

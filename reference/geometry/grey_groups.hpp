@@ -20,9 +20,12 @@ class GreyGroups {
   /// Two contacts of which one ends where the other begins; both must have been added when groups are asked for.
   void join(const Key& a, const Key& b) { joins_.emplace_back(a, b); }
 
+  /// Whether no contact is doubtful.
   bool empty() const { return entries_.empty(); }
+  /// Whether this contact is doubtful.
   bool contains(const Key& key) const { return entries_.contains(key); }
 
+  /// Contacts of one decision.
   struct Group {
     std::vector<Key> keys;
     bool absence = false;

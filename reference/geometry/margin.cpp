@@ -55,8 +55,10 @@ int degree(MarginKind kind) {
     case MarginKind::turn:
     case MarginKind::parallel:
     case MarginKind::gap_line: return 4;
-    default: return 6;
+    case MarginKind::gap_plane:
+    case MarginKind::gap_lines: break;
   }
+  return 6;
 }
 
 template <class T>
@@ -65,8 +67,13 @@ Quotient<T> squared_distance(MarginKind kind, const Points<T>& at) {
     case MarginKind::gap_points: return squared_distance_points(at[0], at[1]);
     case MarginKind::gap_line: return squared_distance_line(at[0], at[1], at[2]);
     case MarginKind::gap_plane: return squared_distance_plane(at[0], at[1], at[2], at[3]);
-    default: return squared_distance_lines(at[0], at[1], at[2], at[3]);
+    case MarginKind::gap_lines: return squared_distance_lines(at[0], at[1], at[2], at[3]);
+    case MarginKind::along:
+    case MarginKind::side:
+    case MarginKind::turn:
+    case MarginKind::parallel: break;
   }
+  throw std::logic_error("squared_distance: this margin is no gap");
 }
 
 template <class T>
@@ -76,11 +83,13 @@ T evaluate(MarginKind kind, const Points<T>& at, const T& radius) {
     case MarginKind::side: return side(at[0], at[1], at[2], at[3]);
     case MarginKind::turn: return turn(at[0], at[1], at[2], at[3]);
     case MarginKind::parallel: return parallel(at[0], at[1], at[2], at[3]);
-    default: {
-      const Quotient<T> d = squared_distance(kind, at);
-      return d.numerator - radius * radius * d.denominator;
-    }
+    case MarginKind::gap_points:
+    case MarginKind::gap_line:
+    case MarginKind::gap_plane:
+    case MarginKind::gap_lines: break;
   }
+  const Quotient<T> d = squared_distance(kind, at);
+  return d.numerator - radius * radius * d.denominator;
 }
 
 template <class T>
@@ -192,8 +201,10 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
     case MarginKind::parallel: return parallel_sensitivity(at);
     case MarginKind::gap_points: return 2 * dot(at[1], at[1]);
     case MarginKind::gap_line: return line_sensitivity(at, margin.radius);
-    default: return gap_sensitivity(at, margin.radius, margin.kind == MarginKind::gap_plane);
+    case MarginKind::gap_plane:
+    case MarginKind::gap_lines: break;
   }
+  return gap_sensitivity(at, margin.radius, margin.kind == MarginKind::gap_plane);
 }
 
 /// Largest error of a value in double, in units of its modulus. On the longest way from a coordinate to a margin lie 18
@@ -364,7 +375,10 @@ double signed_length(const Margin& margin) {
     }
     case MarginKind::turn:
     case MarginKind::parallel: throw std::logic_error("signed_length: this margin is no length");
-    default: break;
+    case MarginKind::gap_points:
+    case MarginKind::gap_line:
+    case MarginKind::gap_plane:
+    case MarginKind::gap_lines: break;
   }
   const Quotient<Exact> d = squared_distance(margin.kind, at);  // d − r = (d² − r²) / (d + r)
   if (d.denominator.is_zero()) return 0;

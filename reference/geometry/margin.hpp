@@ -25,7 +25,9 @@ struct Margin {
   float radius = 0;  ///< r of a gap [m]
 };
 
+/// How far p is along the edge from a to b.
 inline Margin along(const Vec3f& a, const Vec3f& b, const Vec3f& p) { return {MarginKind::along, {a, b, p}}; }
+/// On which side of the edge ab, in the plane of abc, p is.
 inline Margin side(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p) {
   return {MarginKind::side, {a, b, c, p}};
 }
@@ -35,15 +37,19 @@ inline Margin turn(const Vec3f& p, const Vec3f& x, const Vec3f& q0, const Vec3f&
 inline Margin parallel(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const Vec3f& q1) {
   return {MarginKind::parallel, {p0, p1, q0, q1}};
 }
+/// d² − r² of two points.
 inline Margin gap_points(const Vec3f& a, const Vec3f& p, float radius = 0) {
   return {MarginKind::gap_points, {a, p}, radius};
 }
+/// d² − r² of p and the line ab.
 inline Margin gap_line(const Vec3f& a, const Vec3f& b, const Vec3f& p, float radius = 0) {
   return {MarginKind::gap_line, {a, b, p}, radius};
 }
+/// d² − r² of p and the plane abc.
 inline Margin gap_plane(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p, float radius = 0) {
   return {MarginKind::gap_plane, {a, b, c, p}, radius};
 }
+/// d² − r² of two lines.
 inline Margin gap_lines(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const Vec3f& q1, float radius = 0) {
   return {MarginKind::gap_lines, {p0, p1, q0, q1}, radius};
 }

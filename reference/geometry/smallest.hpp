@@ -13,6 +13,7 @@ class Smallest {
  public:
   Smallest(std::size_t count, float start) : values_(count, start) {}
 
+  /// Entry i becomes the smaller one of itself and `distance` [m].
   void lower(std::size_t i, float distance) {
     const std::atomic_ref<float> value(values_[i]);
     float seen = value.load(std::memory_order_relaxed);
@@ -22,6 +23,7 @@ class Smallest {
   /// The smallest so far; later ones are no larger.
   float so_far(std::size_t i) { return std::atomic_ref<float>(values_[i]).load(std::memory_order_relaxed); }
 
+  /// The distances; empties this.
   std::vector<float> take() { return std::move(values_); }
 
  private:

@@ -25,11 +25,11 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
     const Vec3f &from = in.previous[i], &to = in.position[i];
     const Margin gap = gap_points(from, to, in.bound[i]);
     const MarginAnswer margin = examine(gap);
-    const bool exceeded = margin.sign > 0;
-    truth.exceeded.push_back(exceeded);
+    const bool cut = margin.sign > 0;
+    truth.exceeded.push_back(cut);
     truth.grey.push_back(margin.grey);
     truth.near.push_back(margin.near);
-    truth.position.push_back(exceeded ? scaled_back(from, to, in.bound[i]) : compare::Vec3{to.x, to.y, to.z});
+    truth.position.push_back(cut ? scaled_back(from, to, in.bound[i]) : compare::Vec3{to.x, to.y, to.z});
   }
   return truth;
 }

@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Exceeded exactly where ‖x − x_prev‖ > b_v; then x_prev + (x − x_prev) b_v / ‖x − x_prev‖, otherwise x.
+/// Cut exactly where ‖x − x_prev‖ > b_v; then x_prev + (x − x_prev) b_v / ‖x − x_prev‖, otherwise x.
 compare::TruncateTruth truncate(const compare::TruncateIn& in);
 
 /// The nearest single-precision position, stepped towards X_prev until it obeys the bound.

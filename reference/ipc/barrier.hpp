@@ -91,6 +91,7 @@ struct BarrierTermOf {
     return composed(slopes.value, slopes.slope[0], slopes.bend(0), gap);
   }
 };
+/// A barrier over doubles.
 using BarrierTerm = BarrierTermOf<double>;
 
 }  // namespace ogc::reference

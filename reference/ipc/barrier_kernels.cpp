@@ -1,7 +1,7 @@
 // Compiled once for any machine and once for those with AVX2.
 #include "reference/ipc/barrier_kernels.hpp"
 
-#include "reference/energies/side_by_side.hpp"
+#include "reference/energies/stencils/side_by_side.hpp"
 
 namespace ogc::reference {
 

@@ -1,8 +1,8 @@
-// Derivatives of barriers, several of one form side by side, as energies/stencil_kernels.hpp has them of other
+// Derivatives of barriers, several of one form side by side, as energies/stencils/stencil_kernels.hpp has them of other
 // stencils.
 #pragma once
 
-#include "reference/energies/stencil_kernels.hpp"
+#include "reference/energies/stencils/stencil_kernels.hpp"
 #include "reference/ipc/barrier.hpp"
 
 namespace ogc::reference {
@@ -13,6 +13,7 @@ struct ShapedBarrierOf {
   BarrierTermOf<Number> barrier;
   BarrierShape shape;
 
+  /// By the vertices of the form [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return barrier.energy(shape, x);
@@ -22,6 +23,7 @@ struct ShapedBarrierOf {
   auto kinds() { return std::tuple_cat(barrier.kinds(), std::tie(shape.distance, shape.thickness)); }
   auto kinds() const { return std::tuple_cat(barrier.kinds(), std::tie(shape.distance, shape.thickness)); }
 };
+/// A barrier over doubles.
 using ShapedBarrier = ShapedBarrierOf<double>;
 
 /// By the number of vertices.
@@ -31,6 +33,7 @@ struct BarrierKernels {
   StencilKernels::Function<ShapedBarrier, 4> of_4;
 };
 
+/// For any machine, and for one with AVX2.
 extern const BarrierKernels barrier_kernels_baseline, barrier_kernels_avx2;
 
 }  // namespace ogc::reference

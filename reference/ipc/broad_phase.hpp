@@ -7,7 +7,7 @@
 
 #include "reference/geometry/blocks.hpp"
 #include "reference/geometry/box_tree.hpp"
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 

@@ -5,13 +5,12 @@
 #include <tbb/parallel_for.h>
 
 #include "reference/ipc/barrier_kernels.hpp"
-#include "reference/solvers/newton_batches.hpp"
+#include "reference/solvers/potential_batches.hpp"
 
 namespace ogc::reference {
 namespace {
 
 using compare::ContactSides;
-using compare::HessianProjection;
 using compare::Index;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reference/ipc/pairs.hpp"
-#include "reference/solvers/newton_matrix.hpp"
+#include "reference/solvers/newton/matrix.hpp"
 
 namespace ogc::reference {
 
@@ -27,6 +27,7 @@ double change(const IpcEnergy& from, const IpcEnergy& to);
 /// What rounding does to the sum [J].
 double value_noise(const IpcEnergy& energy);
 
+/// Derivatives of the incremental potential with barriers at one state.
 struct IpcDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<StencilVertices> vertices;  ///< of the stencils
@@ -34,6 +35,7 @@ struct IpcDerivatives {
   double energy_noise = 0;                ///< see PotentialDerivatives [J]
 };
 
+/// Energies of a step: the potential without contacts, barriers, lagged friction, the pull of prescribed vertices.
 class IpcForces {
  public:
   /// Scene: rounded and valid. Both must outlive it.
@@ -44,16 +46,18 @@ class IpcForces {
   /// λ, n and weights of these barriers at x, until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
+  /// At x, with the barriers of x and κ [J/m⁴].
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
   /// `room`: an earlier result whose memory is used again: a fresh one is tens of megabytes that the kernel would have
   /// to clear.
-  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness,
-                             compare::HessianProjection projection, IpcDerivatives room = {}) const;
+  IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection,
+                             IpcDerivatives room = {}) const;
   /// ∇ Σ b of the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 
   /// Prescribed vertices become unknowns, or are held where they are again (without a value).
   void pull(std::optional<Pull> pull) { pull_ = std::move(pull); }
+  /// The pull at present; empty where nothing is pulled.
   const std::optional<Pull>& pull() const { return pull_; }
   /// Of every vertex at present.
   bool unknown(std::size_t vertex) const {
@@ -62,6 +66,7 @@ class IpcForces {
   }
   /// m/h², and of pulled vertices ρ times that, by vertex [N/m].
   std::vector<double> diagonal() const;
+  /// What does not depend on contacts.
   const Potential& potential() const { return potential_; }
 
  private:

@@ -8,7 +8,7 @@
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
 #include "reference/ipc/barrier.hpp"
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 

@@ -5,7 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "reference/ipc/solver.hpp"
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/detection.hpp"
 
 namespace ogc::reference {
 namespace {

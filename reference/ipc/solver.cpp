@@ -43,9 +43,9 @@ double rest_diagonal(const compare::Scene& scene) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
-BarrierShape shape_of(const compare::Scene& scene) {
-  const compare::Settings& s = scene.settings;
-  return {s.ipc_distance > 0 ? s.ipc_distance : s.ipc_relative_distance * rest_diagonal(scene), s.ipc_thickness};
+BarrierShape shape_of(const compare::Scene& scene, const IpcSettings& settings) {
+  const double distance = settings.distance > 0 ? settings.distance : settings.relative_distance * rest_diagonal(scene);
+  return {distance, settings.thickness};
 }
 
 double mean_inertia(const Potential& potential) {
@@ -79,16 +79,18 @@ IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topol
     : scene_(scene),
       topology_(topology),
       settings_(scene.settings),
+      ipc_(ipc_settings(settings_)),
+      newton_(newton_settings(settings_)),
       options_(options),
       exclusions_(exclusions(scene)),
-      shape_(shape_of(scene)),
+      shape_(shape_of(scene, ipc_)),
       forces_(scene, topology, shape_),
       mesh_{topology_, exclusions_, forces_.potential().rest().edge_length_squared},
-      guard_({rest_diagonal(scene), 0}, shape_, settings_.ipc_adaptation),
+      guard_({rest_diagonal(scene), 0}, shape_, ipc_.adaptation),
       free_(forces_.potential().mobility()) {
   scale_ = {rest_diagonal(scene), mean_inertia(forces_.potential())};
-  bounds_ = reference::stiffness_bounds(shape_, scale_, settings_.ipc_adaptation);
-  if (settings_.ipc_stiffness > 0) bounds_ = {settings_.ipc_stiffness, settings_.ipc_stiffness};
+  bounds_ = reference::stiffness_bounds(shape_, scale_, ipc_.adaptation);
+  if (ipc_.stiffness > 0) bounds_ = {ipc_.stiffness, ipc_.stiffness};
   stiffness_ = bounds_.lower;
 }
 
@@ -164,14 +166,13 @@ void IpcSolver::find_barriers(const State& x) {
 }
 
 void IpcSolver::start_stiffness() {
-  if (settings_.ipc_stiffness > 0) return;
+  if (ipc_.stiffness > 0) return;
   if (set_.terms.empty()) {
     stiffness_ = bounds_.lower;
     return;
   }
-  timed(IpcStage::derivatives, [&] {
-    derivatives_ = forces_.derivatives(x_, {}, 0, compare::HessianProjection::none, std::move(derivatives_));
-  });
+  timed(IpcStage::derivatives,
+        [&] { derivatives_ = forces_.derivatives(x_, {}, 0, HessianProjection::none, std::move(derivatives_)); });
   stiffness_ = initial_stiffness(derivatives_.gradient, forces_.barrier_gradient(x_, set_), bounds_);
 }
 
@@ -202,7 +203,7 @@ IpcSolver::Outcome IpcSolver::solve() {
   for (std::int64_t solve = 1;; ++solve) {
     const Outcome outcome = solve_once();
     // A solve that had nothing to do: friction has settled.
-    if (outcome != Outcome::converged || solve >= settings_.friction_solves || (solve > 1 && iterations_ <= 1))
+    if (outcome != Outcome::converged || solve >= newton_.friction_solves || (solve > 1 && iterations_ <= 1))
       return outcome;
     forces_.lag_friction(set_, x_, stiffness_);
   }
@@ -223,9 +224,8 @@ IpcSolver::System& IpcSolver::system() {
 
 std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (options_.iterations) add_row();
-  timed(IpcStage::derivatives, [&] {
-    derivatives_ = forces_.derivatives(x_, set_, stiffness_, settings_.projection, std::move(derivatives_));
-  });
+  timed(IpcStage::derivatives,
+        [&] { derivatives_ = forces_.derivatives(x_, set_, stiffness_, newton_.projection, std::move(derivatives_)); });
   const std::optional<State> p = direction();
   if (!p) return Outcome::indefinite;
   ++metrics_.iterations;
@@ -252,7 +252,7 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
     adapt_stiffness();
     release_pull();
   }
-  return metrics_.iterations >= settings_.ipc_iterations ? std::optional(Outcome::limit) : std::nullopt;
+  return metrics_.iterations >= ipc_.iterations ? std::optional(Outcome::limit) : std::nullopt;
 }
 
 std::optional<State> IpcSolver::direction() {
@@ -287,8 +287,8 @@ std::optional<State> IpcSolver::direction() {
 /// can ask for more.
 bool IpcSolver::converged(const State& p) {
   if (iterations_ > 1 && largest_component(p) <= 0x1p-52 * largest_component(x_)) return true;
-  if (settings_.ipc_stopping == compare::IpcStopping::displacement)
-    return iterations_ > 1 && largest_component(p) < settings_.ipc_tolerance * scale_.diagonal * settings_.time_step;
+  if (ipc_.stopping == IpcStopping::displacement)
+    return iterations_ > 1 && largest_component(p) < ipc_.tolerance * scale_.diagonal * settings_.time_step;
   double sum = 0;
   for (const Triple<double>& a : p) sum += dot(a, a);
   const double h = settings_.time_step,
@@ -297,7 +297,7 @@ bool IpcSolver::converged(const State& p) {
   if (speeds_.size() > window) speeds_.pop_front();
   double mean = 0;
   for (const double s : speeds_) mean += s / static_cast<double>(speeds_.size());
-  return iterations_ > 1 && std::sqrt(mean) < settings_.ipc_velocity_tolerance;
+  return iterations_ > 1 && std::sqrt(mean) < ipc_.velocity_tolerance;
 }
 
 /// With a pull, a converged state is one of its own Lagrangian only: ρ doubles until the targets are near, then λ takes
@@ -333,7 +333,7 @@ IpcSolver::Bounded IpcSolver::bounded(const State& p) {
                                  [&] { return step_bound(mesh_, set_.active, x_, p, shape_.thickness); });
   const double fastest = largest_motion(p), free_share = fastest > 0 ? 0.5 * shape_.distance / fastest : 1;
   Bounded bound{std::min(active.share, free_share), active.pair, {}};
-  const bool full = settings_.ipc_ccd == compare::IpcCcd::full || free_share < 0.5 * active.share;
+  const bool full = ipc_.ccd == IpcCcd::full || free_share < 0.5 * active.share;
   bound.pairs = near(x_, moved(x_, full ? active.share : bound.share, p));
   if (!full) return bound;
   ++metrics_.continuous_detections;
@@ -373,7 +373,7 @@ double IpcSolver::searched(const State& p, const Bounded& bound) {
 
 void IpcSolver::adapt_stiffness() {
   const std::optional<PrimitivePair> pair = guard_.came_closer(set_);
-  if (!pair || settings_.ipc_stiffness > 0) return;
+  if (!pair || ipc_.stiffness > 0) return;
   if (stiffness_ >= bounds_.upper)
     note("κ is at its bound of " + number(bounds_.upper) + " J/m⁴ while " +
          describe(topology_, *pair, compare::ElementNames(scene_)) + " still come closer; it stays there");

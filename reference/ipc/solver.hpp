@@ -27,9 +27,11 @@
 
 #include "compare/problem/contestant.hpp"
 #include "reference/ipc/forces.hpp"
+#include "reference/ipc/settings.hpp"
 #include "reference/ipc/step_bound.hpp"
 #include "reference/ipc/stiffness.hpp"
-#include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton/factor.hpp"
+#include "reference/solvers/newton/settings.hpp"
 
 namespace ogc::reference {
 
@@ -45,6 +47,7 @@ enum class IpcStage : std::uint8_t {
   guard
 };
 inline constexpr std::size_t ipc_stage_count = 8;
+/// In the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
 /// What a step came to [m], [m/s]; of a step that failed it must not be used.
@@ -53,6 +56,7 @@ struct IpcStep {
   compare::StepMetrics metrics;
 };
 
+/// One scene, step by step.
 class IpcSolver {
  public:
   /// Scene: rounded and valid. Both must outlive it.
@@ -63,7 +67,9 @@ class IpcSolver {
   /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
   IpcStep step(const State& start, const State& velocity, std::int64_t number);
 
+  /// d̂ and ξ.
   const BarrierShape& shape() const { return shape_; }
+  /// Within which κ adapts.
   const StiffnessBounds& stiffness_bounds() const { return bounds_; }
   double stiffness() const { return stiffness_; }  ///< κ at present [J/m⁴]
   /// Called with each accepted step of the line search: the energy's change with κ as it was, and what rounding does to
@@ -114,6 +120,8 @@ class IpcSolver {
   const compare::Scene& scene_;
   const compare::Topology& topology_;
   const compare::Settings& settings_;
+  IpcSettings ipc_;
+  NewtonSettings newton_;  ///< of these friction_solves and projection
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   BarrierShape shape_;

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "reference/ipc/solver.hpp"
-#include "reference/solvers/newton_measure.hpp"
+#include "reference/solvers/measure.hpp"
 
 namespace ogc::reference {
 
@@ -48,9 +48,9 @@ IpcStep IpcSolver::finish(Outcome outcome) {
   step.position = x_;
   step.velocity = x_;
   for (std::size_t v = 0; v < x_.size(); ++v) step.velocity[v] = (1 / settings_.time_step) * (x_[v] - start_[v]);
-  const bool by_displacement = settings_.ipc_stopping == compare::IpcStopping::displacement;
-  if (outcome == Outcome::limit && (by_displacement ? settings_.ipc_tolerance : settings_.ipc_velocity_tolerance) > 0)
-    note("ended at the limit of " + std::to_string(settings_.ipc_iterations) +
+  const bool by_displacement = ipc_.stopping == IpcStopping::displacement;
+  if (outcome == Outcome::limit && (by_displacement ? ipc_.tolerance : ipc_.velocity_tolerance) > 0)
+    note("ended at the limit of " + std::to_string(ipc_.iterations) +
          " iterations, above its tolerance; the run goes on, as the published codes do");
   metrics_.status = outcome == Outcome::not_finite   ? compare::step_not_finite
                     : outcome == Outcome::indefinite ? compare::step_indefinite

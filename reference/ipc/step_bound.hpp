@@ -7,6 +7,7 @@
 
 namespace ogc::reference {
 
+/// How far a move may go.
 struct StepBound {
   double share = 1;                   ///< of the direction, in [0, 1]; on the way no pair comes to `thickness`
   std::optional<PrimitivePair> pair;  ///< which stops it first, where one does

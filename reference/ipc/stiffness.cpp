@@ -14,10 +14,9 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale,
-                                 compare::IpcAdaptation adaptation) {
+StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, IpcAdaptation adaptation) {
   const double distance = curvature_distance * scale.diagonal;
-  const double offset = adaptation == compare::IpcAdaptation::gap ? shape.thickness : 0;
+  const double offset = adaptation == IpcAdaptation::gap ? shape.thickness : 0;
   double gap = distance * (distance + 2 * offset);
   if (gap >= shape.support()) gap = shape.support() / 2;
   const double curvature = 4 * squared(distance + offset) * barrier_slopes(gap, shape.support()).bend(0);
@@ -34,10 +33,9 @@ double initial_stiffness(const State& energy_gradient, const State& barrier_grad
   return size > 0 ? std::clamp(-along / size, bounds.lower, bounds.upper) : bounds.lower;
 }
 
-StiffnessGuard::StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape,
-                               compare::IpcAdaptation adaptation)
-    : near_squared_(squared(close_distance * scale.diagonal +
-                            (adaptation == compare::IpcAdaptation::gap ? shape.thickness : 0))) {}
+StiffnessGuard::StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, IpcAdaptation adaptation)
+    : near_squared_(
+          squared(close_distance * scale.diagonal + (adaptation == IpcAdaptation::gap ? shape.thickness : 0))) {}
 
 std::optional<PrimitivePair> StiffnessGuard::came_closer(const BarrierSet& set) {
   std::vector<Close> now;

@@ -6,6 +6,7 @@
 
 #include "compare/problem/settings.hpp"
 #include "reference/ipc/pairs.hpp"
+#include "reference/ipc/settings.hpp"
 
 namespace ogc::reference {
 
@@ -20,8 +21,8 @@ struct StiffnessScale {
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };
-StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale,
-                                 compare::IpcAdaptation adaptation);
+/// Of a scene, by what is said above.
+StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, IpcAdaptation adaptation);
 
 /// The κ within the bounds that makes ‖∇E + κ ∇b‖ smallest; the lower one where there is no barrier.
 double initial_stiffness(const State& energy_gradient, const State& barrier_gradient, const StiffnessBounds& bounds);
@@ -29,7 +30,8 @@ double initial_stiffness(const State& energy_gradient, const State& barrier_grad
 /// Doubles κ where a pair that was closer than 1e-9 diagonals has come closer still.
 class StiffnessGuard {
  public:
-  StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, compare::IpcAdaptation adaptation);
+  StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, IpcAdaptation adaptation);
+  /// The next gaps have none before them.
   void forget() { close_.clear(); }
   /// A pair that came closer since the last call, if any; remembers those that are close now.
   std::optional<PrimitivePair> came_closer(const BarrierSet& set);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/solvers/newton_measure.hpp"
+#include "reference/solvers/measure.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -58,9 +58,9 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
 void ContactStep::detect_here() {
   detected_ = timed(detection_stage, [&] {
     std::vector<Vec3f> here = rounded(x_);
-    const float radius = sufficient_query_radius(topology_, exclusions_, movable_, here,
-                                                 static_cast<float>(settings_.contact_radius), query_radius_);
-    return detect(scene_, topology_, exclusions_, std::move(here), radius);
+    const float query_radius = sufficient_query_radius(topology_, exclusions_, movable_, here,
+                                                       static_cast<float>(settings_.contact_radius), query_radius_);
+    return detect(scene_, topology_, exclusions_, std::move(here), query_radius);
   });
   balls_ = Balls(detected_);
   for (const std::size_t v : movable_) x_[v] = balls_.inside(v, x_[v]).x;
@@ -153,8 +153,8 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.status = status;
   metrics_.vertex_facet_contacts = static_cast<std::int64_t>(detected_.sets.vertex_facet.size());
   metrics_.edge_edge_contacts = static_cast<std::int64_t>(detected_.sets.edge_edge.size());
-  metrics_.vertices_at_bound = static_cast<std::int64_t>(cut_);
-  metrics_.share_at_bound = movable_.empty() ? 0 : static_cast<double>(cut_) / static_cast<double>(movable_.size());
+  metrics_.vertices_cut = static_cast<std::int64_t>(cut_);
+  metrics_.share_cut = movable_.empty() ? 0 : static_cast<double>(cut_) / static_cast<double>(movable_.size());
   metrics_.query_radius = double{query_radius_};
   metrics_.residual = residual_;
   metrics_.smallest_distance = detected_.smallest_distance;

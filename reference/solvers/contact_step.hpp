@@ -8,7 +8,7 @@
 #pragma once
 
 #include "compare/problem/contestant.hpp"
-#include "reference/solvers/newton_detection.hpp"
+#include "reference/solvers/detection.hpp"
 
 namespace ogc::reference {
 
@@ -20,6 +20,7 @@ struct StepResult {
   float query_radius = 0;  ///< [m]
 };
 
+/// Whoever takes a scene from one step to the next.
 class StepSolver {
  public:
   virtual ~StepSolver() = default;
@@ -37,6 +38,7 @@ enum class GuessEnd {
   contact
 };
 
+/// The parts of a step, for solvers to derive from.
 class ContactStep {
  public:
   ContactStep(const ContactStep&) = delete;

@@ -36,9 +36,9 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
     return measured(detected_.sets);
   }
 
-  Residual with(const ContactSets& contacts, const State& detected, const State& x) {
+  Residual with(const ContactSets& contacts, const State& previous, const State& x) {
     x_ = x;
-    potential_.set_contacts(contacts, detected);
+    potential_.set_contacts(contacts, previous);
     return measured(contacts);
   }
 
@@ -69,9 +69,9 @@ double ResidualMeter::reference_force() const { return meter_->reference_force()
 Residual ResidualMeter::at(const std::vector<compare::Vec3f>& position) { return meter_->at(widened(position)); }
 Residual ResidualMeter::at(const std::vector<std::array<double, 3>>& position) { return meter_->at(position); }
 
-Residual ResidualMeter::with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected,
+Residual ResidualMeter::with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
                              const std::vector<compare::Vec3f>& position) {
-  return meter_->with(contacts, widened(detected), widened(position));
+  return meter_->with(contacts, widened(previous), widened(position));
 }
 
 }  // namespace ogc::reference

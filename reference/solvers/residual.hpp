@@ -11,6 +11,7 @@
 
 namespace ogc::reference {
 
+/// Of one state.
 struct Residual {
   double share = 0;   ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
   double force = 0;   ///< mean ‖f_v‖ [N]
@@ -31,8 +32,8 @@ class ResidualMeter {
   /// With contacts detected at the state itself.
   Residual at(const std::vector<compare::Vec3f>& position);
   Residual at(const std::vector<std::array<double, 3>>& position);
-  /// With contacts that were detected at X_prev = `detected`: what a solver sees between two detections.
-  Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& detected,
+  /// With contacts that were detected at X_prev = `previous`: what a solver sees between two detections.
+  Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
                 const std::vector<compare::Vec3f>& position);
 
  private:

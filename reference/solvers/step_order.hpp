@@ -14,7 +14,7 @@ namespace ogc::reference {
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving)
-      : settings_(settings), threshold_(std::max(1.0, std::ceil(settings.redetect_fraction * moving))) {}
+      : settings_(settings), redetect_count_(std::max(1.0, std::ceil(settings.redetect_fraction * moving))) {}
 
   /// Empty after the last iteration.
   std::optional<compare::StepEventKind> next() const {
@@ -31,13 +31,14 @@ class StepOrder {
         since_detection_ = 0;
         break;
       case compare::StepEventKind::guess:
-        guessing_ = cut >= threshold_ && ++rounds_ < settings_.guess_rounds;
+        guessing_ = cut >= redetect_count_ && ++rounds_ < settings_.guess_rounds;
         found_ = !guessing_;
         break;
       case compare::StepEventKind::sweep:
         ++iterations_;
         ++since_detection_;
-        found_ = cut < threshold_ && (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
+        found_ = cut < redetect_count_ &&
+                 (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
         break;
     }
   }
@@ -47,9 +48,9 @@ class StepOrder {
 
  private:
   const compare::Settings& settings_;
-  double threshold_;      ///< max(1, ⌈γ_e K⌉)
-  bool guessing_ = true;  ///< in the guess loop
-  bool found_ = false;    ///< contacts and bounds hold for what comes next
+  double redetect_count_;  ///< max(1, ⌈γ_e K⌉)
+  bool guessing_ = true;   ///< in the guess loop
+  bool found_ = false;     ///< contacts and bounds hold for what comes next
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };
 

@@ -20,7 +20,7 @@ struct Eigen3 {
   std::array<compare::Vec3, 3> axis{};
 };
 
-/// By Jacobi's rotations; values are within a few units of 2⁻⁵³ ‖A‖ of the exact ones.
+/// Values ascend, within a few units of 2⁻⁵³ ‖A‖ of the exact ones.
 Eigen3 eigen_of(const Symmetric3& a);
 
 }  // namespace ogc::reference

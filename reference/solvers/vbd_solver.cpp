@@ -70,7 +70,7 @@ void VbdSolver::iterate() {
   }
   add_row(detects);
   cut_ = timed(sweeping, [&] { return sweep(); });
-  if (meter_) rows_.back().vertices_at_bound = static_cast<std::int64_t>(cut_);
+  if (meter_) rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   ++metrics_.iterations;
   ++iterations_since_;
   detect_next_ = detection_due(cut_);

@@ -12,6 +12,7 @@
 
 namespace ogc::reference {
 
+/// Vertex Block Descent in double (Alg. 3 and 4).
 class VbdSolver : public StepSolver, private ContactStep {
  public:
   /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two

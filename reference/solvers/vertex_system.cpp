@@ -9,32 +9,6 @@ namespace ogc::reference {
 namespace {
 
 using compare::Index;
-/// By the own coordinates, to first and second order.
-using Own = Derivative<double, 3>;
-using OwnTwice = Second<3>;
-
-OwnTwice variable(double value, std::size_t direction) {
-  OwnTwice x(value);
-  x.slope[direction] = 1;
-  return x;
-}
-
-template <class T>
-Triple<T> own(const Triple<double>& x) {
-  if constexpr (std::is_same_v<T, Own>)
-    return {T(x[0], 0), T(x[1], 1), T(x[2], 2)};
-  else
-    return {variable(x[0], 0), variable(x[1], 1), variable(x[2], 2)};
-}
-
-/// A function of one measure, as value, slope and curvature.
-template <class Energy>
-Second<1> along(double measure, Energy energy) {
-  Second<1> x(measure);
-  x.slope[0] = 1;
-  return energy(x);
-}
-
 /// Plain positions of a stencil, then with the own vertex as variable.
 template <std::size_t Count>
 std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& vertex, Index self,
@@ -44,108 +18,25 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
     if (vertex[k] >= 0) corners[k] = x.at(self, vertex[k]);
   return corners;
 }
-template <class T, std::size_t Count>
-std::array<Triple<T>, Count> with_own(const std::array<Triple<double>, Count>& corners, std::size_t place) {
-  std::array<Triple<T>, Count> x;
-  for (std::size_t k = 0; k < Count; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis) x[k][axis] = T(corners[k][axis]);
-  x[place] = own<T>(corners[place]);
-  return x;
-}
-
-void add_force(double slope, const std::array<double, 3>& gradient, VertexSystem& sum) {
-  for (std::size_t i = 0; i < 3; ++i) sum.force[i] -= slope * gradient[i];
-}
-
-void add_outer(double weight, const std::array<double, 3>& a, const std::array<double, 3>& b, VertexSystem& sum) {
-  for (std::size_t i = 0, k = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j, ++k) sum.block[k] += 0.5 * weight * (a[i] * b[j] + a[j] * b[i]);
-}
-
-void add_identity(double weight, VertexSystem& sum) {
-  for (const std::size_t k : {0u, 3u, 5u}) sum.block[k] += weight;
-}
-
-/// The material part of an energy of the strain.
-void add_strain(const Strain<OwnTwice>& g, const OwnTwice& energy, VertexSystem& sum) {
-  for (std::size_t i = 0, k = 0; i < 3; ++i) {
-    add_force(energy.slope[i], g[i].slope, sum);
-    for (std::size_t j = 0; j <= i; ++j, ++k) add_outer((i == j ? 1 : 2) * energy.bend(k), g[i].slope, g[j].slope, sum);
-  }
-}
-
-/// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the
-/// identity.
-void add_geometric(const Strain<OwnTwice>& g, const OwnTwice& elastic, VertexSystem& sum) {
-  double geometric = 0;
-  for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend(0);
-  add_identity(std::max(0.0, geometric), sum);
-}
-
-/// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
-void add_neo_hookean(const OwnTwice& energy, const Triple<double>& normal, VertexSystem& sum) {
-  add_force(1, energy.slope, sum);
-  Triple<double> along{};
-  for (std::size_t i = 0, k = 0; i < 3; ++i)
-    for (std::size_t j = 0; j <= i; ++j, ++k) {
-      std::array<double, 3> a{}, b{};
-      a[i] = b[j] = 1;
-      add_outer((i == j ? 1 : 2) * energy.bend(k), a, b, sum);
-      along[i] += energy.bend(k) * normal[j];
-      if (i != j) along[j] += energy.bend(k) * normal[i];
-    }
-  const double squared = dot(normal, normal);
-  if (squared > 0) add_outer(std::max(0.0, -dot(normal, along) / squared) / squared, normal, normal, sum);
-}
 
 void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners,
                   VertexSystem& sum) {
-  const Deformation<OwnTwice> f = deformation<OwnTwice>(with_own<OwnTwice>(corners, place), term.gradient);
-  const Strain<OwnTwice> g = strain(f);
-  Strain<OwnTwice> by_strain;
-  for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
-  if (term.damping > 0) add_strain(g, term.damping_of(by_strain), sum);
-  if (term.neo_hookean()) {
-    const Deformation<double> plain_f = deformation<double>(corners, term.gradient);
-    return add_neo_hookean(term.elastic_of(f), cross(plain_f[0], plain_f[1]), sum);
-  }
-  const OwnTwice elastic = term.elastic_of(by_strain);
-  add_strain(g, elastic, sum);
-  add_geometric(g, elastic, sum);
+  const MembraneCorner<double> at(term, place, corners);
+  add_damping(term, at, sum);
+  add_elastic(term, at, sum);
 }
 
-void add_isometric(const HingeTerm& term, const Hinge<Own>& x, VertexSystem& sum) {
-  add_force(1, term.isometric_energy(x).slope, sum);
-  for (const Own& component : separation(term.weight, x))
-    add_outer(term.stiffness, component.slope, component.slope, sum);
+void add_hinge(const HingeTerm& term, std::size_t place, const Hinge<double>& corners, VertexSystem& sum) {
+  const Hinge<ByOwn<double>> x = with_own<ByOwn<double>>(corners, place);
+  add_positions(term, x, sum);
+  if (!term.has_angle()) return;
+  const Fold<ByOwn<double>> fold(x);
+  if (!fold.collapsed()) add_angle(term, fold.angle(), sum);
 }
 
-void add_hinge(const HingeTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners,
-               VertexSystem& sum) {
-  const Hinge<Own> x = with_own<Own>(corners, place);
-  if (term.isometric) add_isometric(term, x, sum);
-  if (term.isometric && term.damping == 0) return;
-  const Fold<Own> fold(x);
-  if (fold.collapsed()) return;
-  const Own angle = fold.angle();
-  const Second<1> energy = along(angle.value, [&](const Second<1>& a) { return term.energy_of(a); });
-  add_force(energy.slope[0], angle.slope, sum);
-  add_outer(energy.bend(0), angle.slope, angle.slope, sum);
-}
-
-/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; w² k_s I where l = 0
-/// (compare/stages/spring.hpp).
 void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 4>& ends,
                 VertexSystem& sum) {
-  const std::array<Triple<Own>, 4> x = with_own<Own>(ends, place);
-  const Triple<Own> apart = separation(term.weight, x);
-  const Own length = sqrt(dot(apart, apart));
-  const double squared_weight = term.weight[place] * term.weight[place];
-  if (length.value == 0) return add_identity(squared_weight * term.stiffness, sum);
-  const double across = std::max(0.0, 1 - term.rest_length / length.value);
-  add_force(1, term.energy(x).slope, sum);
-  add_identity(squared_weight * term.stiffness * across, sum);
-  add_outer(term.stiffness * (1 - across + term.damping), length.slope, length.slope, sum);
+  add_spring(term, term.weight[place], separation(term.weight, with_own<ByOwn<double>>(ends, place)), sum);
 }
 
 /// Of a contact's vertices those that are updated at the same time, the own one among them.
@@ -159,41 +50,43 @@ double majorant(const ClosestForm& form, const Updated& updated, std::size_t own
   return form.weight[own] == 0 ? 1 : sum / std::abs(form.weight[own]);
 }
 
-void add_friction(const FrictionTerm& term, double factor, const std::array<Triple<Own>, 4>& x, VertexSystem& sum) {
-  const Triple<Own> slip = term.slip(x);
-  const Own squared = dot(slip, slip);
+void add_friction(const FrictionTerm& term, double factor, const std::array<Triple<ByOwn<double>>, 4>& x,
+                  VertexSystem& sum) {
+  const Triple<ByOwn<double>> slip = term.slip(x);
+  const ByOwn<double> squared = dot(slip, slip);
   const double slope = along(squared.value, [&](const Second<1>& s) { return term.energy_of(s); }).slope[0];
   add_force(slope, squared.slope, sum);
-  for (const Own& component : slip) add_outer(2 * factor * slope, component.slope, component.slope, sum);
+  for (const ByOwn<double>& component : slip)
+    add_outer(2 * factor * slope, component.slope, component.slope, sum.block);
 }
 
 /// Slope and curvature below 2⁻²³ r are those there, as in the stage contact_force.
 void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
                  const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);
-  const std::array<Triple<Own>, 4> x = with_own<Own>(corners, place);
-  const Triple<Own> apart = separation(form.weight, x);
-  const Own distance = sqrt(dot(apart, apart));
-  if (distance.value == 0 || distance.value >= term.radius) return;
-  const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.radius), [&](const Second<1>& d) {
-    return contact_activation(term.activation, d, term.radius, term.mollifier * term.stiffness);
+  const std::array<Triple<ByOwn<double>>, 4> x = with_own<ByOwn<double>>(corners, place);
+  const Triple<ByOwn<double>> apart = separation(form.weight, x);
+  const ByOwn<double> distance = sqrt(dot(apart, apart));
+  if (distance.value == 0 || distance.value >= term.contact_radius) return;
+  const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.contact_radius), [&](const Second<1>& d) {
+    return contact_activation(term.activation, d, term.contact_radius, term.mollifier * term.stiffness);
   });
   add_force(energy.slope[0], distance.slope, sum);
   const double factor = majorant(form, updated, place);
-  add_outer(factor * energy.bend(0), distance.slope, distance.slope, sum);
+  add_outer(factor * energy.bend(0), distance.slope, distance.slope, sum.block);
   if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, factor, x, sum);
 }
 
 }  // namespace
 
 template <class Terms>
-void VertexSystems::list(const Terms& terms, Parts& parts) const {
-  parts.assign(potential_.mobility().size(), {});
+void VertexSystems::list(const Terms& terms, Incidences& incidences) const {
+  incidences.assign(potential_.mobility().size(), {});
   for (std::size_t i = 0; i < terms.size(); ++i)
     for (std::size_t k = 0; k < terms[i].vertex.size() && terms[i].vertex[k] >= 0; ++k) {
       const auto v = static_cast<std::size_t>(terms[i].vertex[k]);
       if (potential_.mobility()[v] == Mobility::free)
-        parts[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
+        incidences[v].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(k)});
     }
 }
 
@@ -211,27 +104,27 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   VertexSystem sum;
   for (std::size_t axis = 0; axis < 3; ++axis)
     sum.force[axis] = inertia * (potential_.target()[v][axis] - x.old[v][axis]);
-  add_identity(inertia, sum);
-  for (const Part& part : membranes_[v]) {
-    const MembraneTerm& term = potential_.membranes()[part.stencil];
-    add_membrane(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  add_identity(inertia, sum.block);
+  for (const Incidence& incidence : membranes_[v]) {
+    const MembraneTerm& term = potential_.membranes()[incidence.stencil];
+    add_membrane(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
-  for (const Part& part : hinges_[v]) {
-    const HingeTerm& term = potential_.hinges()[part.stencil];
-    add_hinge(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  for (const Incidence& incidence : hinges_[v]) {
+    const HingeTerm& term = potential_.hinges()[incidence.stencil];
+    add_hinge(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
-  for (const Part& part : springs_[v]) {
-    const SpringTerm& term = potential_.springs()[part.stencil];
-    add_spring(term, part.place, plain_corners(term.vertex, vertex, x), sum);
+  for (const Incidence& incidence : springs_[v]) {
+    const SpringTerm& term = potential_.springs()[incidence.stencil];
+    add_spring(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
-  for (const Part& part : contacts_[v]) {
-    const ContactTerm& term = potential_.contacts()[part.stencil];
+  for (const Incidence& incidence : contacts_[v]) {
+    const ContactTerm& term = potential_.contacts()[incidence.stencil];
     Updated updated{};
     for (std::size_t k = 0; k < 4; ++k) {
       const Index u = term.vertex[k];
       updated[k] = u == vertex || (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
     }
-    add_contact(potential_, term, updated, part.place, plain_corners(term.vertex, vertex, x), sum);
+    add_contact(potential_, term, updated, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
   return sum;
 }

@@ -9,15 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "reference/solvers/newton_potential.hpp"
+#include "reference/energies/vertex_block.hpp"
+#include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
 
-/// Inertia included. Block: xx, xy, xz, yy, yz, zz; positive definite.
-struct VertexSystem {
-  Triple<double> force{};         ///< [N]
-  std::array<double, 6> block{};  ///< [N/m]
-};
+/// Inertia included; the block is positive definite.
+using VertexSystem = VertexSystemOf<double>;
 
 /// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position,
 /// others at the old one. Colours are from 0 on; −1: prescribed and fixed vertices, which move first.
@@ -25,12 +23,14 @@ struct SweepView {
   const State& old;
   const State& fresh;
   std::span<const compare::Index> colour;
+  /// Where `vertex` is read from when `own` is solved [m].
   const Triple<double>& at(compare::Index own, compare::Index vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return colour[v] < colour[static_cast<std::size_t>(own)] ? fresh[v] : old[v];
   }
 };
 
+/// Of one potential.
 class VertexSystems {
  public:
   /// The potential must outlive it.
@@ -44,16 +44,16 @@ class VertexSystems {
 
  private:
   /// A stencil and the vertex's place in it.
-  struct Part {
+  struct Incidence {
     std::uint32_t stencil = 0;
     std::uint8_t place = 0;
   };
-  using Parts = std::vector<std::vector<Part>>;  ///< by vertex; empty where not free
+  using Incidences = std::vector<std::vector<Incidence>>;  ///< by vertex; empty where not free
   template <class Terms>
-  void list(const Terms& terms, Parts& parts) const;
+  void list(const Terms& terms, Incidences& incidences) const;
 
   const Potential& potential_;
-  Parts membranes_, hinges_, springs_, contacts_;
+  Incidences membranes_, hinges_, springs_, contacts_;
 };
 
 }  // namespace ogc::reference

@@ -19,6 +19,7 @@ struct Term {
   double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
+/// One energy's answers as a term: those near the exact one widen it, the others stand beside it.
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
 /// All terms of a vertex but inertia.

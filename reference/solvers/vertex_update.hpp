@@ -15,6 +15,7 @@ struct VertexPlace {
   double inertia = 0;                    ///< m/h² [N/m]
 };
 
+/// Whether truncation changes an update; doubtful where both are right.
 enum class Cut { no, yes, doubtful };
 
 /// As SweepTruth of one vertex.

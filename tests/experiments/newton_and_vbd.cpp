@@ -16,7 +16,7 @@
 #include "reference/contestant.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
-#include "reference/solvers/newton_factor.hpp"
+#include "reference/solvers/newton/factor.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 
@@ -53,9 +53,9 @@ compare::Scene pressed_sheets(int number) {
   scene.settings.redetect_fraction = 0;
   scene.settings.redetect_every = 4;
   scene.settings.iterations = 400;
-  scene.settings.newton_tolerance = 1e-9;
-  scene.settings.newton_iterations = 1000;
-  scene.settings.friction_solves = 200;
+  set_setting(scene.settings, "newton_tolerance", 1e-9);
+  set_setting(scene.settings, "newton_iterations", 1000);
+  set_setting(scene.settings, "friction_solves", 200);
   round_to_single(scene);
   return scene;
 }
@@ -113,7 +113,7 @@ class Pair {
     potential_.lag_friction(x);
     reference::BlockMatrix matrix(potential_.mobility());
     matrix.set_stencils(potential_.vertices());
-    matrix.assemble(potential_.inertias(), potential_.derivatives(x, compare::HessianProjection::none).stencil);
+    matrix.assemble(potential_.inertias(), potential_.derivatives(x, reference::HessianProjection::none).stencil);
     for (std::size_t row = 0; row < matrix.rows(); ++row)
       matrix.values()[static_cast<std::size_t>(matrix.column_begin()[row])] -= potential_.inertia(
                                                                                    matrix.free_vertices()[row / 3]) /

@@ -45,7 +45,7 @@ TEST_CASE("stacks of 3, 10 and 50 identical sheets, aligned or shifted, rest wit
       REQUIRE(rows.size() == settling + resting);
       for (std::size_t i = settling; i < rows.size(); ++i) {
         INFO("step " << rows[i].step);
-        CHECK(rows[i].vertices_at_bound == 0);
+        CHECK(rows[i].vertices_cut == 0);
         // Nothing moves far enough to ask for another one, and no gap is squeezed shut.
         CHECK(rows[i].discrete_detections == 1);
         CHECK(rows[i].smallest_distance > gap / 4);

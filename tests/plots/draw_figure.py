@@ -71,7 +71,24 @@ def check_refused(source, module, folder, scratch):
         (copy / "run.json").write_text(json.dumps({**good, **changes}))
         (copy / "steps.csv").write_text(table) if table else (copy / "steps.csv").unlink()
         check_words(said(source, module, copy, "--out", out), words, out)
+    check_former_columns(source, copy / "steps.csv", rows)
     check_words(said(source, module, scratch / "nowhere", "--out", out), "is no run folder: it has no run.json. Make one with: ogc run", out)
+
+
+def check_former_columns(source, path, rows):
+    """A run of format 1, whose columns of cut vertices have other names, reads as one of today."""
+    sys.path.insert(0, str(source))
+    from plots.run_folder import Run
+    former = rows.replace("vertices_cut", "vertices_at_bound", 1).replace("share_cut", "share_at_bound", 1)
+    if former == rows:
+        sys.exit(f"{path} has no column of cut vertices")
+    path.write_text(rows)
+    today = Run(path.parent)
+    path.write_text(former)
+    before = Run(path.parent)
+    for column in ("vertices_cut", "share_cut"):
+        if list(before.column(column)) != list(today.column(column)) or before.units[column] != "1":
+            sys.exit(f"column {column} of a run of format 1 is not that of today")
 
 
 def said(source, module, *words):

@@ -1,5 +1,5 @@
-// What VTK writes is tested with VTK itself (tests/experiments/audit_frames.py); here what this program writes, every
-// section, and what is broken.
+// What VTK writes is tested with VTK itself (tests/experiments/program/commands/audit_frames.py); here what this
+// program writes, every section, and what is broken.
 #include <algorithm>
 #include <string>
 

@@ -140,10 +140,10 @@ TEST_CASE("a run of a newer format is refused by name, a damaged one with its fi
     run.add_frame(recorded_frame(0));
     run.finish("finished");
   }
-  replace_in(manifest, "\"format_version\": 1", "\"format_version\": 2");
+  replace_in(manifest, "\"format_version\": 2", "\"format_version\": 3");
   CHECK_THROWS_WITH(RunReader(folder / "run"),
-                    ContainsSubstring("run.json") && ContainsSubstring("run format 2") && ContainsSubstring("newer"));
-  replace_in(manifest, "\"format_version\": 2", "\"format_version\": 1");
+                    ContainsSubstring("run.json") && ContainsSubstring("run format 3") && ContainsSubstring("newer"));
+  replace_in(manifest, "\"format_version\": 3", "\"format_version\": 1");
   CHECK_NOTHROW(RunReader(folder / "run"));
   replace_in(manifest, "\"ogc run\"", "\"ogc walk\"");
   CHECK_THROWS_AS(RunReader(folder / "run"), InputError);

@@ -93,3 +93,22 @@ TEST_CASE("a damaged table is refused with file and line", "[unit]") {
   CHECK_THROWS_AS(read_text(folder, ""), InputError);
   CHECK_THROWS_AS(read_steps(folder / "nowhere"), InputError);
 }
+
+TEST_CASE("rows of run format 1, with the former names of two columns, come back as rows of today", "[unit]") {
+  const Scratch folder;
+  std::string header = step_header({});
+  const auto rename = [&](const std::string& name, const std::string& former) {
+    const std::size_t at = header.find("," + name + " [");
+    REQUIRE(at != std::string::npos);
+    header.replace(at + 1, name.size(), former);
+  };
+  rename("vertices_cut", "vertices_at_bound");
+  rename("share_cut", "share_at_bound");
+  const StepMetrics row = distinct_metrics();
+  const StepTable table = read_text(folder, header + step_lines(std::array{row}, 0));
+  REQUIRE(table.rows.size() == 1);
+  CHECK(table.rows[0].vertices_cut == row.vertices_cut);
+  CHECK(table.rows[0].share_cut == row.share_cut);
+  rename("vertices_at_bound", "vertices_held");
+  CHECK_THROWS_AS(read_text(folder, header + step_lines(std::array{row}, 0)), InputError);
+}

@@ -227,7 +227,7 @@ TEST_CASE("whether iterations are asked one by one or in groups whether a detect
                                  &profiled_row = profiled.rows.at(k);
       for (const compare::StepMetrics* other : {&expected, &profiled_row}) {
         CHECK(row.discrete_detections == other->discrete_detections);
-        CHECK(row.vertices_at_bound == other->vertices_at_bound);
+        CHECK(row.vertices_cut == other->vertices_cut);
         CHECK(row.iterations == other->iterations);
         CHECK(row.kinetic_energy == other->kinetic_energy);
       }
@@ -317,13 +317,13 @@ TEST_CASE("the share at the bound is that of the vertices that move", "[unit]") 
   fast.velocity = {0, 20, 0};
   scene.motions.push_back(fast);
   for (const compare::StepMetrics& row : run(scene, 3).rows) {
-    CHECK(row.vertices_at_bound >= 4);
-    CHECK(row.share_at_bound == static_cast<double>(row.vertices_at_bound) / 144);
+    CHECK(row.vertices_cut >= 4);
+    CHECK(row.share_cut == static_cast<double>(row.vertices_cut) / 144);
   }
   for (compare::Body& body : scene.bodies) body.fixed = true;
   scene.motions.clear();
   scene.velocities.assign(scene.velocities.size(), {});
-  CHECK(run(scene, 1).rows.at(0).share_at_bound == 0);
+  CHECK(run(scene, 1).rows.at(0).share_cut == 0);
 }
 
 TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {

@@ -4,7 +4,7 @@
 #include "compare/judge/judge.hpp"
 #include "compare/judge/report.hpp"
 #include "compare/judge/stage_table.hpp"
-#include "experiments/stage_list.hpp"
+#include "experiments/program/stage_list.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 

@@ -1,4 +1,4 @@
-// The same real kills as on the CPU (tests/experiments/resume.cpp), of runs on the device.
+// The same real kills as on the CPU (tests/experiments/program/runs/resume.cpp), of runs on the device.
 #include "tests/catch.hpp"
 #include "tests/experiments/cut_runs.hpp"
 #include "tests/experiments/program.hpp"

@@ -59,7 +59,7 @@ TEST_CASE("a traced step gives the bits of an untraced one, and as many events a
   CHECK(count(trace, compare::StepEventKind::sweep) == 7);
   CHECK(row.guess_rounds > 1);
   CHECK(row.discrete_detections > row.guess_rounds);
-  CHECK(trace.events.back().cut == row.vertices_at_bound);
+  CHECK(trace.events.back().cut == row.vertices_cut);
   CHECK(same_bits(trace.events.back().position, end.positions));
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "reference/energies/activation_drawing.hpp"
+#include "reference/illustrations/activation_drawing.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;

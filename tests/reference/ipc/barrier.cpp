@@ -2,19 +2,19 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "reference/energies/stencil_derivatives.hpp"
+#include "reference/energies/stencils/stencil_derivatives.hpp"
 #include "reference/ipc/barrier_kernels.hpp"
 #include "reference/ipc/pairs.hpp"
 #include "tests/catch.hpp"
-#include "tests/reference/energies/side_by_side.hpp"
 #include "tests/reference/energies/stencils.hpp"
+#include "tests/reference/energies/stencils/side_by_side.hpp"
 
 using namespace ogc;
 using namespace ogc::reference;
 using namespace ogc::tests;
 using compare::ContactSides;
-using compare::HessianProjection;
 using compare::Index;
+using reference::HessianProjection;
 
 namespace {
 

@@ -77,14 +77,14 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
 /// of the positions.
 TEST_CASE("IPC: a cloth that is not strained falls by either rule of stopping and either membrane", "[property]") {
   for (const auto model : {compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean})
-    for (const auto rule : {compare::IpcStopping::displacement, compare::IpcStopping::velocity}) {
+    for (const auto rule : {reference::IpcStopping::displacement, reference::IpcStopping::velocity}) {
       compare::Scene scene;
       scene.name = "fall";
       compare::Material material;
       material.membrane = model;
       material.membrane_damping = 2e-6;
       add_sheet(scene, 20, 0.5, 0.3, false, material);
-      scene.settings.ipc_stopping = rule;
+      set_setting(scene.settings, "ipc_stopping", static_cast<double>(rule));
       const Run result = run(scene, 6);
       REQUIRE(clean(result));
       for (const compare::StepMetrics& row : result.rows) CHECK(row.iterations <= 4);
@@ -112,13 +112,14 @@ TEST_CASE("IPC: each accepted step lowers the energy, and no state intersects", 
 
 TEST_CASE("IPC: both stopping rules end a step where they say, and counts of iterations add up to those of the step",
           "[property]") {
-  for (const auto rule : {compare::IpcStopping::displacement, compare::IpcStopping::velocity}) {
+  for (const auto rule : {reference::IpcStopping::displacement, reference::IpcStopping::velocity}) {
     compare::Scene scene = drop_scene();
-    scene.settings.ipc_stopping = rule;
+    set_setting(scene.settings, "ipc_stopping", static_cast<double>(rule));
     const Run result = run(scene, 12);
     REQUIRE(clean(result));
     for (const compare::StepMetrics& row : result.rows) {
-      if (rule == compare::IpcStopping::displacement) CHECK(row.residual < scene.settings.ipc_tolerance);
+      if (rule == reference::IpcStopping::displacement)
+        CHECK(row.residual < get_setting(scene.settings, "ipc_tolerance"));
       REQUIRE(static_cast<std::int64_t>(row.iteration_rows.size()) == row.iterations);
       std::int64_t discrete = 0, continuous = 0, broad = 0;
       for (const compare::IterationMetrics& iteration : row.iteration_rows)
@@ -135,9 +136,9 @@ TEST_CASE("IPC: what lies on a plane rests where the barrier carries its weight"
   compare::Material material = heavy();
   material.friction = 0;
   compare::Scene scene = triangle_on_plane(1.5e-3, material);
-  scene.settings.ipc_distance = 2e-3;
-  scene.settings.ipc_stiffness = 1e10;
-  scene.settings.ipc_tolerance = 1e-9;
+  set_setting(scene.settings, "ipc_distance", 2e-3);
+  set_setting(scene.settings, "ipc_stiffness", 1e10);
+  set_setting(scene.settings, "ipc_tolerance", 1e-9);
   scene.settings.time_step = 0.05;
   const Run result = run(scene, 60);
   REQUIRE(clean(result));
@@ -152,10 +153,10 @@ TEST_CASE("IPC: friction brakes what slides with its coefficient times gravity, 
   material.friction = 0.4;
   compare::Scene scene = triangle_on_plane(0.8e-3, material);
   for (std::size_t v = 0; v < 3; ++v) scene.velocities[v] = {0.3, 0, 0};
-  scene.settings.ipc_distance = 1e-3;
-  scene.settings.ipc_tolerance = 1e-7;
+  set_setting(scene.settings, "ipc_distance", 1e-3);
+  set_setting(scene.settings, "ipc_tolerance", 1e-7);
   scene.settings.friction_velocity = 1e-4;
-  scene.settings.friction_solves = 20;
+  set_setting(scene.settings, "friction_solves", 20);
   scene.settings.time_step = 0.005;
   const Run result = run(scene, 40);
   REQUIRE(clean(result));
@@ -190,7 +191,7 @@ TEST_CASE("IPC: prescribed vertices that would go through free cloth push it alo
   motion.end = 0.03;
   scene.motions.push_back(motion);
   scene.gravity = {};
-  scene.settings.ipc_distance = 1e-3;
+  set_setting(scene.settings, "ipc_distance", 1e-3);
   Stepper stepper(scene);
   for (int step = 0; step < 4; ++step) {
     const compare::StepMetrics row = stepper.step();
@@ -212,7 +213,7 @@ TEST_CASE("IPC: a start that intersects or touches is refused with the pairs", "
       reference::start_ipc(crossing, {}),
       Contains("edge of body 'b' (vertices 0, 1) and triangle 0 of body 'a' (vertices 0, 1, 2) intersect"));
   compare::Scene thick = triangle_on_plane(1e-3, heavy());
-  thick.settings.ipc_thickness = 2e-3;
+  set_setting(thick.settings, "ipc_thickness", 2e-3);
   CHECK_THROWS_WITH(
       reference::start_ipc(thick, {}),
       Contains(
@@ -224,7 +225,7 @@ TEST_CASE("IPC: a start that intersects or touches is refused with the pairs", "
 TEST_CASE("IPC: a time of impact of zero ends the step with the pair's name, never a loop", "[unit]") {
   compare::Material material = heavy();
   compare::Scene scene = triangle_on_plane(0x1p-60, material);
-  scene.settings.ipc_distance = 1e-3;
+  set_setting(scene.settings, "ipc_distance", 1e-3);
   const auto simulation = reference::start_ipc(scene, {});
   const auto rows = simulation->advance(3);
   REQUIRE(rows.size() == 1);
@@ -238,15 +239,15 @@ TEST_CASE("IPC: a time of impact of zero ends the step with the pair's name, nev
 
 TEST_CASE("IPC: one iteration a step is one iteration a step", "[unit]") {
   compare::Scene scene = drop_scene();
-  scene.settings.ipc_iterations = 1;
-  scene.settings.ipc_tolerance = 0;
+  set_setting(scene.settings, "ipc_iterations", 1);
+  set_setting(scene.settings, "ipc_tolerance", 0);
   const Run result = run(scene, 8);
   REQUIRE(clean(result));
   for (const compare::StepMetrics& row : result.rows) {
     CHECK(row.iterations == 1);
     CHECK(row.notes.empty());
   }
-  scene.settings.ipc_tolerance = 1e-6;
+  set_setting(scene.settings, "ipc_tolerance", 1e-6);
   CHECK_THAT(run(scene, 1).rows[0].notes.at(0), Contains("limit of 1 iterations"));
 }
 
@@ -258,12 +259,12 @@ TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alo
   add_sheet(scene, 4, 0.3, 0, false);
   for (compare::Vec3& v : scene.velocities) v = {0, -1, 0};
   scene.gravity = {};
-  scene.settings.ipc_distance = 0.015;
-  scene.settings.ipc_iterations = 1;
-  scene.settings.ipc_tolerance = 0;
-  scene.settings.ipc_ccd = compare::IpcCcd::full;
+  set_setting(scene.settings, "ipc_distance", 0.015);
+  set_setting(scene.settings, "ipc_iterations", 1);
+  set_setting(scene.settings, "ipc_tolerance", 0);
+  set_setting(scene.settings, "ipc_ccd", "full");
   CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.02).epsilon(1e-6));
-  scene.settings.ipc_ccd = compare::IpcCcd::partial;
+  set_setting(scene.settings, "ipc_ccd", "partial");
   CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.015).epsilon(1e-6));
 }
 
@@ -274,10 +275,10 @@ TEST_CASE(
     "of partial CCD",
     "[property]") {
   compare::Scene scene = drop_scene();
-  scene.settings.ipc_tolerance = 1e-6;
-  scene.settings.ipc_ccd = compare::IpcCcd::full;
+  set_setting(scene.settings, "ipc_tolerance", 1e-6);
+  set_setting(scene.settings, "ipc_ccd", "full");
   Stepper full(scene);
-  scene.settings.ipc_ccd = compare::IpcCcd::partial;
+  set_setting(scene.settings, "ipc_ccd", "partial");
   Stepper partial(scene);
   int accepted = 0;
   full.solver.on_accepted = [&](double, double) { ++accepted; };
@@ -313,8 +314,8 @@ TEST_CASE("IPC goes on from any snapshot to the same bits in double, whatever pa
 
 TEST_CASE("IPC: thickness is kept", "[property]") {
   compare::Scene scene = drop_scene();
-  scene.settings.ipc_distance = 1e-3;
-  scene.settings.ipc_thickness = 1e-3;
+  set_setting(scene.settings, "ipc_distance", 1e-3);
+  set_setting(scene.settings, "ipc_thickness", 1e-3);
   const Run result = run(scene, 12);
   REQUIRE(clean(result));
   double smallest = 1;

@@ -4,7 +4,7 @@
 
 using namespace ogc;
 using namespace ogc::reference;
-using compare::IpcAdaptation;
+using reference::IpcAdaptation;
 
 TEST_CASE("stiffness: at 1e-8 diagonals the barrier's curvature is 1e11 mean inertias", "[unit]") {
   for (const double thickness : {0.0, 1e-3}) {

@@ -1,9 +1,9 @@
 // Newton's steps against states that are known on paper. Free fall, pressed contact, sliding block and momentum stand
-// in newton.cpp.
+// in newton/solver.cpp.
 #include <algorithm>
 #include <cmath>
 
-#include "reference/solvers/simulation.hpp"
+#include "reference/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 
@@ -53,8 +53,8 @@ TEST_CASE("Newton: a cantilever strip sags as the hinges' moments say", "[proper
   scene.motions = {held("clamp", {0, 1, 2, 3, 4, 5})};
   scene.settings.time_step = 1;
   scene.settings.contact_radius = 1e-3;
-  scene.settings.newton_tolerance = 1e-9;
-  scene.settings.newton_iterations = 500;
+  set_setting(scene.settings, "newton_tolerance", 1e-9);
+  set_setting(scene.settings, "newton_iterations", 500);
   const auto simulation = reference::start_newton(scene, {});
   const auto rows = simulation->advance(6);
   REQUIRE(rows.back().status == compare::step_clean);
@@ -97,8 +97,8 @@ TEST_CASE(
   scene.motions = {held("rim", rim)};
   scene.settings.time_step = 1;
   scene.settings.contact_radius = 1e-3;
-  scene.settings.newton_tolerance = 1e-10;
-  scene.settings.newton_iterations = 200;
+  set_setting(scene.settings, "newton_tolerance", 1e-10);
+  set_setting(scene.settings, "newton_iterations", 200);
   const auto simulation = reference::start_newton(scene, {});
   const auto rows = simulation->advance(4);
   REQUIRE(rows.back().status == compare::step_clean);

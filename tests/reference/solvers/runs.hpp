@@ -43,7 +43,7 @@ inline compare::Scene drop_scene() {
     x.y += 0.1 * x.x + 0.05 * x.z;
     scene.velocities[v] = {0.1, -0.3, 0.05};
   }
-  scene.settings.ipc_distance = 2e-3;
+  set_setting(scene.settings, "ipc_distance", 2e-3);
   return scene;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/solvers/simulation.hpp"
+#include "reference/simulation.hpp"
 #include "reference/solvers/step.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
@@ -43,7 +43,7 @@ TEST_CASE(
   potential.set_contacts(found.sets, start);
   REQUIRE(potential.contacts().size() > 20);
   potential.lag_friction(x);
-  const reference::PotentialDerivatives derivatives = potential.derivatives(x, compare::HessianProjection::none);
+  const reference::PotentialDerivatives derivatives = potential.derivatives(x, reference::HessianProjection::none);
   reference::VertexSystems systems(potential);
   systems.read_contacts();
   const std::vector<compare::Index> colour(x.size(), 0);

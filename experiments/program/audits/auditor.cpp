@@ -1,0 +1,167 @@
+#include "experiments/program/audits/auditor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
+#include "experiments/program/output.hpp"
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+/// Two states wait while a third is judged: the simulation is never idle for want of a buffer, and memory stays a few
+/// states.
+constexpr std::size_t most_waiting = 2;
+
+constexpr std::array<std::string_view, 4> audit_names{"every", "frame", "end", "off"};  // by AuditMode
+
+}  // namespace
+
+std::string name_of(AuditMode mode) { return std::string(audit_names[static_cast<std::size_t>(mode)]); }
+
+AuditMode audit_mode(const std::string& name) {
+  const auto found = std::ranges::find(audit_names, name);
+  if (found == audit_names.end())
+    throw compare::InputError("audit: " + compare::unknown_name("mode", name, audit_names));
+  return static_cast<AuditMode>(found - audit_names.begin());
+}
+
+std::string left_out_of_audits(const compare::Scene& scene) {
+  std::string text;
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (!scene.excluded_pairs.empty())
+    add("pairs beside " + counted(scene.excluded_pairs.size(), "excluded pair") + " of vertices");
+  for (const compare::PrescribedMotion& motion : scene.motions)
+    if (!motion.keyframes.empty()) add("pairs inside '" + motion.name + "', which moves by keyframes");
+  return text;
+}
+
+StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& sources)
+    : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles,
+                                        scene.mesh.loose_edges)),
+      exclusions_(compare::exclusions(scene)),
+      names_(scene, sources),
+      contact_radius_(static_cast<float>(scene.settings.contact_radius)),
+      bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
+
+compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions, std::size_t limit) const {
+  return compare::audit(topology_, compare::to_double(positions), exclusions_, {.limit = limit});
+}
+
+compare::SmallestDistances StateJudge::smallest_distances(const std::vector<compare::Vec3f>& positions) const {
+  return compare::smallest_distances(topology_, compare::to_double(positions), exclusions_);
+}
+
+std::vector<float> StateJudge::exact_bounds(const compare::Snapshot& snapshot) const {
+  const compare::DetectIn in{&topology_, exclusions_, snapshot.previous, contact_radius_, snapshot.query_radius};
+  return reference::exact_bounds(in, bound_relaxation_);
+}
+
+Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
+  Verdict verdict;
+  verdict.step = snapshot.step;
+  verdict.intersections = audit(snapshot.positions);
+  verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
+  const std::vector<float> exact = exact_bounds(snapshot);
+  double worst = 1;
+  for (std::size_t v = 0; v < exact.size(); ++v) {
+    const double bound = snapshot.bounds[v], limit = exact[v];
+    if (bound <= limit) continue;
+    ++verdict.unsafe_bounds;
+    if (verdict.worst_vertex >= 0 && !(bound / limit > worst)) continue;
+    worst = bound / limit;
+    verdict.worst_vertex = static_cast<compare::Index>(v);
+    verdict.worst_bound = bound;
+    verdict.exact_bound = limit;
+  }
+  return verdict;
+}
+
+std::string StateJudge::describe(const compare::AuditResult& result) const {
+  return compare::describe(result, topology_, names_);
+}
+
+std::string StateJudge::describe(const Verdict& verdict) const {
+  std::string text = verdict.intersections.count == 0 ? "" : describe(verdict.intersections);
+  if (!text.empty() && text.back() != '\n') text += "\n";
+  if (!verdict.motion.kept())
+    text += counted(verdict.motion.violations, "vertex position") +
+            " beyond the bound; the worst: " + names_.vertex(verdict.motion.worst_vertex) + " moved " +
+            number(verdict.motion.worst_ratio, 9) + " times its bound\n";
+  if (verdict.unsafe_bounds > 0)
+    text += counted(verdict.unsafe_bounds, "bound") +
+            " larger than the exact one; the worst: " + names_.vertex(verdict.worst_vertex) + ", " +
+            number(verdict.worst_bound, 9) + " m instead of " + number(verdict.exact_bound, 9) + " m\n";
+  return text;
+}
+
+Auditor::Auditor(const StateJudge& judge, bool beside) : judge_(judge) {
+  if (beside) thread_ = std::thread([this] { work(); });
+}
+
+Auditor::~Auditor() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    waiting_.clear();
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Auditor::judge_one(const compare::Snapshot& snapshot) {
+  try {
+    Verdict verdict = judge_.judge(snapshot);
+    const std::lock_guard lock(mutex_);
+    ready_.push_back(std::move(verdict));
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+  }
+}
+
+void Auditor::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
+    if (stop_) return;
+    const compare::Snapshot snapshot = std::move(waiting_.front());
+    waiting_.pop_front();
+    busy_ = true;
+    lock.unlock();
+    changed_.notify_all();
+    judge_one(snapshot);
+    lock.lock();
+    busy_ = false;
+    changed_.notify_all();
+  }
+}
+
+void Auditor::submit(compare::Snapshot snapshot) {
+  if (!thread_.joinable()) return judge_one(snapshot);
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < most_waiting; });
+  waiting_.push_back(std::move(snapshot));
+  changed_.notify_all();
+}
+
+std::vector<Verdict> Auditor::take() {
+  const std::lock_guard lock(mutex_);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return std::exchange(ready_, {});
+}
+
+std::vector<Verdict> Auditor::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_.empty() && !busy_; });
+  }
+  return take();
+}
+
+}  // namespace ogc::experiments

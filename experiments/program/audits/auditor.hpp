@@ -1,0 +1,98 @@
+// Judges the states of a run while it goes on: exact intersections by the oracle, and the motion certificate against
+// exact bounds of the reference (method.md §5.5). On a device that computes elsewhere it works beside the simulation;
+// on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured by.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "compare/oracle/audit.hpp"
+#include "compare/oracle/certificate.hpp"
+#include "compare/oracle/smallest_distances.hpp"
+#include "compare/problem/contestant.hpp"
+#include "compare/problem/element_names.hpp"
+
+namespace ogc::experiments {
+
+/// What is audited: each step, each stored frame, the last state, nothing.
+enum class AuditMode { every, frame, end, off };
+/// As of --audit.
+std::string name_of(AuditMode mode);
+/// Throws compare::InputError where nothing is called so.
+AuditMode audit_mode(const std::string& name);
+
+/// What audits of a scene leave out beyond pairs inside fixed and rigidly moved bodies, in words; empty where nothing.
+std::string left_out_of_audits(const compare::Scene& scene);
+
+/// What is exactly true of one state.
+struct Verdict {
+  std::int64_t step = 0;
+  compare::AuditResult intersections;
+  compare::MotionCertificate motion;
+  std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
+  compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
+  double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
+  /// Whether the state keeps the guarantee.
+  bool kept() const { return intersections.count == 0 && motion.kept() && unsafe_bounds == 0; }
+};
+
+/// Judges states of one scene.
+class StateJudge {
+ public:
+  explicit StateJudge(const compare::Scene& scene, const compare::MeshSources& sources = {});
+  /// A state without the certificate: a start, a frame of a file. `limit`: as of compare::AuditOptions.
+  compare::AuditResult audit(const std::vector<compare::Vec3f>& positions,
+                             std::size_t limit = compare::AuditOptions{}.limit) const;
+  /// How near it is to touching, without the pairs that the audit leaves out.
+  compare::SmallestDistances smallest_distances(const std::vector<compare::Vec3f>& positions) const;
+  /// A state with the certificate of the last detection before it.
+  Verdict judge(const compare::Snapshot& snapshot) const;
+  /// Names what is wrong, one line a primitive; empty where nothing is.
+  std::string describe(const Verdict& verdict) const;
+  std::string describe(const compare::AuditResult& result) const;
+  /// What elements of the scene are called in all of these.
+  const compare::ElementNames& names() const { return names_; }
+
+ private:
+  std::vector<float> exact_bounds(const compare::Snapshot& snapshot) const;
+  compare::Topology topology_;
+  compare::Exclusions exclusions_;
+  compare::ElementNames names_;
+  float contact_radius_, bound_relaxation_;
+};
+
+/// Verdicts in the order of submission.
+class Auditor {
+ public:
+  /// `beside`: judge on a thread of its own. The judge must outlive the auditor.
+  Auditor(const StateJudge& judge, bool beside);
+  ~Auditor();
+  Auditor(const Auditor&) = delete;
+  Auditor& operator=(const Auditor&) = delete;
+  /// Waits where too many states are waiting already: a state may be large.
+  void submit(compare::Snapshot snapshot);
+  /// Verdicts that are ready; throws what the judge threw.
+  std::vector<Verdict> take();
+  /// Waits for all that was submitted.
+  std::vector<Verdict> finish();
+
+ private:
+  void work();
+  void judge_one(const compare::Snapshot& snapshot);
+  const StateJudge& judge_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<compare::Snapshot> waiting_;
+  std::vector<Verdict> ready_;
+  std::exception_ptr failure_;
+  bool busy_ = false, stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace ogc::experiments

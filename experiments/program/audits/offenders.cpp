@@ -1,0 +1,121 @@
+#include "experiments/program/audits/offenders.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "compare/files/bytes.hpp"
+#include "compare/record/vtp.hpp"
+#include "experiments/program/audits/picture.hpp"
+#include "experiments/program/audits/png.hpp"
+#include "experiments/program/output.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Index;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void sort_once(std::vector<Index>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// All vertices of the offenders, ascending.
+std::vector<Index> corners_of(const Offenders& offenders, const compare::Topology& topology) {
+  std::vector<Index> corners = offenders.vertices;
+  for (const Index e : offenders.edges)
+    corners.insert(corners.end(), topology.edges[at(e)].begin(), topology.edges[at(e)].end());
+  for (const Index t : offenders.triangles)
+    corners.insert(corners.end(), topology.triangles[at(t)].begin(), topology.triangles[at(t)].end());
+  sort_once(corners);
+  return corners;
+}
+
+std::string point_text(const compare::Vec3& p) {
+  return "(" + number(p.x, 4) + ", " + number(p.y, 4) + ", " + number(p.z, 4) + ")";
+}
+
+/// "frame 3" and "out/frame_12.obj" become names of files.
+std::string file_name(const std::string& name) {
+  std::string stem = std::filesystem::path(name).filename().string();
+  if (const std::size_t dot = stem.rfind('.'); dot != std::string::npos && dot > 0) stem.resize(dot);
+  std::ranges::replace_if(
+      stem, [](char c) { return c == ' ' || c == '/' || c == '\\' || c == ':'; }, '_');
+  return stem;
+}
+
+}  // namespace
+
+Offenders offenders_of(const compare::AuditResult& result, const compare::Topology& topology) {
+  Offenders found;
+  if (!result.intersections.empty()) found.first = result.intersections.front();
+  for (const compare::Intersection& pair : result.intersections) {
+    const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
+    (is_edge ? found.edges : found.vertices).push_back(pair.first);
+    found.triangles.push_back(pair.second);
+    const auto around = is_edge ? topology.edge_triangles[at(pair.first)] : topology.vertex_triangles[at(pair.first)];
+    found.triangles.insert(found.triangles.end(), around.begin(), around.end());
+  }
+  for (auto* numbers : {&found.vertices, &found.edges, &found.triangles}) sort_once(*numbers);
+  return found;
+}
+
+std::string place_of(const Offenders& offenders, const compare::Topology& topology,
+                     const std::vector<compare::Vec3>& positions) {
+  const std::vector<Index> corners = corners_of(offenders, topology);
+  if (corners.empty()) return "nowhere";
+  compare::Vec3 low = positions[at(corners.front())], high = low;
+  for (const Index v : corners) {
+    const compare::Vec3& p = positions[at(v)];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return "between " + point_text(low) + " and " + point_text(high) + " m";
+}
+
+std::string offenders_vtp(const compare::AuditResult& result, const compare::Topology& topology,
+                          const std::vector<compare::Vec3>& positions) {
+  const Offenders offenders = offenders_of(result, topology);
+  compare::LabelledMesh part;
+  part.vertex_numbers = corners_of(offenders, topology);
+  std::map<Index, Index> new_number;
+  for (const Index v : part.vertex_numbers) {
+    new_number[v] = static_cast<Index>(part.mesh.positions.size());
+    part.mesh.positions.push_back(positions[at(v)]);
+  }
+  std::map<Index, Index> of_edge, of_triangle;
+  for (const compare::Intersection& pair : result.intersections) {
+    if (pair.kind == compare::IntersectionKind::edge_triangle) ++of_edge[pair.first];
+    ++of_triangle[pair.second];
+  }
+  for (const Index e : offenders.edges) {
+    const compare::Edge& edge = topology.edges[at(e)];
+    part.mesh.loose_edges.push_back({new_number[edge[0]], new_number[edge[1]]});
+    part.cell_numbers.push_back(e);
+    part.cell_counts.push_back(of_edge[e]);
+  }
+  for (const Index t : offenders.triangles) {
+    const compare::Triangle& corners = topology.triangles[at(t)];
+    part.mesh.triangles.push_back({new_number[corners[0]], new_number[corners[1]], new_number[corners[2]]});
+    part.cell_numbers.push_back(t);
+    part.cell_counts.push_back(of_triangle[t]);
+  }
+  return compare::vtp_bytes(part);
+}
+
+std::string show_offenders(const std::filesystem::path& folder, const std::string& name,
+                           const compare::AuditResult& result, const compare::Topology& topology,
+                           const std::vector<compare::Vec3>& positions) {
+  const Offenders offenders = offenders_of(result, topology);
+  const std::filesystem::path stem = folder / file_name(name);
+  const std::string vtp = stem.string() + ".vtp", png = stem.string() + ".png";
+  compare::write_bytes(vtp, offenders_vtp(result, topology, positions));
+  if (has_png()) compare::write_bytes(png, png_bytes(picture_of(offenders, topology, positions)));
+  return name + ": " + counted(offenders.triangles.size(), "triangle") + " " +
+         place_of(offenders, topology, positions) + ": " +
+         (has_png() ? png : "no picture (this program was built without libpng; install libpng-dev)") + ", " + vtp;
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,31 @@
+// The subcommands of `ogc`: one file each (commands/NAME.cpp), which declares its options and leaves its exit status in
+// the context.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ogc::experiments {
+
+/// Exit statuses of `ogc`.
+enum ExitStatus : int { exit_success = 0, exit_check_failed = 1, exit_bad_input = 2, exit_out_of_resource = 3 };
+
+/// What all subcommands share.
+struct CommandContext {
+  bool json = false;          ///< machine-readable result on standard output
+  int status = exit_success;  ///< what the program returns; a command sets it, exceptions are mapped by main
+  std::string command_line;   ///< as typed, for run.json
+};
+
+void add_scenes_command(CLI::App& app, CommandContext& context);
+void add_run_command(CLI::App& app, CommandContext& context);
+void add_ablate_command(CLI::App& app, CommandContext& context);
+void add_contacts_command(CLI::App& app, CommandContext& context);
+void add_suggest_command(CLI::App& app, CommandContext& context);
+void add_audit_command(CLI::App& app, CommandContext& context);
+void add_compare_command(CLI::App& app, CommandContext& context);
+void add_minimise_command(CLI::App& app, CommandContext& context);
+void add_bench_command(CLI::App& app, CommandContext& context);
+void add_export_command(CLI::App& app, CommandContext& context);
+void add_illustrate_command(CLI::App& app, CommandContext& context);
+
+}  // namespace ogc::experiments

@@ -1,0 +1,321 @@
+// `ogc audit`: does anything intersect? Exactly, for a mesh of any origin, or for each frame of a run of any program.
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
+
+#include "compare/problem/error.hpp"
+#include "experiments/program/audits/audit_source.hpp"
+#include "experiments/program/audits/offenders.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/interrupt.hpp"
+#include "experiments/program/mesh_input.hpp"
+#include "experiments/program/option_checks.hpp"
+#include "experiments/program/output.hpp"
+#include "experiments/program/progress.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::SmallestDistances;
+
+struct Options {
+  AuditRequest request;
+  std::string show;  ///< folder of the pictures; empty: none
+};
+
+/// Of how many states pictures are made: the first ones tell what the others would.
+constexpr std::size_t most_shown = 8;
+
+struct State {
+  std::string name;  ///< "step 12", "frame 3", or the mesh's file
+  Json json;
+  std::string text;
+  std::size_t count = 0;
+  bool has_triangles = true;
+  std::size_t loose_edges = 0;  ///< edges that belong to no triangle
+  SmallestDistances distances;
+};
+
+Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
+             const compare::ElementNames& names) {
+  Json json{{"vertex_triangle", nullptr}, {"edge_edge", nullptr}};
+  if (distances.vertex >= 0) {
+    const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(distances.triangle)];
+    json["vertex_triangle"] = {
+        {"distance", distances.vertex_triangle},
+        {"vertex", distances.vertex},
+        {"triangle", distances.triangle},
+        {"triangle_vertices", corners},
+        {"names", {names.vertex(distances.vertex), names.triangle(distances.triangle, corners)}}};
+  }
+  if (distances.edge >= 0) {
+    const auto vertices = [&](compare::Index e) { return topology.edges[static_cast<std::size_t>(e)]; };
+    json["edge_edge"] = {{"distance", distances.edge_edge},
+                         {"edge", distances.edge},
+                         {"edge_vertices", vertices(distances.edge)},
+                         {"other_edge", distances.other_edge},
+                         {"other_edge_vertices", vertices(distances.other_edge)},
+                         {"names", {names.edge(vertices(distances.edge)), names.edge(vertices(distances.other_edge))}}};
+  }
+  return json;
+}
+
+State state_of(const AuditedState& audited) {
+  const compare::Topology& topology = *audited.topology;
+  State state{.name = audited.name,
+              .json = {{"state", audited.name}, {"count", audited.result.count}, {"intersections", Json::array()}},
+              .text = audited.text,
+              .count = audited.result.count,
+              .has_triangles = !topology.triangles.empty(),
+              .distances = audited.distances};
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
+  state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
+  for (const compare::Intersection& pair : audited.result.intersections) {
+    const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
+    const auto first = static_cast<std::size_t>(pair.first);
+    Json entry{{"kind", is_edge ? "edge_triangle" : "vertex_triangle"}};
+    if (is_edge) {
+      entry["edge"] = pair.first;
+      entry["edge_vertices"] = topology.edges[first];
+    } else {
+      entry["vertex"] = pair.first;
+    }
+    entry["triangle"] = pair.second;
+    entry["triangle_vertices"] = topology.triangles[static_cast<std::size_t>(pair.second)];
+    entry["text"] = describe(pair, topology, audited.names);
+    state.json["intersections"].push_back(entry);
+  }
+  return state;
+}
+
+/// All that was looked at before the end, an interruption, or a state that can't be read.
+struct Audits {
+  std::vector<State> states;
+  std::vector<std::string> shown;  ///< what --show wrote, a line each
+  std::size_t planned = 0;
+  std::string stopped;  ///< why the rest can't be read; empty where it could
+};
+
+/// A state on its way from the file to the report, or why it can't be read.
+struct Item {
+  std::optional<AuditedState> state;
+  std::string problem;
+};
+using Handle = std::shared_ptr<Item>;
+
+/// One after the other, until the end, an interruption, or a state that can't be read.
+class Reading {
+ public:
+  explicit Reading(AuditSource& source) : source_(source) {}
+  Handle operator()(tbb::flow_control& control) {
+    if (next_ == source_.size() || failed_ || interrupted()) {
+      control.stop();
+      return nullptr;
+    }
+    auto item = std::make_shared<Item>();
+    try {
+      item->state = source_.next();
+    } catch (const compare::InputError& error) {
+      if (next_ == 0) throw;
+      failed_ = true;
+      item->problem = error.what();
+    }
+    ++next_;
+    return item;
+  }
+
+ private:
+  AuditSource& source_;
+  std::size_t next_ = 0;
+  bool failed_ = false;
+};
+
+/// States side by side, as many as there are threads: what one state takes is for the most part one thread's work.
+Audits audit_all(AuditSource& source, const std::string& show) {
+  Audits audits;
+  audits.planned = source.size();
+  catch_interrupts();
+  Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
+  Reading reading(source);
+  const auto judge = [&](const Handle& item) {
+    if (item->state) source.judge(*item->state);
+    return item;
+  };
+  const auto keep = [&](const Handle& item) {
+    if (!item->state) {
+      audits.stopped = item->problem;
+      return;
+    }
+    const AuditedState& audited = *item->state;
+    audits.states.push_back(state_of(audited));
+    if (!show.empty() && audited.result.count > 0 && audits.shown.size() < most_shown)
+      audits.shown.push_back(show_offenders(show, audited.name, audited.result, *audited.topology, audited.positions));
+    if (source.size() > 1)
+      progress.show(static_cast<std::int64_t>(audits.states.size()), counted(audited.result.count, "intersection"));
+  };
+  const auto together = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  tbb::parallel_pipeline(together,
+                         tbb::make_filter<void, Handle>(tbb::filter_mode::serial_in_order, std::ref(reading)) &
+                             tbb::make_filter<Handle, Handle>(tbb::filter_mode::parallel, judge) &
+                             tbb::make_filter<Handle, void>(tbb::filter_mode::serial_in_order, keep));
+  return audits;
+}
+
+/// The smallest distances of all states, in words; of equal ones the first state's.
+std::string describe_distances(const std::vector<State>& states) {
+  const auto describe_pair = [&](const std::string& what, const State& state, const char* key) {
+    const Json& pair = state.json.at("smallest_distances").at(key);
+    const std::string beginning = "smallest distance of " + what + ": ";
+    if (pair.is_null()) return beginning + "there is no such pair\n";
+    return beginning + number(pair.at("distance").get<double>(), 9) + " m, " +
+           pair.at("names").at(0).get<std::string>() + " and " + pair.at("names").at(1).get<std::string>() +
+           (states.size() == 1 ? "" : ", " + state.name) + "\n";
+  };
+  const auto& facet = *std::ranges::min_element(states, {},
+                                                [](const State& state) { return state.distances.vertex_triangle; });
+  const auto& edges = *std::ranges::min_element(states, {},
+                                                [](const State& state) { return state.distances.edge_edge; });
+  return describe_pair("a vertex to a triangle without it", facet, "vertex_triangle") +
+         describe_pair("two edges without a common vertex", edges, "edge_edge");
+}
+
+/// Two states say nothing about curves (method.md §5.5), which pass through each other between them.
+std::string unseen(const std::vector<State>& states) {
+  const auto has = std::ranges::find_if(states, [](const State& state) { return state.loose_edges > 0; });
+  if (has == states.end()) return "";
+  const std::string edges = counted(has->loose_edges, "edge") + " without a triangle";
+  if (!has->has_triangles)
+    return edges +
+           " and nothing else: a state of curves can't be free of intersections or not; they may have passed through "
+           "each other on the way to it. "
+           "Only the motion tells: audit the run while it goes on (ogc run --audit every)";
+  return "of " + edges + ", whether they met a triangle is seen, but not whether they passed through each other";
+}
+
+struct Totals {
+  std::size_t intersections = 0, intersecting = 0;
+  std::string first;          ///< name of the first state that intersects
+  bool says_nothing = false;  ///< no state has a triangle
+};
+
+Totals totals_of(const std::vector<State>& states) {
+  Totals totals;
+  for (const State& state : states) {
+    totals.intersections += state.count;
+    if (state.count > 0 && totals.intersecting++ == 0) totals.first = state.name;
+  }
+  totals.says_nothing = std::ranges::none_of(states, &State::has_triangles);
+  return totals;
+}
+
+std::string headline(const Audits& audits, const Totals& totals) {
+  const std::string states = counted(audits.states.size(), "state");
+  std::string text = totals.says_nothing
+                         ? states + " read"
+                         : states + " audited exactly, " + counted(totals.intersections, "intersection");
+  if (totals.intersecting > 0 && audits.planned > 1)
+    text += " in " + counted(totals.intersecting, "state") + ", the first: " + totals.first;
+  return text + (interrupted() ? "; interrupted, the rest was not looked at" : "") + "\n";
+}
+
+void print(const Audits& audits, const Totals& totals, const std::string& left_out) {
+  std::string text;
+  for (const State& state : audits.states)
+    if (state.count > 0) text += state.name + ": " + counted(state.count, "intersection") + "\n" + state.text + "\n";
+  text += headline(audits, totals);
+  if (!audits.stopped.empty())
+    text += counted(audits.planned - audits.states.size(), "further state") + " not audited: one can't be read\n";
+  if (const std::string note = unseen(audits.states); !note.empty()) text += note + "\n";
+  if (!left_out.empty()) text += "left out: " + left_out + "\n";
+  for (const std::string& line : audits.shown) text += line + "\n";
+  print_result(text + (audits.states.empty() ? "" : describe_distances(audits.states)));
+}
+
+void print_json(const Options& options, const Audits& audits, const Totals& totals, const std::string& left_out) {
+  const auto& paths = options.request.paths;
+  Json json{{"audited", paths.size() == 1 ? Json(paths.front()) : Json(paths)}, {"states", Json::array()}};
+  for (const State& state : audits.states) json["states"].push_back(state.json);
+  json["intersections"] = totals.intersections;
+  json["intersecting_states"] = totals.intersecting;
+  json["first_intersecting"] = totals.first.empty() ? Json(nullptr) : Json(totals.first);
+  json["clean"] = totals.says_nothing ? Json(nullptr) : Json(totals.intersections == 0);
+  json["complete"] = !interrupted() && audits.stopped.empty();
+  if (!audits.stopped.empty()) json["stopped"] = audits.stopped;
+  if (const std::string note = unseen(audits.states); !note.empty()) json["unseen"] = note;
+  if (!left_out.empty()) json["left_out"] = left_out;
+  if (!options.show.empty()) json["shown"] = audits.shown;
+  print_result(json);
+}
+
+int run(const Options& options, const CommandContext& context) {
+  const std::unique_ptr<AuditSource> source = open_audit(options.request);
+  const Audits audits = audit_all(*source, options.show);
+  const Totals totals = totals_of(audits.states);
+  if (context.json) {
+    print_json(options, audits, totals, source->left_out());
+  } else {
+    print(audits, totals, source->left_out());
+  }
+  if (!audits.stopped.empty()) log_line("ogc: " + audits.stopped);
+  if (totals.intersections > 0) return exit_check_failed;
+  if (!audits.stopped.empty()) return exit_bad_input;
+  return interrupted() ? exit_interrupted : static_cast<int>(exit_success);
+}
+
+}  // namespace
+
+void add_audit_command(CLI::App& app, CommandContext& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "audit", "Exact self-intersection audit of a mesh, of a run, or of the frames of any other program");
+  command
+      ->add_option("MESH|FRAMES|RUN", options->request.paths,
+                   "A mesh (.obj, .ply, .vtp, .stl, .off, .gltf, .glb), several of them as frames, a folder of them, "
+                   "frames in one file (.npz, "
+                   ".npy, .pc2), or a run folder")
+      ->required();
+  command->add_option("--mesh", options->request.topology,
+                      "A mesh with the triangles of frames in a .npy or .pc2 file, or in a .npz without any");
+  command->add_option(
+      "--show", options->show,
+      "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
+  add_mesh_options(*command, options->request.meshes);
+  command
+      ->add_option("--limit", options->request.limit,
+                   "Intersections of a state to list at most; all of them are counted")
+      ->check(whole_number(0, most_counted))
+      ->capture_default_str();
+  command->add_flag("--json", context.json, "Print the result as JSON on standard output");
+  command->footer(
+      "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
+      "triangle without it; touching\n"
+      "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
+      "pairs, are left out. Exit status\n"
+      "1: there is one.\n"
+      "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are "
+      "found exactly too, and\n"
+      "rounded down; of pairs equally near the one with the lowest numbers is named.\n"
+      "Text names elements as the mesh's file counts them; numbers of the JSON are from 0, without unused vertices.\n\n"
+      "Frames of whatever solver: files are taken in natural order (frame_2 before frame_10), and a pattern in quotes "
+      "is expanded here. A .npz\n"
+      "(numpy.savez) holds positions [frames, vertices, 3] (or x, vertices, points, verts) in float32 or float64, and "
+      "triangles [n, 3] (or faces)\n"
+      "and edges [n, 2] of whole numbers from 0. A .pc2 is a point cache, as Blender writes it. Numbers are audited as "
+      "they are stored, none is\n"
+      "rounded. Where a frame can't be read, those before it are reported, and the exit status is 2, or 1.\n\n"
+      "Examples:\n"
+      "  ogc audit shirt.obj\n"
+      "  ogc audit runs/twist-small-20250801-120000\n"
+      "  ogc audit their_run/*.ply --show pictures\n"
+      "  ogc audit frames.npz --json --limit 20 > verdict.json\n"
+      "  ogc audit cloth.pc2 --mesh cloth.obj");
+  command->callback([options, &context] { context.status = run(*options, context); });
+}
+
+}  // namespace ogc::experiments

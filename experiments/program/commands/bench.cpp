@@ -1,0 +1,221 @@
+// `ogc bench`: Google Benchmark over stages, steps and their parts, its own JSON, and a comparison of two such files by
+// rank.
+#include <algorithm>
+#include <optional>
+
+#include <benchmark/benchmark.h>
+#include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
+
+#include "compare/problem/error.hpp"
+#include "experiments/bench/processes.hpp"
+#include "experiments/bench/rank_test.hpp"
+#include "experiments/bench/results.hpp"
+#include "experiments/bench/scene_benchmarks.hpp"
+#include "experiments/bench/stage_benchmarks.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/option_checks.hpp"
+#include "experiments/program/version.hpp"
+#include "experiments/scenes/registry.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+/// Samples that are kept.
+constexpr std::uint64_t most_repetitions = 1'000'000;
+
+struct CommandOptions {
+  BenchOptions bench;
+  std::string filter = ".", backend = "all", json, against, results;
+  bool list = false;
+  int threads = 0, processes = 8;
+};
+
+/// A line a benchmark when its last repetition is done: median, spread, counters.
+class LineReporter : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    std::vector<double> times;
+    const Run* last = nullptr;
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      if (run.error_occurred) failed.push_back(run.benchmark_name() + ": " + run.error_message);
+      if (run.error_occurred) continue;
+      times.push_back(run.GetAdjustedRealTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit));
+      last = &run;
+    }
+    if (last == nullptr) return;
+    std::ranges::sort(times);
+    std::string counters;
+    for (const auto& [name, counter] : last->counters) counters += "  " + name + " " + number(counter.value);
+    print_result(table({{last->run_name.function_name, duration(median(times)),
+                         duration(times.front()) + " to " + duration(times.back()),
+                         std::to_string(times.size()) + " repetitions" + counters}},
+                       4));
+  }
+
+  std::vector<std::string> failed;
+};
+
+std::vector<fast::Backend> backends_of(const std::string& name) {
+  if (name == "cpu") return {fast::Backend::cpu};
+  const fast::BackendInfo device = fast::backend_info(fast::Backend::cuda);
+  if (name == "cuda" && !device.usable) throw compare::ResourceError("backend cuda: " + device.description);
+  if (name == "cuda") return {fast::Backend::cuda};
+  return device.usable ? std::vector{fast::Backend::cpu, fast::Backend::cuda} : std::vector{fast::Backend::cpu};
+}
+
+void say_context(const CommandOptions& options) {
+  const BuildInfo build = build_info();
+  benchmark::AddCustomContext("commit", build.commit + (build.dirty ? ", dirty" : ""));
+  benchmark::AddCustomContext("compiler", build.compiler);
+  benchmark::AddCustomContext("cuda", build.cuda);
+  benchmark::AddCustomContext("device_cpu", fast::backend_info(fast::Backend::cpu).description);
+  benchmark::AddCustomContext("device_cuda", fast::backend_info(fast::Backend::cuda).description);
+  benchmark::AddCustomContext(
+      "threads", std::to_string(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
+}
+
+/// Google Benchmark takes its options as a command line.
+void initialize(const CommandOptions& options) {
+  std::vector<std::string> words{"ogc"};
+  if (!options.json.empty())
+    words.insert(words.end(), {"--benchmark_out=" + options.json, "--benchmark_out_format=json"});
+  if (options.list) words.emplace_back("--benchmark_list_tests=true");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  int count = static_cast<int>(pointers.size());
+  benchmark::Initialize(&count, pointers.data());
+}
+
+void run_benchmarks(const CommandOptions& options) {
+  register_stage_benchmarks(options.bench);
+  register_scene_benchmarks(options.bench);
+  initialize(options);
+  say_context(options);
+  LineReporter reporter;
+  const std::size_t found = benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, options.filter);
+  if (found == 0)
+    throw compare::InputError("--filter " + options.filter + " fits no benchmark; `ogc bench --list` prints all names");
+  if (!reporter.failed.empty()) throw std::runtime_error(reporter.failed.front());
+}
+
+/// The options that measure, for a process of its own.
+std::vector<std::string> words_of(const CommandOptions& options) {
+  std::vector<std::string> words{"bench",
+                                 "--processes",
+                                 "1",
+                                 "--filter",
+                                 options.filter,
+                                 "--backend",
+                                 options.backend,
+                                 "--scale",
+                                 options.bench.scale,
+                                 "--steps",
+                                 std::to_string(options.bench.steps),
+                                 "--repetitions",
+                                 std::to_string(options.bench.repetitions)};
+  for (const std::string& state : options.bench.states) words.insert(words.end(), {"--from-state", state});
+  if (options.threads > 0) words.insert(words.end(), {"--threads", std::to_string(options.threads)});
+  return words;
+}
+
+void measure(const CommandOptions& options) {
+  if (options.list || options.json.empty() || options.processes == 1) return run_benchmarks(options);
+  bench_in_processes(words_of(options), options.processes, options.json);
+  std::vector<std::vector<std::string>> rows{{"benchmark", "median", "least", "most"}};
+  for (auto& [name, times] : read_results(options.json).times) {
+    const auto [least, most] = std::ranges::minmax(times);
+    rows.push_back({name, duration(median(times)), duration(least), duration(most)});
+  }
+  if (options.against.empty()) print_result(table(rows, 1));
+}
+
+int bench(CommandOptions options, const CommandContext& context) {
+  const auto limit = limited_threads(options.threads);
+  parse_scale(options.bench.scale);
+  std::optional<BenchResults> before;
+  if (!options.against.empty()) before = read_results(options.against);
+  if (options.results.empty()) {
+    if (before && options.json.empty())
+      throw compare::InputError(
+          "--against compares two files: name the new one with --json FILE, or a finished one with --results FILE");
+    options.bench.backends = backends_of(options.backend);
+    measure(options);
+    if (options.list || !before) return exit_success;
+    options.results = options.json;
+  }
+  if (!before) throw compare::InputError("--results FILE needs --against FILE to compare with");
+  const BenchComparison comparison = compare_results(*before, read_results(options.results));
+  if (comparison.changes.empty())
+    throw compare::InputError(options.against + " and " + options.results + " have no benchmark in common");
+  if (context.json)
+    print_result(to_json(comparison));
+  else
+    print_result(describe(comparison));
+  return comparison.has_slower() ? exit_check_failed : exit_success;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, CommandContext& context) {
+  auto options = std::make_shared<CommandOptions>();
+  CLI::App* command = app.add_subcommand(
+      "bench", "Time stages, steps of scenes and their parts; compare two results by a rank test");
+  command->add_option("--filter", options->filter, "Regular expression: only benchmarks whose name it fits")
+      ->capture_default_str();
+  command->add_option("--backend", options->backend, "cpu, cuda, or all that can run here")
+      ->check(CLI::IsMember({"cpu", "cuda", "all"}))
+      ->capture_default_str();
+  command->add_option("--scale", options->bench.scale, "smoke, small, paper")->capture_default_str();
+  command
+      ->add_option("--from-state", options->bench.states,
+                   "Steps from a frame of a run (RUN/frames/…) instead of the scenes' starts; repeatable")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1);
+  command->add_option("--steps", options->bench.steps, "Steps of a window, one window a repetition")
+      ->check(whole_number(1, most_counted))
+      ->capture_default_str();
+  command->add_option("--repetitions", options->bench.repetitions, "Of each benchmark in a process")
+      ->check(whole_number(1, most_repetitions))
+      ->capture_default_str();
+  command
+      ->add_option("--processes", options->processes,
+                   "With --json: measure in so many processes, one after the other; each is one sample of a comparison")
+      ->check(whole_number(1, most_repetitions))
+      ->capture_default_str();
+  add_threads_option(*command, options->threads);
+  command->add_flag("--list", options->list, "Print the names and stop");
+  command->add_option(
+      "--json", options->json,
+      "Write the result to this file, as Google Benchmark does: every repetition, counters, machine, commit");
+  command->add_option("--against", options->against,
+                      "Say what changed since this earlier file. Exit status 1: something is slower beyond noise");
+  command->add_option("--results", options->results, "With --against: compare this finished file and measure nothing");
+  command->add_flag("--json-changes", context.json, "Print the comparison as JSON on standard output");
+  command->footer(
+      "Examples:\n"
+      "  ogc bench --filter 'step/twist' --scale smoke\n"
+      "  ogc bench --filter 'stage/.*/cpu' --json before.json\n"
+      "  ogc bench --filter 'stage/.*/cpu' --json after.json --against before.json\n"
+      "  ogc bench --from-state runs/twist/frames/frame_001200.h5 --steps 64 --backend cuda\n\n"
+      "Names: stage/STAGE/BACKEND (a batch of the judge's cases, on a device with its transfers), "
+      "step/SCENE/SCALE/BACKEND (resident, as in steps.csv),\n"
+      "part/PART/SCENE/SCALE/BACKEND (as run --profile). Counters of steps and of part/sweep: flop and bytes a step as "
+      "counted from the source (fast/work.cpp),\n"
+      "share_of_floor on machines whose limits are known (experiments/bench/floor.hpp): 1 would be the least time for "
+      "that work.\n"
+      "Noise is judged between processes, because repetitions of one share what its start decided: two-sided "
+      "Mann-Whitney on the processes' medians, corrected by\n"
+      "Holm over all benchmarks compared, significant below 0.01; percentages decide nothing. With N benchmarks "
+      "compared, 8 processes on either side can show a\n"
+      "change where N is at most 64. A machine that is busy in one of two measurements has changed, and the test will "
+      "say so.");
+  command->callback([options, &context] { context.status = bench(*options, context); });
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,60 @@
+// `ogc export`: frames as mesh files.
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/record/export.hpp"
+#include "compare/record/run_folder.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/output.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+struct Options {
+  std::string folder, format = "vtp", out;
+};
+
+void run(const Options& options, const CommandContext& context) {
+  const compare::ExportFormat format = compare::parse_export_format(options.format);
+  const std::filesystem::path out = options.out.empty() ? std::filesystem::path(options.folder) / options.format
+                                                        : std::filesystem::path(options.out);
+  const std::vector<std::filesystem::path> files = compare::export_run(options.folder, format, out);
+  const std::filesystem::path trajectory = std::filesystem::path(options.folder) / "trajectory.vtkhdf";
+  if (!std::filesystem::exists(trajectory)) {
+    compare::assemble_trajectory(options.folder);
+    log_line("the run had not been finished: assembled " + trajectory.string());
+  }
+  if (!context.json)
+    return print_result(counted(files.size(), "file") + " in " + out.string() +
+                        ", the last: " + files.back().filename().string() + "\n");
+  Json json{{"folder", out.string()}, {"format", options.format}, {"files", Json::array()}};
+  for (const std::filesystem::path& file : files) json["files"].push_back(file.string());
+  print_result(json);
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, CommandContext& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("export", "Write the frames of a run as mesh files");
+  command->add_option("RUN", options->folder, "A run folder, finished or not")->required();
+  command
+      ->add_option("--format", options->format,
+                   "obj, ply, or vtp (with velocity, bound, body and a .pvd index for ParaView)")
+      ->check(CLI::IsMember({"obj", "ply", "vtp"}))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the files (default: RUN/FORMAT)");
+  command->add_flag("--json", context.json, "Print the names of the files as JSON on standard output");
+  command->footer(
+      "The run's own trajectory.vtkhdf opens in ParaView 5.13 and later without any export; it is assembled here where "
+      "a run was killed\n"
+      "before it could do so.\n\n"
+      "Examples:\n"
+      "  ogc export runs/twist-small-20250801-120000\n"
+      "  ogc export runs/twist-small-20250801-120000 --format obj --out meshes");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace ogc::experiments

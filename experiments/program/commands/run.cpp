@@ -1,0 +1,107 @@
+// `ogc run`: options to a RunRequest, and the result to an exit status.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/problem/error.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/interrupt.hpp"
+#include "experiments/program/option_checks.hpp"
+#include "experiments/program/runs/resume.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+std::string introduction(const RunRequest& request) {
+  const compare::Scene& scene = request.scene;
+  return scene.name + (request.scale.empty() ? "" : " (" + request.scale + ")") + ": " +
+         std::to_string(scene.mesh.positions.size()) + " vertices, " +
+         counted(scene.mesh.triangles.size(), "triangle") + ", " + std::to_string(scene.settings.steps) + " steps of " +
+         number(scene.settings.time_step) + " s; writes " + request.folder.string();
+}
+
+/// What --resume leaves open: no bit depends on it.
+constexpr std::array<std::string_view, 4> free_options{"--resume", "--threads", "--checkpoint", "--json"};
+
+ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
+  std::string given;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && std::ranges::find(free_options, option->get_name()) == free_options.end())
+      given += (given.empty() ? "" : ", ") + option->get_name();
+  if (!given.empty())
+    throw compare::InputError(
+        "--resume " + folder +
+        " goes on with the scene, settings and options that the folder holds, and with no other; leave out: " + given +
+        ". For other ones begin a new run, from a frame of this one with --from-state if you like");
+  ResumedRun run = resumed_run(folder);
+  run.request.checkpoint_seconds = options.checkpoint_seconds;
+  return run;
+}
+
+int run(const RunOptions& options, const std::string& resume, const CLI::App& command, const CommandContext& context) {
+  const auto limit = limited_threads(options.threads);
+  if (options.scene.empty() && resume.empty())
+    throw compare::InputError("run needs a scene (" + scene_names() +
+                              "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
+  ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}
+                                  : resumed(options, resume, command);
+  catch_interrupts();
+  const std::string text = introduction(run.request);
+  RunSession session(std::move(run.request), contestant_of(run.options));
+  log_line(text);
+  const RunSummary summary = session.run();
+  if (context.json) {
+    print_result(to_json(summary));
+  } else {
+    print_result(describe(summary));
+  }
+  if (!summary.failure.empty()) log_line("ogc: " + summary.failure);
+  if (!summary.failure.empty()) return exit_check_failed;
+  return summary.was_interrupted ? exit_interrupted : static_cast<int>(exit_success);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, CommandContext& context) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Simulate a scene into a run folder, audited exactly");
+  add_run_options(*command, options)->required(false);
+  auto resume = std::make_shared<std::string>();
+  command->add_option(
+      "--resume", *resume,
+      "Go on with a run that was cut off, in its own folder, to the same bits; takes no scene, no settings");
+  add_threads_option(*command, options->threads);
+  command->add_flag("--json", context.json, "Print the summary as JSON on standard output");
+  command->footer(
+      settings_help() +
+      "\nExamples:\n"
+      "  ogc run cloth_on_sphere --scale smoke\n"
+      "  ogc run cloth_on_sphere --scale small --solver newton --set newton_tolerance=1e-3 --iterations\n"
+      "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
+      "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
+      "  ogc run shirt.obj --ground 0 --steps 200\n"
+      "  ogc run --resume runs/twist-paper-20250801-120000\n"
+      "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
+      "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the "
+      "exact one. On the CPU it takes\n"
+      "turns with the simulation, on a GPU it runs beside it, so that it is never part of a step's time.\n"
+      "Ctrl-C stops within a second, or after the step that is computed. What is finished stays, whatever\n"
+      "ends the run: a signal, kill -9, a full disk, power. --resume goes on from checkpoint.h5 (every\n"
+      "--checkpoint seconds, and at each end that leaves time for it), which the same program and scene take\n"
+      "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
+      "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a\n"
+      "run that still goes on) it says before it computes anything.\n"
+      "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than "
+      "half of its momentum are\n"
+      "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
+      "Frames are packed and written beside the simulation, which waits where the disk is too slow. The\n"
+      "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
+      "Exit status 1: a penetration, a broken bound, a number that is not finite.");
+  command->callback(
+      [options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
+}
+
+}  // namespace ogc::experiments

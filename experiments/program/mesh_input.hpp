@@ -1,0 +1,33 @@
+// Meshes that users bring: the options of all commands that take one, and the way from the file to a mesh that is named
+// as the file counts it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/files/polygon_mesh.hpp"
+#include "compare/problem/element_names.hpp"
+#include "experiments/program/commands.hpp"
+
+namespace ogc::experiments {
+
+/// A valid mesh and what its elements are called.
+struct MeshInput {
+  compare::Mesh mesh;
+  compare::MeshSource source;
+  compare::ElementNames names;
+};
+
+/// Adds --triangulate, --drop-unused (both on unless refused) and --weld. The options must outlive the parsing.
+void add_mesh_options(CLI::App& command, compare::MeshOptions& options);
+
+/// What was taken otherwise than it stands in the file, or should be known of it, a sentence each: what was cut, merged
+/// and left out, vertices at one place, dust and what became of it (`dust_treatment`).
+std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const std::string& dust_treatment);
+
+/// Reads a mesh file as stages see it: dust is 0, coordinates are rounded to single precision. Says on standard error
+/// what `words_about` finds. Throws compare::InputError that names the file and, as the file counts them, the elements
+/// that no mesh may have (compare::validate).
+MeshInput read_mesh_input(const std::string& file, const compare::MeshOptions& options);
+
+}  // namespace ogc::experiments

@@ -1,0 +1,147 @@
+#include "experiments/program/runs/measured_simulation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+namespace {
+
+using compare::Snapshot;
+using compare::StepEvent;
+using compare::StepEventKind;
+using compare::StepMetrics;
+
+constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
+
+/// How the time of a step is spread over its events.
+struct EventTimes {
+  double begin = 0, detection = 0, sweep = 0;  ///< before the first event; of one event [ms]
+};
+
+EventTimes event_times(const StepMetrics& row, const std::vector<std::string>& stages) {
+  EventTimes times;
+  const auto one_of = [&](std::string_view name, std::int64_t count) {
+    const auto stage = std::ranges::find(stages, name);
+    if (stage == stages.end() || count == 0) return 0.0;
+    return row.stage_ms[static_cast<std::size_t>(stage - stages.begin())] / static_cast<double>(count);
+  };
+  times.detection = one_of("detection", row.discrete_detections);
+  times.sweep = one_of("sweep", row.iterations);
+  if (stages.empty() && row.iterations > 0) times.sweep = row.wall_ms / static_cast<double>(row.iterations);
+  times.begin = one_of("begin", 1) + one_of("initial_guess", 1);
+  return times;
+}
+
+class MeasuredSimulation : public compare::Simulation {
+ public:
+  MeasuredSimulation(const compare::Scene& scene, std::unique_ptr<Simulation> inner,
+                     std::function<compare::StepOut(const compare::StepIn&)> trace)
+      : scene_(scene),
+        topology_(build_topology(scene)),
+        inner_(std::move(inner)),
+        trace_(std::move(trace)),
+        meter_(scene) {}
+
+  std::vector<StepMetrics> advance(std::int64_t steps) override {
+    std::vector<StepMetrics> rows;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      const Snapshot before = inner_->snapshot();
+      for (StepMetrics& row : inner_->advance(1)) rows.push_back(std::move(row));
+      const Snapshot after = inner_->snapshot();
+      if (after.step == before.step) break;
+      meter_.begin_step(before.positions, before.velocities, after.step);
+      rows.back().residual = meter_.at(after.positions).share;
+      if (trace_) add_iterations(before, after, rows.back());
+    }
+    return rows;
+  }
+
+  Snapshot snapshot() override { return inner_->snapshot(); }
+  void restore(const Snapshot& snapshot) override { inner_->restore(snapshot); }
+  std::vector<std::string> stage_names() const override { return inner_->stage_names(); }
+  std::string device() const override { return inner_->device(); }
+
+ private:
+  /// The scene whose first step is the one after `before`: a trace knows no other, so that each motion becomes
+  /// two keyframes, its targets at the step's begin and end.
+  compare::Scene scene_at(const Snapshot& before) const {
+    compare::Scene scene = scene_;
+    const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;
+    const double end = static_cast<double>(before.step + 1) * h;
+    for (std::size_t i = 0; i < scene.motions.size(); ++i) {
+      const compare::PrescribedMotion& motion = scene_.motions[i];
+      compare::Keyframes keyframes{.times = {0, h}, .positions = prescribed_targets(scene_, motion, now)};
+      const std::vector<compare::Vec3f> targets = prescribed_targets(scene_, motion, end);
+      keyframes.positions.insert(keyframes.positions.end(), targets.begin(), targets.end());
+      scene.motions[i] = {.name = motion.name, .vertices = motion.vertices, .keyframes = std::move(keyframes)};
+    }
+    scene.mesh.positions = compare::to_double(before.positions);
+    scene.velocities = compare::to_double(before.velocities);
+    return scene;
+  }
+
+  void add_iterations(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
+    const compare::Scene scene = scene_at(before);
+    const compare::StepOut trace = trace_({&scene, &topology_});
+    if (trace.position != after.positions)
+      throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
+    const EventTimes times = event_times(step, inner_->stage_names());
+    double now = times.begin;
+    const auto begin = std::ranges::find(trace.events, StepEventKind::sweep, &StepEvent::kind);
+    for (auto event = trace.events.begin(); event != trace.events.end(); ++event) {
+      if (event->kind == StepEventKind::detection) {
+        now += times.detection;
+        contacts_ = {event->vertex_facet.contacts, event->edge_edge.contacts};
+        previous_ = event->position;
+      }
+      if (event + 1 == begin) add_row(*event, now, step);
+      if (event < begin) continue;
+      if (event->kind == StepEventKind::detection) {
+        step.iteration_rows.pop_back();
+        add_row(*event, now, step);
+        step.iteration_rows.back().detected = 1;
+        continue;
+      }
+      now += times.sweep;
+      step.iteration_rows.back().vertices_cut = event->cut;
+      add_row(*event, now, step);
+    }
+  }
+
+  void add_row(const StepEvent& event, double now, StepMetrics& step) {
+    const reference::Residual measured = meter_.with(contacts_, previous_, event.position);
+    compare::IterationMetrics row;
+    row.step = step.step;
+    row.iteration = static_cast<std::int64_t>(step.iteration_rows.size());
+    row.wall_ms = now;
+    row.residual = measured.share;
+    row.energy = measured.energy;
+    row.largest_change = row.condition_number = not_asked;
+    row.condition_without_friction = row.condition_without_contact = not_asked;
+    row.share = 1;
+    step.iteration_rows.push_back(row);
+  }
+
+  compare::Scene scene_;
+  compare::Topology topology_;
+  std::unique_ptr<Simulation> inner_;
+  std::function<compare::StepOut(const compare::StepIn&)> trace_;
+  reference::ResidualMeter meter_;
+  reference::ContactSets contacts_;       ///< of the trace's last detection
+  std::vector<compare::Vec3f> previous_;  ///< where it was
+};
+
+}  // namespace
+
+compare::Contestant measured(compare::Contestant contestant, bool iterations) {
+  compare::Contestant result = contestant;
+  result.start = [start = contestant.start, step = contestant.step, iterations](
+                     const compare::Scene& scene, const compare::SimulationOptions& options) {
+    return std::make_unique<MeasuredSimulation>(scene, start(scene, options), iterations ? step : nullptr);
+  };
+  return result;
+}
+
+}  // namespace ogc::experiments

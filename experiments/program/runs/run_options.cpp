@@ -1,0 +1,251 @@
+#include "experiments/program/runs/run_options.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "compare/files/mesh_files.hpp"
+#include "compare/files/numbers.hpp"
+#include "compare/files/scene_files.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/ranges.hpp"
+#include "compare/problem/text.hpp"
+#include "compare/problem/validate_mesh.hpp"
+#include "experiments/program/option_checks.hpp"
+#include "experiments/program/runs/measured_simulation.hpp"
+#include "experiments/program/runs/mesh_scene.hpp"
+#include "experiments/program/runs/solvers.hpp"
+#include "experiments/scenes/registry.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+std::string value_text(const compare::Settings& settings, const compare::SettingInfo& info) {
+  return info.choices.empty() ? number(compare::get_setting(settings, info)) : compare::setting_text(settings, info);
+}
+
+bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
+
+constexpr std::string_view data_key = "data=";
+/// A day.
+constexpr double most_checkpoint_seconds = 86400;
+
+void check_scene_options(const RunOptions& options, const std::string& data) {
+  const bool is_mesh = compare::is_mesh_file(options.scene);
+  if (!is_mesh && (options.ground || options.mesh != compare::MeshOptions{}))
+    throw compare::InputError(
+        "--ground, --weld, --no-triangulate and --no-drop-unused belong to a mesh file in place of the scene, "
+        "for example ogc run shirt.obj");
+  if (!is_mesh && !is_scene_file(options.scene)) return;
+  if (!data.empty())
+    throw compare::InputError("--set data=" + data + " belongs to the built-in scenes; a file names its meshes itself");
+  if (!options.scale.empty())
+    throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a file has one size");
+}
+
+/// The scene before --set, and its scale; says what was taken otherwise than its files have it.
+compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
+  const std::string data = data_folder(options.assignments);
+  check_scene_options(options, data);
+  if (compare::is_mesh_file(options.scene)) return mesh_scene(options.scene, options.mesh, options.ground);
+  if (is_scene_file(options.scene)) {
+    compare::SceneFile file = compare::load_scene_file(options.scene);
+    for (const std::string& note : file.notes) log_line("ogc: " + note);
+    return file;
+  }
+  scale = options.scale.empty() ? "small" : options.scale;
+  return {make_scene(options.scene, parse_scale(scale), data), {}, {}};
+}
+
+/// The model of that name for every body that has one; false where `key` names no model.
+template <class Model>
+bool set_model(compare::Scene& scene, const std::string& key, std::string_view wanted_key, const std::string& value,
+               std::span<const std::string_view> names, Model compare::Material::*model) {
+  if (key != wanted_key) return false;
+  const auto found = std::find(names.begin(), names.end(), value);
+  if (found == names.end()) throw compare::InputError(key + ": " + compare::unknown_name("model", value, names));
+  for (compare::Body& body : scene.bodies)
+    if (body.material.*model != Model::none) body.material.*model = static_cast<Model>(found - names.begin());
+  return true;
+}
+
+const compare::MaterialInfo& contact_stiffness() {
+  return *std::ranges::find(compare::material_table(), "contact_stiffness", &compare::MaterialInfo::name);
+}
+
+/// k_c of every body; false where `key` names something else.
+bool set_stiffness(compare::Scene& scene, const std::string& key, const std::string& value) {
+  if (key != "contact_stiffness") return false;
+  double stiffness = 0;
+  if (!compare::parse_number(value, stiffness) || !in_range(contact_stiffness(), stiffness))
+    throw compare::InputError(key + ": '" + compare::shown(value) + "' is not " + describe_range(contact_stiffness()));
+  for (compare::Body& body : scene.bodies) body.material.contact_stiffness = stiffness;
+  return true;
+}
+
+/// Of what --set can be given.
+void expect_setting(const std::string& key) {
+  std::vector<std::string_view> names{"membrane", "bending", "contact_stiffness"};
+  for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
+  if (std::ranges::find(names, key) != names.end()) return;
+  throw compare::InputError(compare::unknown_name("setting", key, names));
+}
+
+void set(compare::Scene& scene, const std::string& key, const std::string& value) {
+  using compare::Material;
+  expect_setting(key);
+  if (!set_stiffness(scene, key, value) &&
+      !set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
+      !set_model(scene, key, "bending", value, compare::bending_model_names(), &Material::bending))
+    compare::set_setting(scene.settings, key, value);
+}
+
+void apply_settings(compare::Scene& scene, const RunOptions& options) {
+  for (const std::string& assignment : options.assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw compare::InputError("--set " + assignment + ": give key=value, for example --set iterations=20");
+    if (!assignment.starts_with(data_key)) set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
+}
+
+const std::vector<std::string> backend_names{"cpu", "cuda"};
+
+}  // namespace
+
+CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  const std::string kinds = "A built-in scene (" + scene_names() +
+                            "), a scene file, or a mesh file: cloth that falls on a ground";
+  CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
+  command
+      .add_option("--ground", options->ground,
+                  "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)")
+      ->check(real_number(-compare::most_length, compare::most_length, "m"));
+  add_mesh_options(command, options->mesh);
+  command.add_option("--solver", options->solver, "How a step is solved")
+      ->check(CLI::IsMember(std::vector<std::string>(solver_names().begin(), solver_names().end())))
+      ->capture_default_str();
+  command.add_option("--backend", options->backend, "Where it is computed")
+      ->check(CLI::IsMember(backend_names))
+      ->capture_default_str();
+  command.add_option("--scale", options->scale,
+                     "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
+  command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")
+      ->check(whole_number(1, most_counted));
+  command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1);
+  command
+      .add_option("--audit", options->audit, "Which states are judged: each step, stored frames, the last one, none")
+      ->check(CLI::IsMember({"every", "frame", "end", "off"}))
+      ->capture_default_str();
+  command.add_option("--from-state", options->from_state,
+                     "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
+  command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
+  command.add_flag(
+      "--residual", options->residual,
+      "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
+  command.add_flag("--iterations", options->iterations,
+                   "Write iterations.csv, a row an iteration, measured beside the run");
+  command.add_flag("--condition", options->condition,
+                   "With newton: the same, with the condition number of each matrix, also without friction and without "
+                   "contact (slow)");
+  command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
+  command.add_option(
+      "--show", options->show,
+      "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
+  command
+      .add_option("--checkpoint", options->checkpoint_seconds,
+                  "Seconds between two checkpoints, at least; 0: at each state that is judged")
+      ->check(real_number(1e-3, most_checkpoint_seconds, "s", true))
+      ->capture_default_str();
+  return scene;
+}
+
+std::string data_folder(const std::vector<std::string>& assignments) {
+  std::string folder;
+  for (const std::string& assignment : assignments) {
+    if (!assignment.starts_with(data_key)) continue;
+    folder = assignment.substr(data_key.size());
+    if (folder.empty())
+      throw compare::InputError("--set data=: give the folder of the data, for example --set data=input");
+  }
+  return folder;
+}
+
+std::string scene_names() {
+  std::string names;
+  for (const SceneInfo& info : scenes()) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  return names;
+}
+
+std::string settings_help() {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> meanings;
+  const auto add = [&](std::string_view name, std::string_view unit, std::string_view value, const std::string& range,
+                       std::string_view meaning) {
+    rows.push_back({"  " + std::string(name), std::string(unit), std::string(value), range});
+    meanings.emplace_back(meaning);
+  };
+  add("setting", "unit", "default", "range", "what it means");
+  const compare::Settings defaults;
+  for (const compare::SettingInfo& info : compare::setting_table())
+    add(info.name, info.unit, value_text(defaults, info), compare::range_text(info), info.meaning);
+  add("membrane", "1", "the scene's", compare::joined(compare::membrane_model_names()),
+      "how cloth resists stretch: the model of every body that does");
+  add("bending", "1", "the scene's", compare::joined(compare::bending_model_names()),
+      "how cloth resists bending: the model of every body that does");
+  add("contact_stiffness", "N/m", "the scene's", compare::range_text(contact_stiffness()),
+      "force of a contact for each metre that it is too near, k_c: of every body");
+  add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
+  std::istringstream lines(table(rows, 4));
+  const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";
+  std::string text = head + "that says nothing):\n", line;
+  for (const std::string& meaning : meanings) text += (std::getline(lines, line), line) + "\n      " + meaning + "\n";
+  return text;
+}
+
+RunRequest request_of(const RunOptions& options, const CommandContext& context) {
+  const SolverOptions solver = options_of(parse_solver(options.solver));
+  if (!std::ranges::count(backend_names, options.backend))
+    throw compare::InputError("--backend " + options.backend + " does not exist; there are: " + backend_names[0] +
+                              ", " + backend_names[1]);
+  if (!solver.has_backends && options.backend != "cpu")
+    throw compare::InputError("--solver " + options.solver + " runs on the CPU; leave --backend out");
+  if (!solver.has_condition && options.condition) throw compare::InputError("--condition belongs to --solver newton");
+  if (!solver.has_measured_residual && options.residual)
+    throw compare::InputError("--solver " + options.solver +
+                              " has a measure of its own in that column; leave --residual out");
+  RunRequest request;
+  compare::SceneFile file = load_scene(options, request.scale);
+  request.scene = std::move(file.scene);
+  request.sources = std::move(file.sources);
+  apply_settings(request.scene, options);
+  request.solver = options.solver;
+  request.backend = options.backend;
+  request.iterations = options.iterations || options.condition;
+  request.condition = options.condition;
+  request.audit_beside = options.backend == "cuda";
+  request.residual = options.residual;
+  request.audit = audit_mode(options.audit);
+  request.checkpoint_seconds = options.checkpoint_seconds;
+  if (!options.from_state.empty()) request.from_state = options.from_state;
+  request.profile = options.profile;
+  const std::string scale = request.scale.empty() ? "" : "-" + request.scale;
+  request.folder = options.out.empty() ? "runs/" + request.scene.name + scale + "-" + utc_stamp() : options.out;
+  request.show = options.show;
+  request.command_line = context.command_line;
+  return request;
+}
+
+compare::Contestant contestant_of(const RunOptions& options) {
+  const Solver solver = parse_solver(options.solver);
+  const bool has_rows = options.iterations && options_of(solver).has_traced_rows;
+  const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda");
+  return options.residual || has_rows ? measured(contestant, has_rows) : contestant;
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,430 @@
+#include "experiments/program/runs/run_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/files/mesh_files.hpp"
+#include "compare/problem/dust.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
+#include "compare/record/steps_csv.hpp"
+#include "experiments/program/audits/offenders.hpp"
+#include "experiments/program/interrupt.hpp"
+#include "experiments/program/progress.hpp"
+#include "experiments/program/runs/resume.hpp"
+#include "experiments/program/version.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Snapshot;
+using compare::StepMetrics;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
+
+bool finite(const Snapshot& snapshot) {
+  return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
+}
+
+/// Not a number where there is none.
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Frames 60 times a second of the scene's time, unless the scene says otherwise.
+std::int64_t frame_steps(const compare::Settings& settings) {
+  if (settings.frame_steps > 0) return settings.frame_steps;
+  return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
+}
+
+RunRequest checked(RunRequest request) {
+  compare::round_to_single(request.scene);
+  // Scenes of files have none left; what a frame holds is never looked at for it.
+  if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
+    log_line("ogc: " + request.scene.name + ": " + dust);
+  const std::string problems = compare::describe(
+      compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
+  if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
+  if (!request.resume) compare::expect_new_run_folder(request.folder);
+  return request;
+}
+
+compare::Provenance provenance(const RunRequest& request, const std::string& device) {
+  const BuildInfo build = build_info();
+  compare::Provenance origin;
+  origin.solver = request.solver;
+  origin.backend = request.backend;
+  origin.device = device;
+  origin.command = request.command_line;
+  origin.version = build.version;
+  origin.commit = build.commit;
+  origin.compiler = build.compiler;
+  origin.cuda = build.cuda;
+  origin.dirty = build.dirty;
+  origin.status = "running";
+  origin.extra["scale"] = request.scale;
+  origin.extra["audit"] = name_of(request.audit);
+  origin.extra["iteration_rows"] = request.iterations ? "yes" : "no";
+  origin.extra["condition_numbers"] = request.condition ? "yes" : "no";
+  origin.extra["residuals"] = request.residual ? "yes" : "no";
+  if (request.from_state) origin.extra["from_state"] = request.from_state->string();
+  return origin;
+}
+
+std::string step_failure(const StepMetrics& row) {
+  const std::string where = " in step " + std::to_string(row.step);
+  if (row.status & compare::step_not_finite)
+    return "a position became infinite or not a number" + where +
+           "; the last good state is kept. Try a smaller time_step, more iterations, or softer materials";
+  if (row.status & compare::step_bound_violated)
+    return "a vertex moved further than its bound" + where +
+           ": the guarantee is broken; the last good state is kept. Please report it";
+  if (row.status & compare::step_indefinite)
+    return "Newton's matrix is not positive definite" + where +
+           "; the last good state is kept. Set projection to clamp or absolute, or a smaller time_step";
+  if (row.status & compare::step_not_converged && !row.notes.empty())
+    return "the solver came to a standstill" + where + " (" + row.notes.back() +
+           "); the last good state is kept. Try a smaller time_step";
+  if (row.status & compare::step_not_converged)
+    return "Newton's method did not converge" + where + ": residual " + number(row.residual) + " after " +
+           counted(static_cast<std::size_t>(row.iterations), "iteration") +
+           "; the last good state is kept. Try more newton_iterations, a larger newton_tolerance (0: do all iterations "
+           "and go on), or a smaller time_step";
+  return "";
+}
+
+}  // namespace
+
+RunSession::RunSession(RunRequest request, compare::Contestant contestant)
+    : request_(checked(std::move(request))),
+      settings_(request_.scene.settings),
+      contestant_(std::move(contestant)),
+      judge_(request_.scene, request_.sources),
+      warnings_(request_.scene) {
+  frame_steps_ = frame_steps(settings_);
+  start_state();
+  if (!request_.resume) check_start();
+}
+
+void RunSession::start_state() {
+  start_.positions = compare::to_single(request_.scene.mesh.positions);
+  start_.velocities = compare::to_single(request_.scene.velocities);
+  if (request_.from_state) {
+    const std::string file = request_.from_state->string();
+    compare::Frame frame = compare::read_frame(*request_.from_state);
+    if (frame.positions.size() != start_.positions.size() || frame.velocities.size() != start_.positions.size())
+      throw compare::InputError(file + ": holds " + std::to_string(frame.positions.size()) + " vertices, the scene '" +
+                                request_.scene.name + "' has " + std::to_string(start_.positions.size()) +
+                                "; give the scene and scale of the run that the frame comes from");
+    if (frame.step >= settings_.steps)
+      throw compare::InputError(file + ": is the state after step " + std::to_string(frame.step) +
+                                ", and the run ends at step " + std::to_string(settings_.steps) +
+                                "; give a larger --steps");
+    start_.step = frame.step;
+    start_.positions = std::move(frame.positions);
+    start_.velocities = std::move(frame.velocities);
+  }
+  if (request_.resume) start_ = request_.resume->state;
+  if (!finite(start_)) throw compare::InputError("the start holds a position that is not finite");
+  step_ = offered_step_ = start_.step;
+}
+
+void RunSession::check_start() const {
+  const compare::AuditResult result = judge_.audit(start_.positions);
+  if (result.count == 0) return;
+  throw compare::InputError("the scene '" + request_.scene.name + "' starts with " +
+                            counted(result.count, "intersection") + " " + show("start", start_, result) +
+                            "\nNo method that starts from a penetration can promise to have none. Move these apart:\n" +
+                            judge_.describe(result));
+}
+
+/// Where the intersections of a state are, and the picture, or how to get one.
+std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
+  const compare::Topology topology = build_topology(request_.scene);
+  const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
+  const std::string place = place_of(offenders_of(result, topology), topology, positions);
+  if (request_.show.empty()) return place + " (for a picture of them add --show DIR)";
+  return place + "\n" + show_offenders(request_.show, name, result, topology, positions);
+}
+
+void RunSession::open_folder() {
+  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile,
+                                                   .energies = true,
+                                                   .iterations = request_.iterations,
+                                                   .condition = request_.condition});
+  if (request_.from_state || request_.resume) simulation_->restore(start_);
+  summary_.scene = request_.scene.name;
+  summary_.scale = request_.scale;
+  summary_.solver = request_.solver;
+  summary_.backend = request_.backend;
+  summary_.device = simulation_->device();
+  summary_.folder = request_.folder.string();
+  summary_.left_out_of_audits = left_out_of_audits(request_.scene);
+  summary_.first_step = summary_.last_step = step_;
+  summary_.smallest_distance = std::numeric_limits<double>::infinity();
+  auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);
+  last_good_ = start_;
+  for (const std::string& warning : warnings_.list()) log_line("warning: " + warning);
+  if (request_.resume) return reopen_folder();
+  begin_folder();
+}
+
+void RunSession::begin_folder() {
+  last_good_.bounds.assign(start_.positions.size(), 0);
+  compare::Provenance origin = provenance(request_, summary_.device);
+  origin.warnings = warnings_.list();
+  writer_ = std::make_unique<compare::RunWriter>(
+      request_.folder, request_.scene, origin,
+      request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
+}
+
+/// What the run did before is counted from its own rows.
+void RunSession::reopen_folder() {
+  writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, step_,
+                                                 request_.backend == "cpu" ? ", " + summary_.device : "");
+  const std::vector<StepMetrics> rows = compare::read_steps(request_.folder).rows;
+  if (!rows.empty()) summary_.first_step = rows.front().step - 1;
+  // An interruption stores a frame where the whole run has none.
+  writer_->keep_frames([this](std::int64_t step) {
+    return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps;
+  });
+  count(rows);
+  summary_.audited_states = static_cast<std::size_t>(request_.resume->audited_states);
+  if (summary_.audited_states > 0) summary_.guarantee_kept = true;
+  log_line("goes on after step " + std::to_string(step_) + " of " + std::to_string(settings_.steps));
+}
+
+RunSummary RunSession::run() {
+  open_folder();
+  try {
+    if (!request_.resume) store_frame(last_good_);
+    save_checkpoint();
+    writer_->flush();
+    summary_.seconds.start = since_begun();
+    simulate();
+    finish();
+  } catch (const std::exception& error) {
+    summary_.status = std::string("failed: ") + error.what();
+    try {
+      writer_->give_up(summary_.status);
+    } catch (const std::exception&) {
+      // The first error is the one to report; frames that are finished are readable whatever run.json says.
+    }
+    throw;
+  }
+  return summary_;
+}
+
+/// Steps until something is due. No bit depends on where the simulation pauses.
+std::int64_t RunSession::chunk() const {
+  const std::int64_t to_state = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
+  return std::min({to_state, settings_.steps - step_, pace_.steps()});
+}
+
+bool RunSession::is_frame(std::int64_t step) const { return step % frame_steps_ == 0 || step == settings_.steps; }
+
+/// A whole run offers it, too: not only one that saves a checkpoint between two frames, or that ends before time.
+bool RunSession::is_planned(std::int64_t step) const { return request_.audit == AuditMode::every || is_frame(step); }
+
+bool RunSession::is_checkpoint_due() const { return seconds_since(saved_at_) >= request_.checkpoint_seconds; }
+
+void RunSession::simulate() {
+  Progress progress(step_, settings_.steps, "step");
+  while (step_ < settings_.steps && !failed() && !interrupted()) {
+    if (!one_chunk()) break;
+    const double recent = step_times_.empty() ? 0 : step_times_.back();
+    const auto contacts = static_cast<std::size_t>(summary_.last_vertex_facet_contacts +
+                                                   summary_.last_edge_edge_contacts);
+    progress.show(step_, number(recent) + " ms a step, " + counted(contacts, "contact") +
+                             ", frames written up to step " + std::to_string(writer_->written().last_step));
+  }
+  progress.end();
+  if (interrupted() && !failed()) {
+    log_line("stops after step " + std::to_string(step_) +
+             "; once more ends the program at once, and leaves what is written");
+    offer_state(any_step);
+  }
+  const Clock::time_point begin = Clock::now();
+  const std::vector<Verdict> verdicts = auditor_->finish();
+  summary_.seconds.audits += seconds_since(begin);
+  collect(verdicts);
+}
+
+/// False where the simulation can't go on.
+bool RunSession::one_chunk() {
+  const Clock::time_point begin = Clock::now();
+  const std::vector<StepMetrics> rows = simulation_->advance(chunk());
+  pace_.measured(static_cast<std::int64_t>(rows.size()), seconds_since(begin));
+  add_rows(rows);
+  const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
+  if (broken.empty()) {
+    step_ = rows.back().step;
+    // A state that waits for its verdict is saved as soon as that is there.
+    if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
+  } else if (!rows.empty()) {
+    // A broken step may have been committed or not: its state is no good one.
+    offer_state(rows.back().step);
+  }
+  collect(auditor_->take());
+  if (!broken.empty() && !failed()) summary_.failure = broken;
+  return !failed();
+}
+
+/// The state as it is now, where it is new, finite and of a step before `before`.
+void RunSession::offer_state(std::int64_t before) {
+  Snapshot snapshot = simulation_->snapshot();
+  step_ = snapshot.step;
+  if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
+  offered_step_ = step_;
+  offer(std::move(snapshot));
+}
+
+void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
+  writer_->add_steps(rows);
+  for (const StepMetrics& row : rows) {
+    for (const std::string& note : row.notes) log_line(note);
+    summary_.seconds.steps += row.wall_ms / 1000;
+  }
+  count(rows);
+}
+
+void RunSession::count(const std::vector<StepMetrics>& rows) {
+  for (const StepMetrics& row : rows) {
+    for (const std::string& warning : warnings_.look_at(row)) log_line("warning: " + warning);
+    step_times_.push_back(row.wall_ms);
+    if (row.wall_ms > summary_.worst_ms) summary_.worst_ms = row.wall_ms, summary_.worst_step = row.step;
+    summary_.last_vertex_facet_contacts = row.vertex_facet_contacts;
+    summary_.last_edge_edge_contacts = row.edge_edge_contacts;
+    summary_.most_contacts = std::max(summary_.most_contacts, row.vertex_facet_contacts + row.edge_edge_contacts);
+    summary_.detections += row.broad_phases;
+    summary_.discrete_detections += row.discrete_detections;
+    summary_.continuous_detections += row.continuous_detections;
+    summary_.guess_rounds += row.guess_rounds;
+    summary_.iterations += row.iterations;
+    summary_.repeats += row.repeats;
+    summary_.largest_share_cut = std::max(summary_.largest_share_cut, row.share_cut);
+    summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
+    summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
+    summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
+    if (row.status & compare::step_bound_violated) summary_.guarantee_kept = false;
+  }
+}
+
+void RunSession::offer(Snapshot snapshot) {
+  if (request_.audit == AuditMode::off || (request_.audit == AuditMode::end && snapshot.step != settings_.steps))
+    return accept(std::move(snapshot));
+  submit(snapshot);
+  offered_.push_back(std::move(snapshot));
+}
+
+/// On the CPU the audit is over when this returns; beside a device it may wait for the one before.
+void RunSession::submit(const Snapshot& snapshot) {
+  const Clock::time_point begin = Clock::now();
+  auditor_->submit(snapshot);
+  summary_.seconds.audits += seconds_since(begin);
+}
+
+void RunSession::accept(Snapshot snapshot) {
+  last_good_ = std::move(snapshot);
+  if (is_frame(last_good_.step)) store_frame(last_good_);
+  if (is_checkpoint_due()) save_checkpoint();
+}
+
+/// After rows and frames up to its step, so that a run that goes on from it misses none.
+void RunSession::save_checkpoint() {
+  if (last_good_.step == saved_step_) return;
+  writer_->save({last_good_, static_cast<std::int64_t>(summary_.audited_states)});
+  saved_step_ = last_good_.step;
+  saved_at_ = Clock::now();
+}
+
+void RunSession::collect(const std::vector<Verdict>& verdicts) {
+  for (const Verdict& verdict : verdicts) {
+    Snapshot snapshot = std::move(offered_.front());
+    offered_.pop_front();
+    if (summary_.failed_states > 0) continue;
+    ++(is_planned(snapshot.step) ? summary_.audited_states : unplanned_audits_);
+    if (!summary_.guarantee_kept) summary_.guarantee_kept = true;
+    if (verdict.kept()) {
+      accept(std::move(snapshot));
+    } else {
+      reject(verdict, snapshot);
+    }
+  }
+}
+
+void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
+  summary_.guarantee_kept = false;
+  ++summary_.failed_states;
+  summary_.intersections += verdict.intersections.count;
+  summary_.certificate_violations += verdict.motion.violations;
+  summary_.unsafe_bounds += verdict.unsafe_bounds;
+  compare::Mesh mesh = request_.scene.mesh;
+  mesh.positions = compare::to_double(snapshot.positions);
+  const std::filesystem::path file = request_.folder / ("failed_step_" + std::to_string(verdict.step) + ".ply");
+  compare::write_mesh(file, mesh);
+  const std::string state = "step_" + std::to_string(verdict.step);
+  const std::string shown = verdict.intersections.count == 0
+                                ? ""
+                                : "\nintersections " + show(state, snapshot, verdict.intersections);
+  summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() +
+                     "); the last good state is kept:" + shown + "\n" + judge_.describe(verdict);
+}
+
+void RunSession::store_frame(const Snapshot& snapshot) {
+  if (snapshot.step == last_frame_) return;
+  writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions,
+                      snapshot.velocities, snapshot.bounds});
+  last_frame_ = snapshot.step;
+}
+
+double RunSession::since_begun() const { return seconds_since(request_.begun); }
+
+/// For the summary and for run.json, whose last writing is not in it.
+void RunSession::take_times() {
+  RunSeconds& seconds = summary_.seconds;
+  seconds.writing = writer_->waited_seconds();
+  seconds.whole = since_begun();
+  writer_->set_extra("whole_seconds", number(seconds.whole, 6));
+  writer_->set_extra("start_seconds", number(seconds.start, 6));
+  writer_->set_extra("step_seconds", number(seconds.steps, 6));
+  writer_->set_extra("audit_seconds", number(seconds.audits, 6));
+  writer_->set_extra("writing_seconds", number(seconds.writing, 6));
+}
+
+void RunSession::finish() {
+  store_frame(last_good_);
+  save_checkpoint();
+  // A whole run counts what it was asked to audit, however often it was cut off; one that ends early, all that it did.
+  if (last_good_.step < settings_.steps) summary_.audited_states += unplanned_audits_;
+  summary_.last_step = last_good_.step;
+  summary_.final_hash = state_hash(last_good_.positions);
+  summary_.was_interrupted = !failed() && step_ < settings_.steps;
+  const std::string first_line = summary_.failure.substr(0, summary_.failure.find('\n'));
+  summary_.status = failed() ? "failed: " + first_line : summary_.was_interrupted ? "interrupted" : "finished";
+  summary_.median_ms = median(step_times_);
+  if (step_times_.empty()) summary_.worst_ms = summary_.median_ms;
+  summary_.warnings = warnings_.list();
+  writer_->set_warnings(summary_.warnings);
+  writer_->set_extra("final_hash", summary_.final_hash);
+  writer_->set_extra("guarantee_kept", !summary_.guarantee_kept   ? "not checked"
+                                       : *summary_.guarantee_kept ? "yes"
+                                                                  : "no");
+  writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
+  writer_->close();
+  take_times();
+  writer_->finish(summary_.status);
+}
+
+}  // namespace ogc::experiments

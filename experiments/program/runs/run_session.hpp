@@ -1,0 +1,144 @@
+// One simulation from its scene to its run folder. States are stored only after they were judged (where they are judged
+// at all), so that the last frame of a folder is the last good state; the simulation may be a few states ahead by then,
+// and is stopped.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/problem/contestant.hpp"
+#include "compare/record/run_folder.hpp"
+#include "experiments/program/audits/auditor.hpp"
+#include "experiments/program/output.hpp"
+#include "experiments/program/runs/pace.hpp"
+#include "experiments/program/runs/warnings.hpp"
+
+namespace ogc::experiments {
+
+/// What a run that is cut off loses at most, besides the steps that it works at.
+inline constexpr double default_checkpoint_seconds = 60;
+
+/// Where the time of a run goes [s].
+struct RunSeconds {
+  double whole = 0;    ///< since the command began
+  double start = 0;    ///< until the first step: scene, its audit, device, folder
+  double steps = 0;    ///< sum of StepMetrics::wall_ms
+  double audits = 0;   ///< that the run waited for
+  double writing = 0;  ///< that the run waited for the disk
+};
+
+/// What a run is asked for.
+struct RunRequest {
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
+  compare::Scene scene;                                                            ///< with all settings applied
+  compare::MeshSources sources;  ///< of its bodies' meshes, for messages
+  std::string scale;             ///< "smoke", …; empty for a scene file
+  std::string solver = "vbd";
+  std::string backend = "cpu";
+  AuditMode audit = AuditMode::frame;
+  bool audit_beside = false;  ///< see Auditor
+  std::optional<std::filesystem::path> from_state;
+  std::optional<compare::Checkpoint> resume;               ///< of `folder`, whose run goes on (resume.hpp)
+  double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
+  bool profile = false;
+  bool iterations = false, condition = false;  ///< see compare::SimulationOptions
+  /// the contestant was wrapped so (experiments/program/runs/measured_simulation.hpp); for run.json
+  bool residual = false;
+  std::filesystem::path folder;
+  std::filesystem::path show;  ///< folder for pictures of what an audit refuses; empty: none
+  std::string command_line;
+};
+
+/// What a run comes to. Times of steps [ms]; not-a-number where no step was done.
+struct RunSummary {
+  std::string scene, scale, solver, backend, device, folder, status;
+  std::vector<std::string> warnings;  ///< what can hardly be meant, in words (experiments/program/runs/warnings.hpp)
+  std::string left_out_of_audits;     ///< in words; empty where nothing is
+  std::string failure;                ///< what went wrong, naming primitives; empty where nothing did
+  bool was_interrupted = false;
+  std::int64_t first_step = 0, last_step = 0;  ///< states: from, to
+  double median_ms = 0, worst_ms = 0;
+  std::int64_t worst_step = 0;
+  std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
+  /// detections: trees brought up to date and asked
+  std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
+  std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
+  double largest_share_cut = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
+  std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
+  std::optional<bool> guarantee_kept;  ///< empty where nothing was audited and nothing is known to be wrong
+  std::string final_hash;              ///< state_hash of the last good state
+  RunSeconds seconds;                  ///< of this command, which may have gone on with an earlier one's run
+};
+
+/// For programs.
+Json to_json(const RunSummary& summary);
+/// For people.
+std::string describe(const RunSummary& summary);
+
+/// One run, from its folder to its summary.
+class RunSession {
+ public:
+  /// Checks the scene, the folder and the start; a run that goes on was checked by resumed_run, and its state when that
+  /// was stored. Throws compare::InputError (invalid, no folder for a run, or an intersection at the start, each pair
+  /// named).
+  RunSession(RunRequest request, compare::Contestant contestant);
+  RunSession(const RunSession&) = delete;
+  RunSession& operator=(const RunSession&) = delete;
+  /// Runs to the end, to a failure (RunSummary::failure), or until interrupted. Throws compare::ResourceError where the
+  /// disk is full; the folder then says so as far as it can.
+  RunSummary run();
+
+ private:
+  void start_state();
+  void check_start() const;
+  std::string show(const std::string& name, const compare::Snapshot& state, const compare::AuditResult& result) const;
+  void open_folder();
+  void begin_folder();
+  void reopen_folder();
+  void save_checkpoint();
+  void simulate();
+  bool one_chunk();
+  std::int64_t chunk() const;
+  bool is_frame(std::int64_t step) const;
+  bool is_planned(std::int64_t step) const;
+  bool is_checkpoint_due() const;
+  void offer_state(std::int64_t before);
+  void add_rows(const std::vector<compare::StepMetrics>& rows);
+  void count(const std::vector<compare::StepMetrics>& rows);
+  void offer(compare::Snapshot snapshot);
+  void accept(compare::Snapshot snapshot);
+  void collect(const std::vector<Verdict>& verdicts);
+  void submit(const compare::Snapshot& snapshot);
+  double since_begun() const;
+  void take_times();
+  void reject(const Verdict& verdict, const compare::Snapshot& snapshot);
+  void store_frame(const compare::Snapshot& snapshot);
+  void finish();
+  bool failed() const { return !summary_.failure.empty(); }
+
+  RunRequest request_;
+  const compare::Settings& settings_;
+  compare::Contestant contestant_;
+  std::unique_ptr<compare::Simulation> simulation_;
+  StateJudge judge_;
+  Warnings warnings_;
+  std::unique_ptr<Auditor> auditor_;
+  std::unique_ptr<compare::RunWriter> writer_;
+  std::deque<compare::Snapshot> offered_;  ///< states that wait for their verdict
+  compare::Snapshot start_, last_good_;
+  std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
+  std::int64_t offered_step_ = 0;  ///< of the last state that was offered
+  Pace pace_;
+  std::int64_t saved_step_ = -1;  ///< of the last checkpoint
+  std::chrono::steady_clock::time_point saved_at_;
+  std::size_t unplanned_audits_ = 0;
+  std::vector<double> step_times_;
+  RunSummary summary_;
+};
+
+}  // namespace ogc::experiments

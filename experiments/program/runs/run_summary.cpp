@@ -1,0 +1,104 @@
+// What a run says at its end, for people and for programs.
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/program/runs/run_session.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+std::string integer(std::int64_t value) { return std::to_string(value); }
+
+std::string guarantee(const RunSummary& summary) {
+  if (!summary.guarantee_kept) return "not checked (audit off)";
+  if (!*summary.guarantee_kept) return "NO";
+  return "yes (" + counted(summary.audited_states, "state") + " audited exactly)";
+}
+
+std::string per_step(std::int64_t count, std::int64_t steps) {
+  return steps > 0 ? number(static_cast<double>(count) / static_cast<double>(steps)) + " a step" : "none";
+}
+
+std::string wall_time(const RunSeconds& seconds) {
+  return number(seconds.whole) + " s: start " + number(seconds.start) + " s, steps " + number(seconds.steps) +
+         " s; waited for audits " + number(seconds.audits) + " s, for the disk " + number(seconds.writing) + " s";
+}
+
+}  // namespace
+
+Json to_json(const RunSummary& summary) {
+  Json json{{"scene", summary.scene}};
+  json["scale"] = summary.scale.empty() ? Json(nullptr) : Json(summary.scale);
+  json["solver"] = summary.solver;
+  json["backend"] = summary.backend;
+  json["device"] = summary.device;
+  json["folder"] = summary.folder;
+  json["status"] = summary.status;
+  json["guarantee_kept"] = summary.guarantee_kept ? Json(*summary.guarantee_kept) : Json(nullptr);
+  json["final_hash"] = summary.final_hash;
+  const RunSeconds& seconds = summary.seconds;
+  json["seconds"] = {{"whole", seconds.whole},
+                     {"start", seconds.start},
+                     {"steps", seconds.steps},
+                     {"audits", seconds.audits},
+                     {"writing", seconds.writing}};
+  json["first_step"] = summary.first_step;
+  json["last_step"] = summary.last_step;
+  json["step_ms"] = {{"median", summary.median_ms}, {"worst", summary.worst_ms}, {"worst_step", summary.worst_step}};
+  json["contacts"] = {{"vertex_facet", summary.last_vertex_facet_contacts},
+                      {"edge_edge", summary.last_edge_edge_contacts},
+                      {"most", summary.most_contacts}};
+  json["detections"] = {{"broad_phases", summary.detections},
+                        {"discrete", summary.discrete_detections},
+                        {"continuous", summary.continuous_detections}};
+  json["guess_rounds"] = summary.guess_rounds;
+  json["iterations"] = summary.iterations;
+  json["repeats"] = summary.repeats;
+  json["largest_share_cut"] = summary.largest_share_cut;
+  json["largest_momentum_lost"] = summary.largest_momentum_lost;
+  json["largest_lag_m"] = summary.largest_lag;
+  json["smallest_distance_m"] = summary.smallest_distance;
+  json["audit"] = {{"states", summary.audited_states},
+                   {"failed_states", summary.failed_states},
+                   {"intersections", summary.intersections},
+                   {"beyond_bound", summary.certificate_violations},
+                   {"unsafe_bounds", summary.unsafe_bounds}};
+  if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
+  if (!summary.failure.empty()) json["failure"] = summary.failure;
+  json["warnings"] = summary.warnings;
+  return json;
+}
+
+std::string describe(const RunSummary& summary) {
+  const std::int64_t steps = summary.last_step - summary.first_step;
+  std::vector<std::vector<std::string>> rows{
+      {"run folder", summary.folder},
+      {"status", summary.status},
+      {"computed by", summary.solver + " on " + summary.backend + ", " + summary.device},
+      {"steps", integer(steps) + " (state " + integer(summary.first_step) + " to " + integer(summary.last_step) + ")"},
+      {"time a step", "median " + number(summary.median_ms) + " ms, worst " + number(summary.worst_ms) + " ms (step " +
+                          integer(summary.worst_step) + ")"},
+      {"wall time", wall_time(summary.seconds)},
+      {"contacts", "last " + integer(summary.last_vertex_facet_contacts) + " vertex-facet + " +
+                       integer(summary.last_edge_edge_contacts) + " edge-edge, most " + integer(summary.most_contacts)},
+      {"detections", per_step(summary.discrete_detections, steps) + " discrete, " +
+                         per_step(summary.continuous_detections, steps) + " continuous"},
+      {"guess rounds", per_step(summary.guess_rounds, steps)},
+      {"repeated steps", integer(summary.repeats) + " (a list grew)"},
+      {"vertices cut", "at most " + number(100 * summary.largest_share_cut) + " % after a step's last iteration"},
+      {"momentum lost", "at most " + number(100 * summary.largest_momentum_lost) + " % of a step's, in the guess loop"},
+      {"largest lag", number(summary.largest_lag) + " m of prescribed vertices"},
+      {"smallest distance",
+       std::isfinite(summary.smallest_distance) ? number(summary.smallest_distance) + " m" : "not measured"},
+      {"guarantee kept", guarantee(summary)},
+      {"final state", summary.final_hash + " (FNV-1a of the positions' bits)"},
+  };
+  if (!summary.left_out_of_audits.empty()) rows.insert(rows.end() - 1, {"not audited", summary.left_out_of_audits});
+  std::string warnings;
+  for (const std::string& warning : summary.warnings) warnings += (warnings.empty() ? "warnings: " : "; ") + warning;
+  return table(rows, 2) + warnings + (warnings.empty() ? "" : "\n");
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,221 @@
+// Each number is one function: what it has to satisfy, solved for the number, then rounded to the safe side.
+#include "experiments/program/runs/suggestion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "compare/oracle/smallest_distances.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
+#include "experiments/program/output.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Vec3;
+
+constexpr double gravity = 9.81;  ///< [m/s²]
+/// r is a quarter of an edge: the paper's cloths lie between a fifth (twist) and a whole one.
+constexpr double edges_a_radius = 4;
+constexpr double least_edges_a_radius = 20;  ///< below that contacts are thinner than any mesh resolves
+constexpr double most_radii = 16;  ///< of r_q, whatever the edges: the lists of candidates grow with its square
+constexpr double weights_held =
+    10;  ///< layers that may lie on a vertex before its contact is pressed to half its radius
+constexpr double detections_a_step = 4;     ///< that a step at the speed of the fall may take
+constexpr double longest_step = 1.0 / 100;  ///< [s] of the paper's scenes
+constexpr double fewest_iterations = 10, most_iterations = 100;
+/// Sweeps that a step of a stack at rest takes for each of its layers and each r that they fall in the step, g h²: a
+/// step begins with all of them fallen, and sweeps carry the ground's support up layer by layer. Stacks of 10 to 50
+/// aligned sheets keep their gaps with 16 where g h² is from r/64 to r/4, and are squeezed until they tremble with 12.
+/// Where a layer falls by r and more contacts hold it back at the step's start, and 8 a layer are enough
+/// (tests/experiments/stacks.cpp).
+constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
+
+struct Measures {
+  double edge = 0;  ///< length that stands for all edges [m]
+  std::string edge_name;
+  double gap = 0;     ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
+  double mass = 0;    ///< mean of a vertex [kg]
+  double speed = 0;   ///< at the end of the fall [m/s]
+  double layers = 1;  ///< that lie on one another, on average over what is below them
+};
+
+double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+double area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+  return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
+}
+
+/// Seen from above: the area of all triangles by that of the rectangle around them; at least 1.
+double layers_of(const compare::Mesh& mesh) {
+  const auto flat = [&](compare::Index v) {
+    const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
+    return Vec3{p.x, 0, p.z};
+  };
+  Vec3 low = flat(0), high = low;
+  double seen = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    seen += area(flat(a), flat(b), flat(c));
+    for (const compare::Index v : {a, b, c}) {
+      low = {std::min(low.x, flat(v).x), 0, std::min(low.z, flat(v).z)};
+      high = {std::max(high.x, flat(v).x), 0, std::max(high.z, flat(v).z)};
+    }
+  }
+  const double around = (high.x - low.x) * (high.z - low.z);
+  return seen > around && around > 0 ? seen / around : 1;
+}
+
+Measures measure(const compare::Mesh& mesh, const compare::Material& material, double fall) {
+  const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
+  const compare::Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()),
+                                                             mesh.triangles, mesh.loose_edges);
+  std::vector<double> lengths;
+  for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
+  // Where a tenth of the edges is far shorter than most, like those around a can, they decide what may be called near.
+  std::ranges::sort(lengths);
+  const double middle = lengths[lengths.size() / 2], shortest = 2 * lengths[lengths.size() / 10];
+  double whole = 0;
+  for (const auto& [a, b, c] : mesh.triangles) whole += area(at(a), at(b), at(c));
+  const compare::SmallestDistances gaps = compare::smallest_distances(topology, mesh.positions);
+  return {std::min(middle, shortest),
+          middle <= shortest ? "the median edge" : "twice what a tenth of the edges is below",
+          std::min(gaps.vertex_triangle, gaps.edge_edge),
+          material.density * whole / static_cast<double>(mesh.positions.size()),
+          std::sqrt(2 * gravity * std::max(0.0, fall)),
+          layers_of(mesh)};
+}
+
+/// `value` with two digits, not above it.
+double two_digits(double value) {
+  const double units = std::pow(10, 1 - std::floor(std::log10(value)));
+  return std::floor(value * units) / units;
+}
+
+/// 1, 2 or 5 times a power of ten: the smallest such number that is not below `value`.
+double round_number_above(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (value <= step * power) return step * power;
+  return 10 * power;
+}
+
+/// `value` within the range that the program takes.
+SuggestedNumber within(double minimum, double maximum, SuggestedNumber suggested) {
+  const double value = std::clamp(suggested.value, minimum, maximum);
+  if (value != suggested.value)
+    suggested.reason += "; " + number(value) + " is the " + (value == minimum ? "smallest" : "largest") + " there is";
+  return {value, suggested.reason};
+}
+
+SuggestedNumber within_setting(const std::string& name, SuggestedNumber suggested) {
+  const auto info = std::ranges::find(compare::setting_table(), name, &compare::SettingInfo::name);
+  return within(info->minimum, info->maximum, std::move(suggested));
+}
+
+SuggestedNumber within_stiffnesses(SuggestedNumber suggested) {
+  const auto info = std::ranges::find(compare::material_table(), "contact_stiffness", &compare::MaterialInfo::name);
+  return within(info->minimum, info->maximum, std::move(suggested));
+}
+
+SuggestedNumber radius_of(const Measures& mesh) {
+  const double wanted = mesh.edge / edges_a_radius, least = mesh.edge / least_edges_a_radius;
+  const std::string edge = mesh.edge_name + ", " + number(mesh.edge) + " m";
+  if (mesh.gap >= wanted)
+    return {two_digits(wanted),
+            "a quarter of " + edge + "; nothing that shares no vertex is nearer (" + number(mesh.gap) + " m)"};
+  if (mesh.gap > least)
+    return {two_digits(mesh.gap),
+            "the smallest gap, so that nothing is in contact at the start; it is below a quarter of " + edge};
+  return {two_digits(least), "a twentieth of " + edge + ": the smallest gap, " + number(mesh.gap) +
+                                 " m, is below it, and what is nearer than r at the start is pushed apart"};
+}
+
+SuggestedNumber query_radius_of(const Measures& mesh, double contact_radius) {
+  const double least = compare::Settings{}.query_radius_cap * contact_radius;
+  const double value = std::clamp(two_digits(mesh.edge), least, most_radii * contact_radius);
+  return {value,
+          "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the "
+          "lists stay short"};
+}
+
+SuggestedNumber stiffness_of(const Measures& mesh, double contact_radius) {
+  const double weights = std::max(weights_held, std::ceil(mesh.layers));
+  const double held = weights * mesh.mass * gravity / (contact_radius / 2);
+  const double stopped = mesh.mass * mesh.speed * mesh.speed / (contact_radius * contact_radius / 4);
+  const std::string vertex = "a vertex of " + number(mesh.mass) + " kg ";
+  if (held >= stopped)
+    return {round_number_above(held), vertex + "with " + number(weights) +
+                                          " others on it is held at half of r: k_c r/2 ≥ " + number(weights) + " m g"};
+  return {round_number_above(stopped), vertex + "at " + number(mesh.speed) +
+                                           " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
+}
+
+/// Sweeps that the layers ask for.
+double layer_sweeps(const Measures& mesh, double contact_radius, double step) {
+  const double fallen = gravity * step * step / contact_radius;
+  return mesh.layers * std::min(sweeps_a_layer_and_radius * fallen, most_sweeps_a_layer);
+}
+
+SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double query_radius) {
+  const double way = detections_a_step * compare::Settings{}.bound_relaxation * query_radius;
+  const double settled = std::sqrt(most_iterations * contact_radius /
+                                   (sweeps_a_layer_and_radius * gravity * mesh.layers));
+  if (layer_sweeps(mesh, contact_radius, longest_step) > most_iterations && mesh.speed * settled <= way)
+    return {1 / round_number_above(1 / settled),
+            number(mesh.layers) + " layers lie on one another: sweeps carry the ground's support up layer by layer, " +
+                "and " + number(most_iterations) + " must do for what all of them fall in a step, g h²"};
+  if (mesh.speed * longest_step <= way)
+    return {longest_step, "the paper's; at " + number(mesh.speed) + " m/s a step is shorter than 4 γ_p r_q"};
+  return {1 / round_number_above(mesh.speed / way),
+          "at " + number(mesh.speed) +
+              " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
+}
+
+SuggestedNumber iterations_of(const Measures& mesh, const compare::Material& material, const Suggestion& found) {
+  const double stiffness = found.contact_stiffness.value, step = found.time_step.value;
+  const double rings = step * std::sqrt((2 * material.lame_mu + material.lame_lambda) / material.density) / mesh.edge;
+  const double contacts = step * std::sqrt(stiffness / mesh.mass);
+  const double layers = layer_sweeps(mesh, found.contact_radius.value, step);
+  const double wanted = 10 * std::ceil(std::max({2 * rings, 2 * contacts, layers}) / 10);
+  const std::string why = contacts > rings
+                              ? "h √(k_c/m) = " + number(contacts) + ": a contact is so much stiffer than inertia"
+                              : number(rings) + " rings of triangles, the way of a stretch wave in a step";
+  const char* limits = wanted < fewest_iterations ? "; at least 10"
+                       : wanted > most_iterations ? "; at most 100, as a shorter step helps more"
+                                                  : "";
+  if (layers > 2 * std::max(rings, contacts) && layers > fewest_iterations)
+    return {std::min(wanted, most_iterations),
+            number(mesh.layers) + " layers lie on one another, and sweeps carry the ground's support up one by one"};
+  return {std::clamp(wanted, fewest_iterations, most_iterations),
+          "twice " + why + ", and a sweep carries a change by a ring or more" + limits};
+}
+
+}  // namespace
+
+Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material, double fall) {
+  if (mesh.triangles.empty())
+    throw compare::InputError("the mesh has no triangle; settings of cloth follow from triangles");
+  const Measures measures = measure(mesh, material, fall);
+  Suggestion result;
+  result.edge_length = measures.edge;
+  result.contact_radius = within_setting("contact_radius", radius_of(measures));
+  result.query_radius = query_radius_of(measures, result.contact_radius.value);
+  result.contact_stiffness = within_stiffnesses(stiffness_of(measures, result.contact_radius.value));
+  const double contact_radius = result.contact_radius.value;
+  result.time_step = within_setting("time_step", time_step_of(measures, contact_radius, result.query_radius.value));
+  result.iterations = iterations_of(measures, material, result);
+  return result;
+}
+
+void apply(const Suggestion& suggestion, compare::Scene& scene) {
+  scene.settings.contact_radius = suggestion.contact_radius.value;
+  scene.settings.query_radius_cap = suggestion.query_radius.value / suggestion.contact_radius.value;
+  scene.settings.time_step = suggestion.time_step.value;
+  scene.settings.iterations = static_cast<std::int64_t>(suggestion.iterations.value);
+  for (compare::Body& body : scene.bodies) body.material.contact_stiffness = suggestion.contact_stiffness.value;
+}
+
+}  // namespace ogc::experiments

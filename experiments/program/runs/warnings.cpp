@@ -1,0 +1,103 @@
+#include "experiments/program/runs/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/program/output.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Vec3;
+
+double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+std::string box_warning(const compare::Scene& scene) {
+  if (scene.mesh.positions.empty()) return "";
+  Vec3 low = scene.mesh.positions.front(), high = low;
+  for (const Vec3& p : scene.mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double diagonal = distance(low, high);
+  if (diagonal <= largest_diagonal) return "";
+  return "the scene's box has a diagonal of " + number(diagonal) + " m, above " + number(largest_diagonal) +
+         " m: lengths are metres; a mesh in millimetres is to be scaled by 0.001, one in centimetres by 0.01";
+}
+
+/// Of the edges of the body's triangles, sides of two triangles twice; 0 where it has none.
+double median_edge(const compare::Scene& scene, const compare::Body& body) {
+  std::vector<double> lengths;
+  const auto at = [&](compare::Index v) { return scene.mesh.positions[static_cast<std::size_t>(v)]; };
+  for (compare::Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    const auto& [a, b, c] = scene.mesh.triangles[static_cast<std::size_t>(t)];
+    lengths.insert(lengths.end(), {distance(at(a), at(b)), distance(at(b), at(c)), distance(at(c), at(a))});
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, middle);
+  return *middle;
+}
+
+/// Of the body with the shortest edges: it has the most contacts.
+std::string radius_warning(const compare::Scene& scene) {
+  const double contact_radius = scene.settings.contact_radius;
+  const compare::Body* finest = nullptr;
+  double edge = 0;
+  for (const compare::Body& body : scene.bodies) {
+    const double median = median_edge(scene, body);
+    if (median > 0 && (finest == nullptr || median < edge)) finest = &body, edge = median;
+  }
+  if (finest == nullptr || contact_radius <= most_edges_a_radius * edge) return "";
+  return "contact_radius is " + number(contact_radius) + " m, " + number(contact_radius / edge) + " median edges (" +
+         number(edge) + " m) of body '" + finest->name + "', above " + number(most_edges_a_radius) +
+         ": neighbours in the mesh press each other apart, and contacts are many; take at most " + number(edge, 2) +
+         " m, one edge, or a coarser mesh (ogc suggest says more)";
+}
+
+}  // namespace
+
+Warnings::Warnings(const compare::Scene& scene)
+    : radius_(scene.settings.contact_radius), guess_rounds_(scene.settings.guess_rounds) {
+  for (std::string text : {box_warning(scene), radius_warning(scene)})
+    if (!text.empty()) of_scene_.push_back(std::move(text));
+}
+
+/// A guess loop that ends before its last round was stopped by contacts or by nothing: what it loses then is theirs,
+/// and right.
+std::vector<std::string> Warnings::look_at(const compare::StepMetrics& row) {
+  std::vector<std::string> first;
+  const auto note = [&](std::optional<Worst>& worst, double value, auto text) {
+    const bool is_first = !worst;
+    if (is_first || value > worst->value) worst = Worst{row.step, value};
+    if (is_first) first.push_back(text());
+  };
+  if (row.guess_rounds >= guess_rounds_ && row.momentum_lost_guess > most_momentum_lost)
+    note(momentum_, row.momentum_lost_guess, [this] { return momentum_text(); });
+  if (row.largest_lag > radius_) note(lag_, row.largest_lag, [this] { return lag_text(); });
+  return first;
+}
+
+std::vector<std::string> Warnings::list() const {
+  std::vector<std::string> texts = of_scene_;
+  if (momentum_) texts.push_back(momentum_text());
+  if (lag_) texts.push_back(lag_text());
+  return texts;
+}
+
+std::string Warnings::momentum_text() const {
+  return "step " + std::to_string(momentum_->step) + " lost " + number(100 * momentum_->value) +
+         " % of its momentum to truncation, above " + number(100 * most_momentum_lost) + " %, after all " +
+         std::to_string(guess_rounds_) +
+         " rounds of the guess: what moves is faster than bounds let it; take a smaller time_step, or a larger "
+         "query_radius_cap, contact_radius or guess_rounds";
+}
+
+std::string Warnings::lag_text() const {
+  return "prescribed vertices lag " + number(lag_->value) + " m behind their motion in step " +
+         std::to_string(lag_->step) + ", above contact_radius (" + number(radius_) +
+         " m): bounds hold them; move them slower, or take a smaller time_step or a larger query_radius_cap";
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,47 @@
+// What is legal and can hardly be meant. Each kind is said once a run, with its number and what to do: by whoever has
+// metres for millimetres, or a step in which nothing can move as it wants to.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/problem/contestant.hpp"
+
+namespace ogc::experiments {
+
+/// Box of a scene [m] above which its lengths are hardly metres: a house is smaller than its diagonal.
+inline constexpr double largest_diagonal = 20;
+/// Median edges of a body that r may reach: beyond them a vertex is in contact with what it is sewn to, several rings
+/// of neighbours away.
+inline constexpr double most_edges_a_radius = 2;
+/// Share of a step's momentum that truncation may take.
+inline constexpr double most_momentum_lost = 0.5;
+
+/// What is said of a run at most once.
+class Warnings {
+ public:
+  /// Looks at the scene, which must be valid, as it starts: its box, and r against the edges of each body with
+  /// triangles.
+  explicit Warnings(const compare::Scene& scene);
+  /// Looks at a step: momentum that the guess loop lost though it did all its rounds, and the lag of prescribed
+  /// vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.
+  std::vector<std::string> look_at(const compare::StepMetrics& row);
+  /// All that there is to say so far, one text a kind: what, where, how much, what to do.
+  std::vector<std::string> list() const;
+
+ private:
+  /// The worst step of a kind.
+  struct Worst {
+    std::int64_t step = 0;
+    double value = 0;
+  };
+  std::string momentum_text() const;
+  std::string lag_text() const;
+  std::vector<std::string> of_scene_;
+  double radius_ = 0;
+  std::int64_t guess_rounds_ = 0;
+  std::optional<Worst> momentum_, lag_;
+};
+
+}  // namespace ogc::experiments

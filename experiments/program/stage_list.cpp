@@ -1,0 +1,130 @@
+#include "experiments/program/stage_list.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/judge/judge.hpp"
+#include "compare/judge/parameters.hpp"
+#include "compare/judge/stage_table.hpp"
+#include "reference/contestant.hpp"
+
+namespace ogc::experiments {
+
+namespace {
+
+using compare::Stage;
+using compare::StageInfo;
+
+std::string link(const std::string& text, const std::string& file) { return "[" + text + "](" + file + ")"; }
+
+std::string generators_of(Stage stage) {
+  std::size_t ladders = 0;
+  const auto rows = compare::generators(stage);
+  for (const compare::Generator& row : rows) ladders += row.name.starts_with("ladder.");
+  return std::to_string(rows.size()) + (ladders > 0 ? ", " + counted(ladders, "ladder") : "");
+}
+
+template <class Rows>
+std::string names_of(const Rows& rows) {
+  std::string names;
+  for (const auto& row : rows) names += (names.empty() ? "" : ", ") + std::string(row.name);
+  return names.empty() ? "none" : names;
+}
+
+/// Launches of a device as another one would cut them: small blocks, one multiprocessor (few blocks, teams run one
+/// after the other), a thousand (spread teams).
+constexpr std::array<fast::LaunchShape, 4> other_shapes{{{32, 0}, {96, 7}, {128, 1}, {64, 1000}}};
+
+std::string text_of(const fast::LaunchShape& shape) {
+  const std::string blocks = "blocks of " + std::to_string(shape.block_threads);
+  return shape.multiprocessors > 0
+             ? blocks + ", as on " + counted(static_cast<std::size_t>(shape.multiprocessors), "multiprocessor")
+             : blocks;
+}
+
+/// What a device changes where it launches otherwise, as lines of a report.
+std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases,
+                                          std::uint64_t seed, const compare::Authority& authority) {
+  std::vector<std::string> changed;
+  for (const fast::LaunchShape& shape : other_shapes) {
+    const auto other = compare::check_determinism(report.stage, cases, seed,
+                                                  fast::contestant(fast::Backend::cuda, shape), authority, {});
+    for (const std::string& line : other.changed) changed.push_back(text_of(shape) + ", " + line);
+    if (other.digest != report.digest) changed.push_back(text_of(shape) + ": other bits");
+  }
+  return changed;
+}
+
+}  // namespace
+
+std::string stage_list_markdown() {
+  const compare::Contestant fast = fast::contestant(fast::Backend::cpu);
+  const compare::Authority authority = reference::authority();
+  std::string text =
+      "| stage | asked | a case | reference | CPU | CUDA | generators | agreement tests | same bits "
+      "|\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const StageInfo& info : compare::stage_table()) {
+    const std::string name(stage_name(info.stage));
+    // Both backends instantiate one list of probes (fast/stages/probes.hpp), so what the CPU has CUDA has.
+    const bool is_there = compare::can_judge(info.stage, fast, authority);
+    text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " +
+            std::string(info.unit) + " | " + link("exact", "../" + std::string(info.reference)) +
+            (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(info.stage) + " | " +
+            link("CPU", "../tests/experiments/compare.cpp") + ", " + link("CUDA", "../tests/fast/cuda/agreement.cu") +
+            " | " + std::string(determinism_name(info.determinism)) + " |\n";
+  }
+  return text;
+}
+
+std::string stage_list_text() {
+  std::string text;
+  for (const StageInfo& info : compare::stage_table()) {
+    text += std::string(stage_name(info.stage)) + ": " + std::string(info.question) +
+            "\n  a case: " + std::string(info.unit) +
+            "; same bits: " + std::string(determinism_name(info.determinism)) + "\n";
+    text += "  generators: " + names_of(compare::generators(info.stage)) + "; of a run: states, mutated\n";
+    text += "  parameters: " + names_of(compare::parameters(info.stage)) + "\n";
+  }
+  return text;
+}
+
+std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const Stage> stages,
+                                                       std::uint64_t cases, std::uint64_t seed) {
+  const compare::Contestant contestant = fast::contestant(backend);
+  const compare::Authority authority = reference::authority();
+  std::vector<compare::Surrounding> surroundings;
+  if (backend == fast::Backend::cpu)
+    for (const int threads : {1, 2})
+      surroundings.push_back(
+          {counted(static_cast<std::size_t>(threads), "thread"), [threads](const std::function<void()>& ask) {
+             tbb::task_arena arena(threads);
+             arena.execute(ask);
+           }});
+  std::vector<compare::DeterminismReport> reports;
+  for (const Stage stage : stages) {
+    const std::uint64_t wanted = is_mesh_stage(stage) ? std::max<std::uint64_t>(cases / 50, 1) : cases;
+    reports.push_back(compare::check_determinism(stage, wanted, seed, contestant, authority, surroundings));
+    if (backend == fast::Backend::cpu) continue;
+    const auto changed = changed_by_shape(reports.back(), wanted, seed, authority);
+    reports.back().changed.insert(reports.back().changed.end(), changed.begin(), changed.end());
+  }
+  return reports;
+}
+
+Json determinism_json(std::span<const compare::DeterminismReport> reports) {
+  Json json = Json::array();
+  for (const compare::DeterminismReport& report : reports)
+    json.push_back({{"stage", stage_name(report.stage)},
+                    {"stated", determinism_name(compare::stage_info(report.stage).determinism)},
+                    {"cases", report.cases},
+                    {"digest", report.digest},
+                    {"skipped", report.skipped},
+                    {"changed", report.changed}});
+  return json;
+}
+
+}  // namespace ogc::experiments

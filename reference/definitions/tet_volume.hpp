@@ -1,0 +1,95 @@
+// The volumetric variant of §3.9, inside the body: the penetration depth of Chen, Diaz and Yuksel 2023, "Shortest Path
+// to Boundary for Self-Intersecting Meshes", as its definition, by brute force over all boundary triangles, so that a
+// fast version can be judged.
+//
+// A tetrahedral mesh is a complex M with a map to space. Where the map is locally injective, space may still be covered
+// more than once: the body overlaps itself. A point of the body is then a point in space together with a *sheet*, one
+// of its pre-images in M. A path in space is *valid* from a sheet if it is the image of a path in M that begins there.
+// The depth of a point in a sheet is the length of the shortest valid path that ends on the boundary of M. That path is
+// a segment (otherwise it could be cut short at a bend inside M), and its end is the point of some boundary triangle
+// that is closest to its start (otherwise it could slide along that triangle). So the candidates are the closest points
+// of all boundary triangles, and the depth is the smallest distance of those whose segment is valid. A segment is valid
+// from a sheet if M can be traversed along it: from a tetrahedron that holds the start in that sheet, from tetrahedron
+// to tetrahedron through shared triangles, edges or vertices in the order in which the segment meets them, to the
+// tetrahedron of the boundary triangle. A point for which the closest point of a triangle is reached from the wrong
+// side, the infeasible region of that paper, has no such way.
+//
+// All of it is decided in rational arithmetic, on the coordinates as given.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+
+namespace ogc::reference {
+
+using compare::Index;
+using compare::Vec3f;
+
+/// Four vertices; positive where the fourth lies on the side of the first three's normal (right hand).
+using Tetrahedron = std::array<Index, 4>;
+
+/// A triangle of one tetrahedron only, its normal outward.
+struct BoundaryTriangle {
+  compare::Triangle vertices{-1, -1, -1};
+  Index tetrahedron = -1;
+};
+
+/// The closest point of one boundary triangle to a point in a sheet.
+struct BoundaryPath {
+  Index triangle = -1;          ///< number in `boundary()`
+  bool valid = false;           ///< the segment to it lies in M
+  std::array<double, 3> end{};  ///< the closest point [m], each coordinate within 1 ulp
+  double length = 0;            ///< its distance, rounded down [m]
+  /// adjacent doubles, or twice the same one, that enclose the exact square [m²]
+  std::array<double, 2> squared_length{0, 0};
+};
+
+/// Depth of a point in a sheet.
+struct BoundaryDepth {
+  /// the shortest valid one; of several equally short ones that with the lowest triangle
+  BoundaryPath path;
+  std::vector<Index> equally_near;  ///< all boundary triangles with a valid path exactly that short, ascending
+  /// boundary triangles strictly nearer than that without a valid path: what Euclid's distance would have given
+  std::size_t refused = 0;
+};
+
+/// A body of tetrahedra. Plain arrays, viewed: they must outlive it.
+class TetVolume {
+ public:
+  /// Throws compare::InputError, naming the element, where a tetrahedron has an index that is no vertex, is inverted or
+  /// flat, where a triangle has more than two tetrahedra or two on the same side, and where tetrahedra wind more than
+  /// once around an inner edge: the map is not locally injective there and a shortest path may bend. Inverted
+  /// tetrahedra are refused, not handled.
+  TetVolume(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra);
+
+  /// By tetrahedron, then by the corner that is left out.
+  const std::vector<BoundaryTriangle>& boundary() const { return boundary_; }
+
+  /// Whether the vertex is one of its four corners.
+  bool has_vertex(Index tetrahedron, Index vertex) const;
+
+  /// The sheets at a point of space: of each its tetrahedra, ascending; several where the point lies on a shared
+  /// triangle, edge or vertex. None: outside.
+  std::vector<std::vector<Index>> sheets(const Vec3f& x) const;
+
+  /// The candidates of all boundary triangles, in their order, for x in the sheet of a tetrahedron that holds it.
+  /// Throws compare::InputError where it does not.
+  std::vector<BoundaryPath> boundary_paths(const Vec3f& x, Index tetrahedron) const;
+
+  /// The depth d_p (zero on the boundary). §3.9's depth in the offset geometry is d_p + r. Throws as `boundary_paths`.
+  BoundaryDepth shortest_path_to_boundary(const Vec3f& x, Index tetrahedron) const;
+
+ private:
+  struct Candidate;
+  std::vector<Candidate> candidates(const Vec3f& x, Index tetrahedron) const;
+  BoundaryPath path(Index triangle, const Candidate& candidate, bool valid) const;
+  std::span<const Vec3f> positions_;
+  std::span<const Tetrahedron> tetrahedra_;
+  std::vector<BoundaryTriangle> boundary_;
+  std::vector<std::vector<Index>> tetrahedra_of_;  ///< by vertex, ascending
+};
+
+}  // namespace ogc::reference

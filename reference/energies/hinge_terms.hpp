@@ -1,0 +1,115 @@
+// The energies of a hinge over any number type, one for each bending model, and the block of one of its vertices
+// (method.md §4.7, §4.9).
+#pragma once
+
+#include <tuple>
+
+#include "compare/problem/scene.hpp"
+#include "reference/energies/closest_form.hpp"
+#include "reference/energies/fold.hpp"
+#include "reference/energies/vertex_block.hpp"
+
+namespace ogc::reference {
+
+/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); what holds θ is 0 where
+/// a triangle has collapsed.
+template <class Number>
+struct HingeTermOf {
+  std::array<compare::Index, 4> vertex{};
+  Number stiffness = 0.0, rest_angle = 0.0, damping = 0.0;  ///< c [J], θ₀ [rad], k [1]
+  Number start = 0.0;                                       ///< θᵗ [rad]
+  std::array<Number, 4> weight{};                           ///< w [1/m]
+  compare::BendingModel model = compare::BendingModel::discrete_hinge;
+
+  /// Whether anything depends on the angle: the elastic energy, or damping.
+  bool has_angle() const {
+    switch (model) {
+      case compare::BendingModel::none: break;
+      case compare::BendingModel::discrete_hinge: return true;
+      case compare::BendingModel::isometric_quadratic: return damping == 0.0 ? false : true;
+    }
+    return false;
+  }
+  /// What depends on the angle: all of it, or the isometric model's damping.
+  template <class T>
+  T energy_of(const T& angle) const {
+    const T moved = angle - T(start), elastic = elastic_of(angle);
+    return damping == 0.0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
+  }
+  /// What depends on the positions without the angle: the isometric model's c/2 ‖Σ w x‖².
+  template <class T>
+  T energy_of(const Hinge<T>& x) const {
+    T elastic(0.0);
+    switch (model) {
+      case compare::BendingModel::none:
+      case compare::BendingModel::discrete_hinge: break;
+      case compare::BendingModel::isometric_quadratic: {
+        const Triple<T> curvature = separation(weight, x);
+        elastic = 0.5 * stiffness * dot(curvature, curvature);
+      }
+    }
+    return elastic;
+  }
+  /// Without damping.
+  template <class T>
+  T elastic(const Hinge<T>& x) const {
+    HingeTermOf undamped = *this;
+    undamped.damping = 0.0;
+    return undamped.energy(x);
+  }
+  /// Damping included [J].
+  template <class T>
+  T energy(const Hinge<T>& x) const {
+    const T elastic = energy_of(x);
+    if (!has_angle()) return elastic;
+    const Fold<T> fold(x);
+    return fold.collapsed() ? elastic : elastic + energy_of(fold.angle());
+  }
+
+  /// See the head of stencil_terms.hpp.
+  auto numbers() { return std::tie(stiffness, rest_angle, damping, start, weight); }
+  auto numbers() const { return std::tie(stiffness, rest_angle, damping, start, weight); }
+  /// See the head of stencil_terms.hpp.
+  auto kinds() { return std::tie(model); }
+  auto kinds() const { return std::tie(model); }
+
+ private:
+  template <class T>
+  T elastic_of(const T& angle) const {
+    T elastic(0.0);
+    switch (model) {
+      case compare::BendingModel::none:
+      case compare::BendingModel::isometric_quadratic: break;
+      case compare::BendingModel::discrete_hinge: {
+        const T bent = angle - T(rest_angle);
+        elastic = 0.5 * stiffness * bent * bent;
+      }
+    }
+    return elastic;
+  }
+};
+/// A hinge over doubles.
+using HingeTerm = HingeTermOf<double>;
+
+/// c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
+template <class Number>
+void add_angle(const HingeTermOf<Number>& term, const ByOwn<Number>& angle, VertexSystemOf<Number>& sum) {
+  const Second<1, Number> energy = along(angle.value, [&](const Second<1, Number>& a) { return term.energy_of(a); });
+  add_force(energy.slope[0], angle.slope, sum);
+  add_outer(energy.bend(0), angle.slope, angle.slope, sum.block);
+}
+
+/// The isometric model's c w² I.
+template <class Number>
+void add_positions(const HingeTermOf<Number>& term, const Hinge<ByOwn<Number>>& x, VertexSystemOf<Number>& sum) {
+  switch (term.model) {
+    case compare::BendingModel::none:
+    case compare::BendingModel::discrete_hinge: return;
+    case compare::BendingModel::isometric_quadratic:
+      add_force(1.0, term.energy_of(x).slope, sum);
+      for (const ByOwn<Number>& component : separation(term.weight, x))
+        add_outer(term.stiffness, component.slope, component.slope, sum.block);
+  }
+}
+
+}  // namespace ogc::reference

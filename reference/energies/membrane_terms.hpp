@@ -1,0 +1,197 @@
+// The energies of a triangle over any number type, one for each membrane model, and the block of one of its corners
+// (method.md §4.6, §4.9).
+#pragma once
+
+#include <tuple>
+
+#include "compare/problem/scene.hpp"
+#include "reference/energies/vertex_block.hpp"
+
+namespace ogc::reference {
+
+/// The columns of F, 3×2.
+template <class T>
+using Deformation = std::array<Triple<T>, 2>;
+
+/// G by its components xx, xy, yy.
+template <class T>
+using Strain = std::array<T, 3>;
+
+/// ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m²]. The constants, here and below, may be plain numbers.
+template <class T, class Lame>
+T density(const Strain<T>& g, const Lame& lambda, const Lame& mu) {
+  const T trace = g[0] + g[2];
+  return Lame(0.5) * lambda * trace * trace + mu * (g[0] * g[0] + Lame(2.0) * g[1] * g[1] + g[2] * g[2]);
+}
+
+/// F of the map from the rest plane that takes the corners to x.
+template <class T, class Gradient>
+Deformation<T> deformation(const std::array<Triple<T>, 3>& x, const std::array<std::array<Gradient, 2>, 3>& gradient) {
+  Deformation<T> f;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    f[axis] = gradient[0][axis] * x[0] + gradient[1][axis] * x[1] + gradient[2][axis] * x[2];
+  return f;
+}
+
+/// G = (FᵀF − I)/2.
+template <class T>
+Strain<T> strain(const Deformation<T>& f) {
+  return {0.5 * (dot(f[0], f[0]) - T(1.0)), 0.5 * dot(f[0], f[1]), 0.5 * (dot(f[1], f[1]) - T(1.0))};
+}
+
+/// μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ [J/m²]. Near rest the first two terms cancel, and
+/// their rounding would be more than all of the energy of a cloth in free fall; ‖F‖² − 2 J = (‖F‖⁴ − 4 J²)/(‖F‖² + 2
+/// J), whose numerator is a sum of squares, loses nothing.
+template <class T, class Lame>
+T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& mu) {
+  using std::sqrt;
+  const Triple<T> normal = cross(f[0], f[1]);
+  const T squared[] = {dot(f[0], f[0]), dot(f[1], f[1])}, both = dot(f[0], f[1]);
+  const T size = sqrt(dot(normal, normal)), grown = size - T(1.0), size_of_f = squared[0] + squared[1];
+  const T bulk = Lame(0.5) * (lambda + mu) * grown * grown;
+  // collapsed: J has no derivatives
+  if (plain(size) == 0.0) return Lame(0.5) * mu * (size_of_f - T(2.0)) - mu * grown + bulk;
+  const T unequal = squared[0] - squared[1];
+  return Lame(0.5) * mu * ((unequal * unequal + T(4.0) * both * both) / (size_of_f + T(2.0) * size)) + bulk;
+}
+
+/// A triangle: A (ψ + k ϕ(G − Gᵗ)) (compare/stages/membrane.hpp).
+template <class Number>
+struct MembraneTermOf {
+  std::array<compare::Index, 3> vertex{};
+  std::array<std::array<Number, 2>, 3> gradient{};           ///< ∇N [1/m]
+  Number area = 0.0, lambda = 0.0, mu = 0.0, damping = 0.0;  ///< A [m²], Lamé [N/m], k = k_d/h [1]
+  Strain<Number> start{};                                    ///< Gᵗ
+  compare::MembraneModel model = compare::MembraneModel::st_venant_kirchhoff;
+
+  /// A ϕ(G).
+  template <class T>
+  T elastic_of(const Strain<T>& g) const {
+    return area * density(g, lambda, mu);
+  }
+  /// A ψ(F) of the stable Neo-Hookean model.
+  template <class T>
+  T elastic_of(const Deformation<T>& f) const {
+    return area * neo_hookean_density(f, lambda, mu);
+  }
+  /// A k ϕ(G − Gᵗ) [J].
+  template <class T>
+  T damping_of(const Strain<T>& g) const {
+    const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
+    return area * damping * density(change, lambda, mu);
+  }
+  /// Without damping [J].
+  template <class T>
+  T elastic(const std::array<Triple<T>, 3>& x) const {
+    const Deformation<T> f = deformation<T>(x, gradient);
+    return elastic_of(f, strain(f));
+  }
+  /// Damping included [J].
+  template <class T>
+  T energy(const std::array<Triple<T>, 3>& x) const {
+    const Deformation<T> f = deformation<T>(x, gradient);
+    const Strain<T> g = strain(f);
+    const T psi = elastic_of(f, g);
+    return damping == 0.0 ? psi : psi + damping_of(g);
+  }
+
+  /// See the head of stencil_terms.hpp.
+  auto numbers() { return std::tie(gradient, area, lambda, mu, damping, start); }
+  auto numbers() const { return std::tie(gradient, area, lambda, mu, damping, start); }
+  /// See the head of stencil_terms.hpp.
+  auto kinds() { return std::tie(model); }
+  auto kinds() const { return std::tie(model); }
+
+ private:
+  template <class T>
+  T elastic_of(const Deformation<T>& f, const Strain<T>& g) const {
+    T psi(0.0);
+    switch (model) {
+      case compare::MembraneModel::none: break;
+      case compare::MembraneModel::st_venant_kirchhoff: psi = elastic_of(g); break;
+      case compare::MembraneModel::stable_neo_hookean: psi = elastic_of(f); break;
+    }
+    return psi;
+  }
+};
+/// A triangle over doubles.
+using MembraneTerm = MembraneTermOf<double>;
+
+/// F and G as functions of one corner, and G as three variables.
+template <class Number>
+struct MembraneCorner {
+  Deformation<ByOwnTwice<Number>> f;
+  Strain<ByOwnTwice<Number>> g, by_strain;
+
+  /// `corners` [m], of which the one at `place` is the variable.
+  MembraneCorner(const MembraneTermOf<Number>& term, std::size_t place, const std::array<Triple<Number>, 3>& corners)
+      : f(deformation<ByOwnTwice<Number>>(with_own<ByOwnTwice<Number>>(corners, place), term.gradient)), g(strain(f)) {
+    for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
+  }
+};
+
+/// Force and material part of an energy of the strain: its second derivative along the derivatives of G.
+template <class Number>
+void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
+  for (std::size_t i = 0, k = 0; i < 3; ++i) {
+    add_force(energy.slope[i], g[i].slope, sum);
+    for (std::size_t j = 0; j <= i; ++j, ++k)
+      add_outer((i == j ? 1.0 : 2.0) * energy.bend(k), g[i].slope, g[j].slope, sum.block);
+  }
+}
+
+/// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the
+/// identity.
+template <class Number>
+void add_geometric(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
+                   VertexSystemOf<Number>& sum) {
+  Number geometric = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend(0);
+  add_identity(positive_part(geometric), sum.block);
+}
+
+/// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
+template <class Number>
+void add_neo_hookean(const ByOwnTwice<Number>& energy, const Triple<Number>& normal, VertexSystemOf<Number>& sum) {
+  add_force(1.0, energy.slope, sum);
+  Triple<Number> along_normal{};
+  for (std::size_t i = 0, k = 0; i < 3; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++k) {
+      Triple<Number> a{}, b{};
+      a[i] = b[j] = Number(1.0);
+      add_outer((i == j ? 1.0 : 2.0) * energy.bend(k), a, b, sum.block);
+      along_normal[i] += energy.bend(k) * normal[j];
+      if (i != j) along_normal[j] += energy.bend(k) * normal[i];
+    }
+  const Number squared = dot(normal, normal);
+  if (!(plain(squared) > 0)) return;
+  const Number eigenvalue = dot(normal, along_normal) / squared;
+  add_outer((positive_part(eigenvalue) - eigenvalue) / squared, normal, normal, sum.block);
+}
+
+/// Force and block of a corner without damping.
+template <class Number>
+void add_elastic(const MembraneTermOf<Number>& term, const MembraneCorner<Number>& at, VertexSystemOf<Number>& sum) {
+  switch (term.model) {
+    case compare::MembraneModel::none: return;
+    case compare::MembraneModel::st_venant_kirchhoff: {
+      const ByOwnTwice<Number> elastic = term.elastic_of(at.by_strain);
+      add_strain(at.g, elastic, sum);
+      return add_geometric(at.g, elastic, sum);
+    }
+    case compare::MembraneModel::stable_neo_hookean: {
+      Deformation<Number> f;
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        for (std::size_t i = 0; i < 3; ++i) f[axis][i] = at.f[axis][i].value;
+      return add_neo_hookean(term.elastic_of(at.f), cross(f[0], f[1]), sum);
+    }
+  }
+}
+
+/// Of k ϕ(G − Gᵗ).
+template <class Number>
+void add_damping(const MembraneTermOf<Number>& term, const MembraneCorner<Number>& at, VertexSystemOf<Number>& sum) {
+  if (plain(term.damping) > 0) add_strain(at.g, term.damping_of(at.by_strain), sum);
+}
+
+}  // namespace ogc::reference

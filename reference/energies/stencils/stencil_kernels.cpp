@@ -1,0 +1,17 @@
+// Compiled once for any machine and once for those with AVX2.
+#include "reference/energies/stencils/stencil_kernels.hpp"
+
+#include "reference/energies/stencils/side_by_side.hpp"
+
+namespace ogc::reference {
+
+const StencilKernels OGC_FOR_LANES(stencil_kernels){&SideBySide<ByDifferences<MembraneTermOf, 3>>::differentiate,
+                                                    &SideBySide<ByDifferences<HingeTermOf, 4>>::differentiate,
+                                                    &SideBySide<ByWeights<SpringTermOf>>::differentiate,
+                                                    &SideBySide<ByDifferences<PlacedContactOf, 2>>::differentiate,
+                                                    &SideBySide<ByDifferences<PlacedContactOf, 3>>::differentiate,
+                                                    &SideBySide<ByDifferences<PlacedContactOf, 4>>::differentiate,
+                                                    &SideBySide<ByWeights<PlacedContactOf>>::differentiate,
+                                                    &SideBySide<ByWeights<FrictionTermOf>>::differentiate};
+
+}  // namespace ogc::reference

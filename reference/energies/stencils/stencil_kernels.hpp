@@ -1,0 +1,88 @@
+// Derivatives of stencils, several of one kind side by side: what Newton's method asks for. The functions are compiled
+// for several machines and give the same bits on each, those of a stencil alone (stencil_derivatives.hpp).
+#pragma once
+
+#include "reference/energies/stencil_terms.hpp"
+#include "reference/energies/stencils/stencil_derivatives.hpp"
+
+namespace ogc::reference {
+
+/// So many stencils are projected at once.
+constexpr std::size_t batch_width = 8;
+
+/// Some stencils of one kind, with their corners and where their derivatives go.
+template <class Term, std::size_t Count>
+struct Batch {
+  std::size_t size = 0;  ///< at most batch_width, at least 1
+  std::array<const Term*, batch_width> term{};
+  std::array<std::array<Triple<double>, Count>, batch_width> corner{};
+  /// of the corners in the result's gradient and Hessian
+  std::array<std::array<std::uint8_t, Count>, batch_width> place{};
+  std::array<StencilDerivatives*, batch_width> result{};
+
+  /// One stencil more, whose vertices are in the order of its corners.
+  void add(const Term& with, const std::array<Triple<double>, Count>& at, StencilDerivatives& to) {
+    std::array<std::uint8_t, Count> places;
+    for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
+    add(with, at, places, to);
+  }
+  /// The same with places of its own.
+  void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
+           StencilDerivatives& to) {
+    term[size] = &with;
+    corner[size] = at;
+    place[size] = places;
+    result[size++] = &to;
+  }
+};
+
+/// A contact as a function of its form's vertices alone; fixed weights are of all four places.
+template <class Number>
+struct PlacedContactOf {
+  ContactTermOf<Number> contact;
+  std::array<Number, 4> weight{};
+  FormKind form = FormKind::points;
+
+  /// By the vertices of the form [J].
+  template <class T, std::size_t N>
+  T energy(const std::array<Triple<T>, N>& x) const {
+    return contact.energy(ClosestForm{form, {0, 1, 2, 3}, {}}, x);
+  }
+  /// Of fixed weights, by Σ wᵢ xᵢ.
+  template <class T>
+  T energy_between(const Triple<T>& apart) const {
+    using std::sqrt;
+    return contact.energy_at(T(sqrt(dot(apart, apart))));
+  }
+  auto numbers() { return std::tuple_cat(contact.numbers(), std::tie(weight)); }
+  auto numbers() const { return std::tuple_cat(contact.numbers(), std::tie(weight)); }
+  auto kinds() { return std::tuple_cat(contact.kinds(), std::tie(form)); }
+  auto kinds() const { return std::tuple_cat(contact.kinds(), std::tie(form)); }
+};
+/// A contact over doubles.
+using PlacedContact = PlacedContactOf<double>;
+
+/// One function for each kind of stencil, compiled for one machine.
+struct StencilKernels {
+  template <class Term, std::size_t Count>
+  using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
+  Function<MembraneTerm, 3> membranes;
+  Function<HingeTerm, 4> hinges;
+  Function<SpringTerm, 4> springs;           ///< by Σ wᵢ xᵢ, as weighted contacts
+  Function<PlacedContact, 2> contacts_of_2;  ///< by the vertices of their forms
+  Function<PlacedContact, 3> contacts_of_3;
+  Function<PlacedContact, 4> contacts_of_4;
+  /// Functions of Σ wᵢ xᵢ alone; vertices that the stencil lacks have the weight 0.
+  Function<PlacedContact, 4> weighted_contacts;
+  Function<FrictionTerm, 4> frictions;
+};
+
+/// For any machine, and for one with AVX2.
+extern const StencilKernels stencil_kernels_baseline, stencil_kernels_avx2;
+
+/// Whether this program and this machine have the latter.
+bool has_avx2();
+/// Those for this machine.
+const StencilKernels& stencil_kernels();
+
+}  // namespace ogc::reference

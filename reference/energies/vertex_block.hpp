@@ -1,0 +1,85 @@
+// Force and sweep block of one vertex, over any number type: over doubles they drive whole runs
+// (solvers/vertex_system.hpp), over numbers that know their inputs they are the answers of the stages, with their
+// conditions. The block of each energy is derived once, beside the energy (membrane_terms.hpp, hinge_terms.hpp,
+// spring_terms.hpp); what all of them are made of is here.
+#pragma once
+
+#include "reference/energies/derivative.hpp"
+#include "reference/energies/second.hpp"
+
+namespace ogc::reference {
+
+/// Symmetric 3×3: xx, xy, xz, yy, yz, zz.
+template <class Number>
+using BlockOf = std::array<Number, 6>;
+
+/// The force on a vertex and the sweep's approximation of its Hessian (method.md §4).
+template <class Number>
+struct VertexSystemOf {
+  Triple<Number> force{};   ///< [N]
+  BlockOf<Number> block{};  ///< [N/m]
+};
+
+/// By the vertex's own coordinates, to first and to second order.
+template <class Number>
+using ByOwn = Derivative<Number, 3>;
+template <class Number>
+using ByOwnTwice = Second<3, Number>;
+
+/// The variable of direction `direction`.
+template <class Number>
+ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
+  ByOwnTwice<Number> x(value);
+  x.slope[direction] = Number(1.0);
+  return x;
+}
+
+/// The three variables at x.
+template <class Number>
+void set_own(Triple<ByOwn<Number>>& to, const Triple<Number>& x) {
+  for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = ByOwn<Number>(x[axis], axis);
+}
+template <class Number>
+void set_own(Triple<ByOwnTwice<Number>>& to, const Triple<Number>& x) {
+  for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = variable(x[axis], axis);
+}
+
+/// Corners of a stencil over T, in which the one at `place` is the variable.
+template <class T, class Number, std::size_t Count>
+std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& corners, std::size_t place) {
+  std::array<Triple<T>, Count> x;
+  for (std::size_t k = 0; k < Count; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) x[k][axis] = T(corners[k][axis]);
+  set_own(x[place], corners[place]);
+  return x;
+}
+
+/// A function of one measure, as value, slope and curvature.
+template <class Number, class Energy>
+Second<1, Number> along(const Number& measure, Energy energy) {
+  Second<1, Number> x(measure);
+  x.slope[0] = Number(1.0);
+  return energy(x);
+}
+
+/// force −= slope · gradient.
+template <class Number>
+void add_force(const std::type_identity_t<Number>& slope, const Triple<Number>& gradient, VertexSystemOf<Number>& sum) {
+  for (std::size_t i = 0; i < 3; ++i) sum.force[i] -= slope * gradient[i];
+}
+
+/// block += weight · a bᵀ, made symmetric.
+template <class Number>
+void add_outer(const std::type_identity_t<Number>& weight, const Triple<Number>& a, const Triple<Number>& b,
+               BlockOf<Number>& block) {
+  for (std::size_t i = 0, k = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j, ++k) block[k] += 0.5 * weight * (a[i] * b[j] + a[j] * b[i]);
+}
+
+/// block += weight · I.
+template <class Number>
+void add_identity(const std::type_identity_t<Number>& weight, BlockOf<Number>& block) {
+  for (const std::size_t k : {0u, 3u, 5u}) block[k] += weight;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,83 @@
+#include "reference/simulation.hpp"
+
+#include <string>
+
+#include <tbb/task_arena.h>
+
+#include "reference/solvers/newton/solver.hpp"
+#include "reference/solvers/vbd_solver.hpp"
+
+namespace ogc::reference {
+namespace {
+
+template <class Solver>
+class ReferenceSimulation : public compare::Simulation {
+ public:
+  template <class... More>
+  ReferenceSimulation(const compare::Scene& scene, const compare::SimulationOptions& options, More&&... more)
+      : scene_(rounded_scene(scene)),
+        topology_(compare::build_topology(scene_)),
+        profile_(options.profile),
+        solver_(scene_, topology_, options, std::forward<More>(more)...) {
+    state_.positions = compare::to_single(scene_.mesh.positions);
+    state_.velocities = compare::to_single(scene_.velocities);
+    state_.previous = state_.positions;
+    state_.bounds.assign(state_.positions.size(), 0);
+  }
+
+  std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
+    std::vector<compare::StepMetrics> rows;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      StepResult step = solver_.step(state_.positions, state_.velocities, state_.step + 1);
+      const bool good = step.metrics.status == compare::step_clean;
+      rows.push_back(std::move(step.metrics));
+      if (!good) break;
+      state_ = {state_.step + 1,
+                std::move(step.position),
+                std::move(step.velocity),
+                std::move(step.detected.previous),
+                std::move(step.detected.bound),
+                step.query_radius};
+    }
+    return rows;
+  }
+
+  compare::Snapshot snapshot() override { return state_; }
+
+  void restore(const compare::Snapshot& snapshot) override {
+    state_ = snapshot;
+    state_.previous = state_.positions;
+    state_.bounds.assign(state_.positions.size(), 0);
+  }
+
+  std::vector<std::string> stage_names() const override {
+    return profile_ ? solver_.stage_names() : std::vector<std::string>{};
+  }
+  std::string device() const override { return std::to_string(tbb::this_task_arena::max_concurrency()) + " threads"; }
+
+ private:
+  static compare::Scene rounded_scene(compare::Scene scene) {
+    round_to_single(scene);
+    return scene;
+  }
+
+  compare::Scene scene_;
+  compare::Topology topology_;
+  bool profile_;
+  Solver solver_;
+  compare::Snapshot state_;
+};
+
+}  // namespace
+
+std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
+                                                  const compare::SimulationOptions& options) {
+  return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
+}
+
+std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
+                                               std::vector<compare::Index> colour) {
+  return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
+}
+
+}  // namespace ogc::reference

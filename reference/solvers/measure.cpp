@@ -1,0 +1,86 @@
+#include "reference/solvers/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ogc::reference {
+namespace {
+
+using compare::Vec3f;
+
+double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
+
+}  // namespace
+
+State inertial_targets(const compare::Scene& scene, const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
+                       const std::vector<Mobility>& mobility, double time) {
+  const double h = scene.settings.time_step;
+  const Triple<double> acceleration{scene.gravity.x, scene.gravity.y, scene.gravity.z};
+  State target = widened(start);
+  for (std::size_t v = 0; v < target.size(); ++v)
+    if (mobility[v] == Mobility::free) target[v] = target[v] + h * wide(velocity[v]) + h * h * acceleration;
+  for (const compare::PrescribedMotion& motion : scene.motions) {
+    const std::vector<Vec3f> positions = prescribed_targets(scene, motion, time);
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      target[static_cast<std::size_t>(motion.vertices[k])] = wide(positions[k]);
+  }
+  return target;
+}
+
+std::vector<Vec3f> end_velocities(const std::vector<Vec3f>& position, const State& start, double step) {
+  std::vector<Vec3f> velocity;
+  velocity.reserve(position.size());
+  for (std::size_t v = 0; v < position.size(); ++v) {
+    const Triple<double> moved = (1 / step) * (wide(position[v]) - start[v]);
+    velocity.push_back({static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});
+  }
+  return velocity;
+}
+
+double momentum_lost(const StepStates& states, const Potential& potential) {
+  Triple<double> lost{}, moved{};
+  for (std::size_t v = 0; v < states.x.size(); ++v) {
+    if (potential.mobility()[v] != Mobility::free) continue;
+    lost = lost + potential.mass()[v] * (states.x[v] - states.target[v]);
+    moved = moved + potential.mass()[v] * (states.target[v] - states.start[v]);
+  }
+  return length(moved) > 0 ? length(lost) / length(moved) : 0;
+}
+
+double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility) {
+  double largest = 0;
+  for (std::size_t v = 0; v < x.size(); ++v)
+    if (mobility[v] == Mobility::prescribed) largest = std::max(largest, length(target[v] - x[v]));
+  return largest;
+}
+
+void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
+                      const compare::Scene& scene, bool wanted) {
+  if (!wanted) {
+    metrics.kinetic_energy = metrics.elastic_energy = metrics.contact_energy = metrics.gravity_energy =
+        std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  const Triple<double> acceleration{scene.gravity.x, scene.gravity.y, scene.gravity.z};
+  const double h = scene.settings.time_step;
+  for (std::size_t v = 0; v < states.x.size(); ++v) {
+    const Triple<double> moved = states.x[v] - states.start[v];
+    metrics.kinetic_energy += 0.5 * potential.mass()[v] * dot(moved, moved) / (h * h);
+    metrics.gravity_energy -= potential.mass()[v] * dot(acceleration, states.x[v]);
+  }
+  metrics.elastic_energy = potential.elastic_energy(states.x);
+  metrics.contact_energy = potential.contact_energy(states.x);
+}
+
+bool keeps_bounds(const std::vector<Vec3f>& position, const Detected& detected) {
+  for (std::size_t v = 0; v < position.size(); ++v) {
+    const Triple<double> moved = wide(position[v]) - wide(detected.previous[v]);
+    if (!(dot(moved, moved) <= double{detected.bound[v]} * detected.bound[v])) return false;
+  }
+  return true;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,35 @@
+// What is computed of a step before and after its solve: targets, velocities, and the numbers of its row. Nothing here
+// feeds an iteration.
+#pragma once
+
+#include "compare/problem/contestant.hpp"
+#include "reference/solvers/detection.hpp"
+
+namespace ogc::reference {
+
+/// x, xᵗ and y of a step [m].
+struct StepStates {
+  const State& x;
+  const State& start;
+  const State& target;
+};
+
+/// y = xᵗ + h vᵗ + h² a of free vertices; of prescribed ones the target at `time` [s], of fixed ones xᵗ [m].
+State inertial_targets(const compare::Scene& scene, const std::vector<compare::Vec3f>& start,
+                       const std::vector<compare::Vec3f>& velocity, const std::vector<Mobility>& mobility, double time);
+
+/// (x − xᵗ)/h of the positions that are stored, rounded [m/s].
+std::vector<compare::Vec3f> end_velocities(const std::vector<compare::Vec3f>& position, const State& start,
+                                           double step);
+
+/// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5.3).
+double momentum_lost(const StepStates& states, const Potential& potential);
+/// Of prescribed vertices behind their targets [m].
+double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility);
+/// Fills the energies, or not-a-number where they are not wanted.
+void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
+                      const compare::Scene& scene, bool wanted);
+/// ‖x − x_prev‖ ≤ b_v for all vertices, in double (method.md §5.5).
+bool keeps_bounds(const std::vector<compare::Vec3f>& position, const Detected& detected);
+
+}  // namespace ogc::reference

@@ -1,0 +1,42 @@
+// Bounds are numbers that single precision holds exactly, so that rounding a setting can't take it out of its range.
+#include "reference/solvers/newton/settings.hpp"
+
+#include <array>
+
+namespace ogc::reference {
+namespace {
+
+using enum compare::SettingKind;
+
+constexpr double most_count = 1 << 30;
+constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
+
+constexpr std::array<compare::SettingInfo, 5> rows{{
+    {"newton_iterations", "1", "Newton's iterations in a step at most", 1, most_count,
+     compare::DeclaredSetting{whole, 50}},
+    {"newton_tolerance", "1",
+     "relative force that may remain when a Newton step has converged (Eq. 29); 0: all iterations are done", 0, 1,
+     compare::DeclaredSetting{real, 1e-4}},
+    {"newton_step_tolerance", "m/s",
+     "a Newton step has also converged where no vertex wants to move faster than this; 0: this does not end it", 0,
+     0x1p10, compare::DeclaredSetting{real, 0}},
+    {"friction_solves", "1", "Newton's solves in a step, each with the friction that the one before led to", 1, 1 << 20,
+     compare::DeclaredSetting{whole, 1}},
+    {"projection", "1",
+     "what Newton does with negative curvature of an energy: keep it, cut it off at zero, or take its absolute value",
+     0, 2, compare::DeclaredSetting{choice, static_cast<double>(HessianProjection::clamp)}, projection_names},
+}};
+
+const compare::SettingsDeclaration declaration("newton", rows);
+
+}  // namespace
+
+NewtonSettings newton_settings(const compare::Settings& settings) {
+  return {.iterations = static_cast<std::int64_t>(get_setting(settings, "newton_iterations")),
+          .tolerance = get_setting(settings, "newton_tolerance"),
+          .step_tolerance = get_setting(settings, "newton_step_tolerance"),
+          .friction_solves = static_cast<std::int64_t>(get_setting(settings, "friction_solves")),
+          .projection = static_cast<HessianProjection>(get_setting(settings, "projection"))};
+}
+
+}  // namespace ogc::reference

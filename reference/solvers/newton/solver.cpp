@@ -1,0 +1,255 @@
+#include "reference/solvers/newton/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "reference/solvers/newton/condition.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Vec3f;
+
+/// So many times as much a scaled step must lower the energy to be preferred: see the head of solver.hpp.
+constexpr double far_more = 2;
+/// So often a solve that has converged goes on although the contacts found at its result are no better than those
+/// before: see the head of solver.hpp.
+constexpr int most_judgements = 4;
+/// ‖δ_v‖/‖δ'_v‖ at most: a vertex whose ball leaves it nothing stands as good as still.
+constexpr double most_pinned = 1e6;
+/// Each round costs a factorisation; from the third on they rarely lower the energy more.
+constexpr int most_pin_rounds = 6;
+/// A line search that accepts less of a direction with cut vertices has come to a standstill in its balls.
+constexpr double least_share = 1e-3;
+
+double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+}  // namespace
+
+std::vector<std::string> NewtonSolver::stage_names() const {
+  return {"detection", "derivatives", "assembly", "factorization", "line_search"};
+}
+
+NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
+                           const compare::SimulationOptions& options)
+    : ContactStep(scene, topology, options, stage_count),
+      newton_(newton_settings(settings_)),
+      matrix_(potential_.mobility()) {}
+
+StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
+                              std::int64_t number) {
+  begin(start, velocity, number);
+  judgements_ = 0;
+  least_judged_ = std::numeric_limits<double>::infinity();
+  matrix_.forget_pattern();
+  pattern_stale_ = true;
+  guess(GuessEnd::contact);
+  return finish(status_of(solve()));
+}
+
+std::uint32_t NewtonSolver::status_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged: return compare::step_clean;
+    case Outcome::not_finite: return compare::step_not_finite;
+    case Outcome::indefinite: return compare::step_indefinite;
+    case Outcome::iteration_limit:
+    case Outcome::no_decrease: break;
+  }
+  return compare::step_not_converged;
+}
+
+NewtonSolver::Outcome NewtonSolver::solve() {
+  for (std::int64_t solve = 0;; ++solve) {
+    const std::int64_t before = metrics_.iterations;
+    const Outcome outcome = solve_once();
+    const bool settled = solve > 0 && metrics_.iterations == before;
+    if (outcome != Outcome::converged || settled || solve + 1 >= newton_.friction_solves ||
+        metrics_.iterations >= newton_.iterations)
+      return outcome;
+    potential_.lag_friction(x_);
+    pattern_stale_ = true;
+  }
+}
+
+/// Each round does an iteration or detects because the residual is small enough; two of the latter never follow one
+/// another, but for prescribed vertices that creep towards their targets. The limit ends both.
+NewtonSolver::Outcome NewtonSolver::solve_once() {
+  for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
+    if (const std::optional<Outcome> outcome = iterate()) return *outcome;
+  return Outcome::iteration_limit;
+}
+
+double NewtonSolver::mean_force() const {
+  double sum = 0;
+  for (const Triple<double>& g : derivatives_.gradient) sum += length(g);
+  return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
+}
+
+std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
+  const bool detects = detect_next_;
+  judging_ = detects && judge_next_;
+  judge_next_ = false;
+  if (detects) detect_here();
+  pattern_stale_ = pattern_stale_ || detects;
+  const std::size_t prescribed_cut = move_prescribed();
+  derive(cut_ > 0 ? newton_.projection : HessianProjection::none);
+  const double force = mean_force();
+  if (!std::isfinite(force)) return Outcome::not_finite;
+  set_residual(force);
+  const bool small = newton_.tolerance > 0 &&
+                     force <= std::max(newton_.tolerance * reference_force_, derivatives_.force_noise);
+  if (options_.iterations) rows_.push_back(new_row(detects));
+  if (small && (fresh_ || nothing_near())) return Outcome::converged;
+  if (judging_ && judged_in_vain(force)) return Outcome::converged;
+  if (metrics_.iterations >= newton_.iterations)
+    return small || newton_.tolerance == 0 ? Outcome::converged : Outcome::iteration_limit;
+  if (small) {
+    detect_next_ = judge_next_ = true;
+    return {};
+  }
+  return advance(prescribed_cut);
+}
+
+/// Whether solves have found for the last time that their result is none with the contacts there. Rounds whose force
+/// halves lead somewhere and don't count.
+bool NewtonSolver::judged_in_vain(double force) {
+  if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
+  least_judged_ = std::min(least_judged_, force);
+  return judgements_ >= most_judgements;
+}
+
+/// Solves, truncates, searches along the line.
+std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribed_cut) {
+  if (!factorized_definite()) return Outcome::indefinite;
+  const Direction direction = direction_of();
+  if (!std::isfinite(direction.largest)) return Outcome::not_finite;
+  if (options_.iterations && options_.condition) measure_condition(rows_.back());
+  const double share = accepted_share(direction);
+  ++metrics_.iterations;
+  ++iterations_since_;
+  cut_ = direction.cut + prescribed_cut;
+  if (options_.iterations) {
+    rows_.back().largest_change = direction.largest;
+    rows_.back().share = share;
+    rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
+  }
+  if (share == 0 && fresh_) return Outcome::no_decrease;
+  detect_next_ = share == 0 || (share < least_share && cut_ > 0) || detection_due(cut_) ||
+                 (newton_.tolerance > 0 && cut_ > 0);
+  fresh_ = false;
+  if (cut_ == 0 && direction.largest <= newton_.step_tolerance * settings_.time_step) return Outcome::converged;
+  return {};
+}
+
+void NewtonSolver::measure_condition(compare::IterationMetrics& row) {
+  row.condition_number = condition_number(matrix_, factor_);
+  const PotentialDerivatives projected = potential_.derivatives(x_, newton_.projection);
+  const std::size_t elastic = potential_.elastic_count(), normal = elastic + potential_.contacts().size();
+  row.condition_without_friction = condition_of_first(potential_, normal, derivatives_, projected);
+  row.condition_without_contact = condition_of_first(potential_, elastic, derivatives_, projected);
+}
+
+void NewtonSolver::derive(HessianProjection projection) {
+  projection_ = projection;
+  timed(derivation, [&] { derivatives_ = potential_.derivatives(x_, projection, std::move(derivatives_)); });
+}
+
+bool NewtonSolver::factorized_definite() {
+  if (factorized()) return true;
+  if (projection_ == newton_.projection) return false;
+  derive(newton_.projection);
+  return factorized();
+}
+
+bool NewtonSolver::factorized() {
+  timed(assembly, [&] {
+    if (pattern_stale_ && matrix_.set_stencils(potential_.vertices(), potential_.elastic_count()))
+      timed(factorization, [&] { factor_.analyze(matrix_); });
+    pattern_stale_ = false;
+    matrix_.assemble(potential_.inertias(), derivatives_.stencil);
+  });
+  return timed(factorization, [&] { return factor_.factorize(matrix_); });
+}
+
+NewtonSolver::Direction NewtonSolver::direction_of() {
+  const std::vector<std::size_t>& free = matrix_.free_vertices();
+  std::vector<double> right;
+  for (const std::size_t v : free)
+    for (const double g : derivatives_.gradient[v]) right.push_back(-g);
+  const std::vector<double> solution = timed(factorization, [&] { return factor_.solve(right); });
+  Direction direction{State(x_.size()), State(x_.size()), 0, 0};
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const std::size_t v = free[i];
+    direction.delta[v] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
+    const Balls::Inside inside = balls_.inside(v, x_[v] + direction.delta[v]);
+    direction.truncated[v] = inside.cut ? inside.x - x_[v] : direction.delta[v];
+    direction.cut += inside.cut;
+    const double change = length(direction.delta[v]);
+    if (!(change <= direction.largest)) direction.largest = change;
+  }
+  return direction;
+}
+
+/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that nothing but
+/// inertia holds then goes as far as its ball allows; sheets that travel together do, too.
+bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
+  const std::vector<std::size_t>& free = matrix_.free_vertices();
+  const std::vector<double> inertias = potential_.inertias();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const std::size_t v = free[i];
+    const double wanted = length(direction.delta[v]), kept = length(direction.truncated[v]);
+    if (!(kept < wanted)) continue;
+    const double ratio = wanted < most_pinned * kept ? wanted / kept : most_pinned;
+    const double more = (ratio - 1) * (inertias[v] + pins[v]);
+    pins[v] += more;
+    matrix_.add_to_diagonal(i, more);
+  }
+  return timed(factorization, [&] { return factor_.factorize(matrix_); });
+}
+
+/// Along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers the
+/// energy more.
+Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
+  Accepted best;
+  std::vector<double> pins(x_.size(), 0);
+  for (int round = 0; round < most_pin_rounds && direction.cut > 0; ++round) {
+    if (!pin(direction, pins)) break;
+    direction = direction_of();
+    Accepted found = timed(line_search,
+                           [&] { return backtracked(potential_, x_, direction.truncated, 1, before, noise); });
+    if (found.share == 0 || (best.share > 0 && found.change >= best.change)) break;
+    best = std::move(found);
+  }
+  return best;
+}
+
+double NewtonSolver::accepted_share(const Direction& direction) {
+  const PotentialTerms before = potential_.terms(x_);
+  const double noise = derivatives_.energy_noise + value_noise(before);
+  Accepted best = timed(line_search, [&] { return searched(direction, before, noise); });
+  if (direction.cut > 0 && direction.cut < matrix_.free_vertices().size()) {
+    Accepted held = pinned(direction, before, noise);
+    if (held.share > 0 && (best.share == 0 || held.change < best.change)) best = std::move(held);
+  }
+  if (best.share == 0) return 0;
+  if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
+  x_ = std::move(best.x);
+  return best.share;
+}
+
+/// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter.
+Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
+  Accepted best = backtracked(potential_, x_, direction.truncated, 1, before, noise);
+  if (direction.cut > 0) {
+    double room = 1;
+    for (const std::size_t v : matrix_.free_vertices())
+      room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
+    Accepted scaled = backtracked(potential_, x_, direction.delta, room, before, noise);
+    if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
+  }
+  return best;
+}
+
+}  // namespace ogc::reference

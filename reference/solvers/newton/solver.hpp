@@ -1,0 +1,120 @@
+// Newton-OGC: Algorithm 3 with Newton's method for its solve. A step is
+//
+//   detect at xᵗ ── guess loop (Eq. 28, method.md §5) ── friction lagged ── detect ──┐
+//        ┌───────────────────────────────────────────────────────────────────────────┘
+//        ▼
+//     prescribed vertices to their targets, truncated ── gradient, Hessian ── residual ≤ tolerance? ──┐
+//        ▲                                                                                            ▼
+//        │                                                 backtrack (method.md §7.6) ── truncate δ ── solve
+//        └── detect again when vertices were cut, or to judge the residual ──┘
+//
+// Choices that the paper leaves open. The guess loop ends at the first contact; a step that begins with contacts begins
+// at xᵗ. The loop moves vertices one by one: those in contact stay while the others cross several balls, and what is
+// left is crumpled, with distances so small that no ball lets it unfold. Newton's own steps cross as many balls, but
+// move everything together. Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged
+// step. Contacts are detected once more after a guess: the reference residual f* of Eq. 29 asks for them, and the solve
+// begins with full balls. A solve to a tolerance detects again as soon as one vertex was cut, as method.md §6 asks of
+// all that is run to convergence: a vertex that its ball holds back would keep the residual up for good. Without a
+// tolerance γ_e decides alone. The solve takes prescribed vertices as they are and never waits for them: where bounds
+// keep one from its target it lags, as in the fast path.
+//
+// Where balls cut δ there are three ways to go, each backtracked (method.md §7.6), and the one that lowers the energy
+// most is taken:
+//   δ'      cut vertex by vertex. In a crumpled cloth it bends whatever stands between a vertex that was cut and one
+//           that was not, and a share of 2⁻⁸ that lowers the energy in its seventh digit would pass for progress;
+//   scaled  δ, scaled to fit all balls. It must lower the energy twice as much as δ', which moves most vertices far and
+//           makes room for all: with no such factor sheets that fly together or are nearly closed lose the full steps
+//           that tests/reference/solvers/newton/solver.cpp asks for;
+//   pinned  truncation takes from two near vertices that want common travel their separation, too: each keeps a share
+//           of its δ, and so of the difference of both. So springs hold cut vertices where they are, of stiffness
+//           (‖δ_v‖/‖δ'_v‖ − 1)(m_v/h² + what they had), and the system is solved and truncated again: vertices that are
+//           free to go take into account what the others may not. What only inertia holds goes just as far as its ball
+//           allows. Rounds go on while they lower the energy more. Where all vertices were cut `scaled` does the same.
+// A line search that leaves less than 10⁻³ of a step with cut vertices asks for new balls.
+//
+// Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far
+// from the solution it rarely is. Always projected, a step of a crumpled cloth ends in a long linear tail, for the
+// projection keeps curvature that other stencils cancel.
+//
+// OGC's force jumps where a contact point leaves its block for one that is not in contact (Fig. 22), so that there may
+// be no state at all whose force vanishes with the contacts detected at it: solves then alternate between two sets of
+// contacts, each converged with its own. After a few of these rounds that don't halve the residual found there the step
+// ends, with the residual of the contacts at its end, above the tolerance: steps.csv shows it.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "reference/solvers/contact_step.hpp"
+#include "reference/solvers/newton/factor.hpp"
+#include "reference/solvers/newton/line_search.hpp"
+#include "reference/solvers/newton/settings.hpp"
+
+namespace ogc::reference {
+
+/// Newton-OGC (method.md §7.6).
+class NewtonSolver : public StepSolver, private ContactStep {
+ public:
+  /// Scene: rounded and valid. Both must outlive it.
+  NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
+               const compare::SimulationOptions& options);
+
+  StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
+                  std::int64_t number) override;
+  std::vector<std::string> stage_names() const override;
+
+  /// Called with each accepted step of the line search: energies before and after, with the same contacts and friction
+  /// [J].
+  std::function<void(double before, double change, double noise)> on_accepted;
+
+ private:
+  enum Stage : std::size_t {
+    detection = detection_stage,
+    derivation,
+    assembly,
+    factorization,
+    line_search,
+    stage_count
+  };
+  enum class Outcome { converged, iteration_limit, indefinite, no_decrease, not_finite };
+  struct Direction {
+    State delta;         ///< of all vertices; 0 where not free [m]
+    State truncated;     ///< δ'
+    double largest = 0;  ///< ‖δ‖_∞ [m]
+    std::size_t cut = 0;
+  };
+
+  static std::uint32_t status_of(Outcome outcome);
+  Outcome solve();
+  Outcome solve_once();
+  /// One round of the loop; empty where it goes on.
+  std::optional<Outcome> iterate();
+  std::optional<Outcome> advance(std::size_t prescribed_cut);
+  bool judged_in_vain(double force);
+  double mean_force() const;
+  void derive(HessianProjection projection);
+  /// With stencils projected where the matrix of these derivatives is not positive definite.
+  bool factorized_definite();
+  bool factorized();
+  /// Of the matrix at hand, which is factorised, and of what is left of it without friction and without contact.
+  void measure_condition(compare::IterationMetrics& row);
+  Direction direction_of();
+  bool pin(const Direction& direction, std::vector<double>& pins);
+  Accepted pinned(Direction direction, const PotentialTerms& before, double noise);
+  /// The share of the best direction that was taken, or 0.
+  double accepted_share(const Direction& direction);
+  Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
+
+  NewtonSettings newton_;
+  BlockMatrix matrix_;
+  Factor factor_;
+  PotentialDerivatives derivatives_;  ///< of the last iteration
+  /// contacts are detected to judge a solve that has converged with those before
+  bool judge_next_ = false, judging_ = false;
+  HessianProjection projection_ = HessianProjection::none;  ///< of derivatives_
+  int judgements_ = 0;                                      ///< without a smaller force than before
+  double least_judged_ = 0;                                 ///< [N]
+  bool pattern_stale_ = true;
+};
+
+}  // namespace ogc::reference

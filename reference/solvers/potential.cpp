@@ -1,0 +1,337 @@
+#include "reference/solvers/potential.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "compare/problem/error.hpp"
+#include "reference/energies/mollifier.hpp"
+#include "reference/energies/overlap_share.hpp"
+#include "reference/energies/rest_state.hpp"
+#include "reference/geometry/closest_points.hpp"
+#include "reference/solvers/potential_batches.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::ContactSides;
+using compare::Index;
+
+/// Calls `visit` with the first `Count` places for the contact's number of vertices.
+template <class Visit>
+auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
+  switch (vertex_count(sides)) {
+    case 2: return visit(gathered<2>(vertex, x));
+    case 3: return visit(gathered<3>(vertex, x));
+    default: return visit(gathered<4>(vertex, x));
+  }
+}
+
+/// e_k (compare/stages/contact_force.hpp), by the positions in single precision that the detection saw.
+double energy_share(const std::array<float, 2>& rest_squared, const std::array<Triple<double>, 4>& x) {
+  if (rest_squared[0] > 0 && rest_squared[1] > 0) {
+    const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
+    return mollifier.acts() ? mollifier.value() : 1;
+  }
+  if (rest_squared[0] > 0 || rest_squared[1] > 0) return 1;
+  const auto seen = [&](std::size_t k) {
+    return Vec3f{static_cast<float>(x[k][0]), static_cast<float>(x[k][1]), static_cast<float>(x[k][2])};
+  };
+  if (!nearly_parallel(EdgePair{{seen(0), seen(1)}, {seen(2), seen(3)}})) return 1;
+  return overlap_share(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
+}
+
+double contact_term_energy(const ContactTerm& term, const State& x) {
+  const ClosestForm form = closest_form(term.sides, contact_corners(term.sides, term.vertex, x));
+  return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(form, corners); });
+}
+
+MembraneTerm membrane_term(const compare::Scene& scene, const compare::RestTriangle& rest) {
+  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
+  MembraneTerm term;
+  term.vertex = rest.corner;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    for (std::size_t k = 0; k < 2; ++k) term.gradient[k + 1][axis] = double{rest.gradient[k][axis]};
+    term.gradient[0][axis] = -term.gradient[1][axis] - term.gradient[2][axis];
+  }
+  term.area = double{rest.area};
+  term.lambda = material.lame_lambda;
+  term.mu = material.lame_mu;
+  term.damping = material.membrane_damping / scene.settings.time_step;
+  term.model = material.membrane;
+  return term;
+}
+
+HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest) {
+  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
+  HingeTerm term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle},
+                 material.bending_damping / scene.settings.time_step};
+  term.model = material.bending;
+  for (std::size_t k = 0; k < 3; ++k) {
+    term.weight[k + 1] = double{rest.weight[k]};
+    term.weight[0] -= term.weight[k + 1];
+  }
+  return term;
+}
+
+SpringTerm spring_term(const compare::Scene& scene, const compare::Spring& spring) {
+  const double s = spring.ratio;
+  return {{spring.first, spring.second, spring.third, -1},
+          {1, s - 1, -s, 0},
+          spring.stiffness,
+          spring.rest_length,
+          spring.damping / scene.settings.time_step};
+}
+
+double angle_at(const Hinge<double>& x) {
+  const Fold<double> fold(x);
+  return fold.collapsed() ? 0 : fold.angle();
+}
+
+double largest_coordinate(const State& x) {
+  double largest = 0;
+  for (const Triple<double>& p : x) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  return largest;
+}
+
+double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+}  // namespace
+
+State widened(const std::vector<compare::Vec3f>& positions) {
+  State state;
+  state.reserve(positions.size());
+  for (const compare::Vec3f& p : positions) state.push_back({p.x, p.y, p.z});
+  return state;
+}
+
+std::vector<Mobility> mobility_of(const compare::Scene& scene) {
+  std::vector<Mobility> mobility;
+  for (const Index group : rigid_groups(scene))
+    mobility.push_back(group < 0 ? Mobility::free : group == 0 ? Mobility::fixed : Mobility::prescribed);
+  return mobility;
+}
+
+Potential::Potential(const compare::Scene& scene, const compare::Topology& topology)
+    : scene_(scene),
+      topology_(topology),
+      rest_(rest_state({&scene, &topology}).exact),
+      body_(body_of_vertex(scene)),
+      mobility_(mobility_of(scene)),
+      mass_(rest_.mass.begin(), rest_.mass.end()),
+      step_(scene.settings.time_step) {
+  switch (scene.settings.damping) {
+    case compare::DampingForm::strain: break;
+    case compare::DampingForm::per_vertex:
+      throw compare::InputError(
+          "damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or "
+          "damping=strain");
+  }
+  free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
+  for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
+  for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
+  for (const compare::Spring& spring : scene.springs) springs_.push_back(spring_term(scene, spring));
+}
+
+void Potential::begin_step(const State& start, const State& target) {
+  start_ = start;
+  target_ = target;
+  contacts_.clear();
+  frictions_.clear();
+  for (MembraneTerm& term : membranes_)
+    term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
+  for (HingeTerm& term : hinges_) term.start = angle_at(gathered<4>(term.vertex, start));
+  for (SpringTerm& term : springs_) {
+    term.start = norm(separation(term.weight, spring_corners(term, start)));
+  }
+}
+
+void Potential::set_contacts(const ContactSets& sets, const State& previous) {
+  contacts_.clear();
+  for (const compare::VertexFacetContact& contact : sets.vertex_facet)
+    add_contact(stencil_of(topology_, contact), previous);
+  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) add_contact(stencil_of(topology_, contact), previous);
+}
+
+void Potential::add_contact(const ContactStencil& stencil, const State& previous) {
+  const auto is_free = [&](Index v) { return v >= 0 && mobility_[static_cast<std::size_t>(v)] == Mobility::free; };
+  if (std::none_of(stencil.vertex.begin(), stencil.vertex.end(), is_free)) return;
+  const compare::MeetingMaterial& material = material_of(rest_, scene_.bodies.size(), body_, stencil);
+  if (material.stiffness == 0) return;
+  contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1,
+                       double{material.friction}, scene_.settings.activation});
+  if (stencil.sides != ContactSides::edge_edge) return;
+  const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
+  contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, previous));
+}
+
+std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term,
+                                                   const std::array<Triple<double>, 4>& corners) const {
+  if (term.friction == 0) return {};
+  const ClosestForm form = closest_form(term.sides, corners);
+  const Triple<double> apart = separation(form.weight, corners);
+  const double distance = norm(apart);
+  if (distance == 0 || distance >= term.contact_radius) return {};
+  using Slope = Derivative<double, 1>;
+  const double slope =
+      contact_activation(term.activation, Slope(distance, 0), term.contact_radius, term.stiffness).slope[0];
+  return FrictionTerm{term.sides,
+                      term.vertex,
+                      form.weight,
+                      (1 / distance) * apart,
+                      separation(form.weight, contact_corners(term.sides, term.vertex, start_)),
+                      -term.friction * term.mollifier * slope,
+                      scene_.settings.friction_velocity * step_};
+}
+
+void Potential::lag_friction(const State& x) {
+  frictions_.clear();
+  for (const ContactTerm& term : contacts_)
+    if (const auto friction = friction_at(term, contact_corners(term.sides, term.vertex, x)))
+      frictions_.push_back(*friction);
+}
+
+std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
+  if (stencil < membranes_.size())
+    return {membranes_[stencil].vertex[0], membranes_[stencil].vertex[1], membranes_[stencil].vertex[2], -1};
+  stencil -= membranes_.size();
+  if (stencil < hinges_.size()) return hinges_[stencil].vertex;
+  stencil -= hinges_.size();
+  if (stencil < springs_.size()) return springs_[stencil].vertex;
+  stencil -= springs_.size();
+  return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
+}
+
+std::vector<std::array<Index, 4>> Potential::vertices() const {
+  std::vector<std::array<Index, 4>> all;
+  all.reserve(stencil_count());
+  for (std::size_t i = 0; i < stencil_count(); ++i) all.push_back(vertices(i));
+  return all;
+}
+
+std::vector<double> Potential::inertias() const {
+  std::vector<double> all;
+  for (std::size_t v = 0; v < mass_.size(); ++v) all.push_back(inertia(v));
+  return all;
+}
+
+double Potential::stencil_energy(std::size_t stencil, const State& x) const {
+  if (stencil < membranes_.size()) return membranes_[stencil].energy(gathered<3>(membranes_[stencil].vertex, x));
+  stencil -= membranes_.size();
+  if (stencil < hinges_.size()) return hinges_[stencil].energy(gathered<4>(hinges_[stencil].vertex, x));
+  stencil -= hinges_.size();
+  if (stencil < springs_.size()) return springs_[stencil].energy(spring_corners(springs_[stencil], x));
+  stencil -= springs_.size();
+  if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
+  const FrictionTerm& term = frictions_[stencil - contacts_.size()];
+  return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
+}
+
+PotentialTerms Potential::terms(const State& x) const {
+  PotentialTerms result;
+  result.stencil.resize(stencil_count());
+  result.inertia.resize(x.size());
+  tbb::parallel_for(std::size_t{0}, result.stencil.size(),
+                    [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (mobility_[v] != Mobility::free) continue;
+    const Triple<double> away = x[v] - target_[v];
+    result.inertia[v] = 0.5 * inertia(v) * dot(away, away);
+  }
+  return result;
+}
+
+double Potential::change(const PotentialTerms& from, const PotentialTerms& to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.stencil.size(); ++i) sum += to.stencil[i] - from.stencil[i];
+  for (std::size_t i = 0; i < from.inertia.size(); ++i) sum += to.inertia[i] - from.inertia[i];
+  return sum;
+}
+
+double Potential::total(const PotentialTerms& terms) {
+  double sum = 0;
+  for (const double e : terms.stencil) sum += e;
+  for (const double e : terms.inertia) sum += e;
+  return sum;
+}
+
+PotentialDerivatives Potential::derivatives(const State& x, HessianProjection projection,
+                                            PotentialDerivatives room) const {
+  PotentialDerivatives result = std::move(room);
+  for (std::vector<double>* sums : {&result.slopes, &result.curvatures}) sums->resize(stencil_count());
+  result.stencil.resize(stencil_count());
+  std::size_t first = 0;
+  const auto add = [&](const auto& terms) {
+    differentiate(std::span(terms), x, projection, result.stencil.data() + first,
+                  [&, first](std::size_t i) { measure(first + i, result); });
+    first += terms.size();
+  };
+  add(membranes_);
+  add(hinges_);
+  add(springs_);
+  add(contacts_);
+  add(frictions_);
+  sum_gradient(x, result);
+  return result;
+}
+
+/// Moduli, for what rounding does.
+void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const {
+  const StencilDerivatives& derivatives = result.stencil[stencil];
+  const auto vertex = vertices(stencil);
+  double slopes = 0, curvatures = 0;
+  std::array<double, 12> columns{};  // side by side: one sum would be a chain of additions
+  for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
+    if (mobility_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
+    for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
+      slopes += std::abs(derivatives.gradient[row]);
+      for (std::size_t column = 0; column < 12; ++column)
+        columns[column] += std::abs(derivatives.hessian[12 * row + column]);
+    }
+  }
+  for (const double column : columns) curvatures += column;
+  result.slopes[stencil] = slopes;
+  result.curvatures[stencil] = curvatures;
+}
+
+void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const {
+  result.gradient.assign(x.size(), {});
+  double slopes = 0, curvatures = 0;
+  for (std::size_t i = 0; i < result.stencil.size(); ++i) {
+    slopes += result.slopes[i];
+    curvatures += result.curvatures[i];
+    const auto vertex = vertices(i);
+    for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
+      const auto v = static_cast<std::size_t>(vertex[k]);
+      if (mobility_[v] != Mobility::free) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) result.gradient[v][axis] += result.stencil[i].gradient[3 * k + axis];
+    }
+  }
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (mobility_[v] != Mobility::free) continue;
+    const Triple<double> pull = inertia(v) * (x[v] - target_[v]);
+    result.gradient[v] = result.gradient[v] + pull;
+    slopes += std::abs(pull[0]) + std::abs(pull[1]) + std::abs(pull[2]);
+    curvatures += 3 * inertia(v);
+  }
+  const double rounding = 0x1p-52 * largest_coordinate(x);
+  result.energy_noise = rounding * slopes;
+  result.force_noise = free_count_ > 0 ? rounding * curvatures / static_cast<double>(free_count_) : 0;
+}
+
+double Potential::elastic_energy(const State& x) const {
+  double sum = 0;
+  for (const MembraneTerm& term : membranes_) sum += term.elastic(gathered<3>(term.vertex, x));
+  for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
+  for (const SpringTerm& term : springs_) sum += term.elastic(spring_corners(term, x));
+  return sum;
+}
+
+double Potential::contact_energy(const State& x) const {
+  double sum = 0;
+  for (const ContactTerm& term : contacts_) sum += contact_term_energy(term, x);
+  return sum;
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,116 @@
+// The incremental potential of a step (backward Euler): inertia, elasticity, damping, contact of the last detection,
+// lagged friction. Its gradient is minus the total force of Eq. 29.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+#include "reference/energies/stencil_terms.hpp"
+#include "reference/energies/stencils/stencil_derivatives.hpp"
+#include "reference/solvers/contacts.hpp"
+
+namespace ogc::reference {
+
+/// Positions of all vertices [m].
+using State = std::vector<Triple<double>>;
+
+/// The same positions in double.
+State widened(const std::vector<compare::Vec3f>& positions);
+
+/// What moves a vertex: nothing, its motion, or forces.
+enum class Mobility : std::uint8_t { fixed, prescribed, free };
+/// By vertex.
+std::vector<Mobility> mobility_of(const compare::Scene& scene);
+
+/// Energies at one state, by term, so that two states are compared term by term: their difference is small beside their
+/// sum.
+struct PotentialTerms {
+  std::vector<double> stencil;  ///< [J]
+  std::vector<double> inertia;  ///< by vertex; 0 where not free [J]
+};
+
+/// Derivatives at one state.
+struct PotentialDerivatives {
+  std::vector<StencilDerivatives> stencil;
+  std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
+  State gradient;                          ///< by vertex; 0 where not free [N]
+  /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums
+  /// of |∂²E| and of |∂E|.
+  double force_noise = 0, energy_noise = 0;  ///< [N], [J]
+};
+
+/// Of one scene, step after step.
+class Potential {
+ public:
+  /// The scene must be rounded; both must outlive it. Throws InputError for damping by vertex, which is no potential.
+  Potential(const compare::Scene& scene, const compare::Topology& topology);
+
+  /// xᵗ and y of the step; strains and angles at xᵗ. Contacts and friction of the step before are gone.
+  void begin_step(const State& start, const State& target);
+  /// Contacts found at `previous`, where e_k is evaluated. Those without a free vertex act on nothing and are left out.
+  void set_contacts(const ContactSets& sets, const State& previous);
+  /// λ, n and w of the present contacts that act at x (method.md §4.4), until the next call.
+  void lag_friction(const State& x);
+
+  /// Energies at x, by term.
+  PotentialTerms terms(const State& x) const;
+  /// E(to) − E(from), the same stencils in both.
+  static double change(const PotentialTerms& from, const PotentialTerms& to);
+  static double total(const PotentialTerms& terms);
+  /// `room`: an earlier result whose memory is used again.
+  PotentialDerivatives derivatives(const State& x, HessianProjection projection, PotentialDerivatives room = {}) const;
+
+  /// Of all kinds.
+  std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
+  /// the first stencils: those that never change
+  std::size_t elastic_count() const { return membranes_.size() + hinges_.size() + springs_.size(); }
+  /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
+  std::array<compare::Index, 4> vertices(std::size_t stencil) const;
+  std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
+
+  double elastic_energy(const State& x) const;  ///< without damping [J]
+  double contact_energy(const State& x) const;  ///< normal energies [J]
+  /// By vertex [kg].
+  const std::vector<double>& mass() const { return mass_; }
+  /// By vertex.
+  const std::vector<Mobility>& mobility() const { return mobility_; }
+  /// Rest shape, rounded as the fast path has it.
+  const compare::RestStateOut& rest() const { return rest_; }
+  /// The stencils of the present contacts and of all else but friction.
+  const std::vector<MembraneTerm>& membranes() const { return membranes_; }
+  const std::vector<HingeTerm>& hinges() const { return hinges_; }
+  const std::vector<SpringTerm>& springs() const { return springs_; }
+  const std::vector<ContactTerm>& contacts() const { return contacts_; }
+  /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none);
+  /// empty where there is none.
+  std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
+  const State& target() const { return target_; }                                       ///< y of the step [m]
+  double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
+  std::vector<double> inertias() const;                                                 ///< by vertex
+  /// Number of free vertices.
+  std::size_t free_count() const { return free_count_; }
+
+ private:
+  void add_contact(const ContactStencil& stencil, const State& previous);
+  double stencil_energy(std::size_t stencil, const State& x) const;
+  void measure(std::size_t stencil, PotentialDerivatives& result) const;
+  void sum_gradient(const State& x, PotentialDerivatives& result) const;
+
+  const compare::Scene& scene_;
+  const compare::Topology& topology_;
+  compare::RestStateOut rest_;
+  std::vector<compare::Index> body_;
+  std::vector<Mobility> mobility_;
+  std::vector<double> mass_;
+  double step_;
+  std::size_t free_count_ = 0;
+  std::vector<MembraneTerm> membranes_;
+  std::vector<HingeTerm> hinges_;
+  std::vector<SpringTerm> springs_;
+  std::vector<ContactTerm> contacts_;
+  std::vector<FrictionTerm> frictions_;
+  State start_, target_;
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,69 @@
+// Settings that a contestant declares are in the table with the problem's own, for whatever reads it: the other tests
+// of this program see these rows, too.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "compare/problem/error.hpp"
+#include "compare/problem/settings.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr std::array<std::string_view, 3> ways{"first", "second", "third"};
+constexpr std::array<SettingInfo, 3> rows{{
+    {"tests_share", "m", "a length that one contestant reads", 0, 2, DeclaredSetting{SettingKind::real, 0.5}},
+    {"tests_count", "1", "a number that one contestant reads", 1, 9, DeclaredSetting{SettingKind::whole, 3}},
+    {"tests_way", "1", "a choice that one contestant reads", 0, 2, DeclaredSetting{SettingKind::choice, 2}, ways},
+}};
+constexpr std::array<SettingInfo, 1> other_rows{{
+    {"another_share", "1", "a share that another contestant reads", 0, 1, DeclaredSetting{SettingKind::real, 0.25}},
+}};
+const SettingsDeclaration declaration("tests", rows), other("another", other_rows);
+
+std::vector<std::string_view> last_names(std::size_t count) {
+  std::vector<std::string_view> names;
+  for (const SettingInfo& info : setting_table().last(count)) names.push_back(info.name);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("declared settings follow the problem's, by the names of their contestants", "[unit]") {
+  CHECK(last_names(5) ==
+        std::vector<std::string_view>{"seed", "another_share", "tests_share", "tests_count", "tests_way"});
+}
+
+TEST_CASE("a declared setting has its default until it is set, and is a value like any other then", "[unit]") {
+  Settings settings;
+  CHECK(get_setting(settings, "tests_share") == 0.5);
+  CHECK(get_setting(settings, "tests_count") == 3);
+  CHECK(get_setting(settings, "tests_way") == 2);
+  set_setting(settings, "tests_share", "0.75");
+  set_setting(settings, "tests_count", 9.0);
+  set_setting(settings, "tests_way", "first");
+  CHECK(get_setting(settings, "tests_share") == 0.75);
+  CHECK(get_setting(settings, "tests_count") == 9);
+  CHECK(get_setting(settings, "tests_way") == 0);
+  CHECK(settings != Settings{});
+}
+
+TEST_CASE("a declared setting that is set to its default leaves the settings as they were", "[unit]") {
+  Settings settings;
+  set_setting(settings, "tests_share", "0.75");
+  set_setting(settings, "tests_share", "0.5");
+  set_setting(settings, "tests_way", "third");
+  CHECK(settings == Settings{});
+}
+
+TEST_CASE("messages about declared settings name the range, and the nearest name for an unknown one", "[unit]") {
+  Settings settings;
+  CHECK_THROWS_WITH(set_setting(settings, "tests_count", "10"),
+                    Contains("'tests_count' can't be '10'; give a whole number from 1 to 9"));
+  CHECK_THROWS_WITH(set_setting(settings, "tests_way", "fourth"), Contains("one of first, second, third"));
+  CHECK_THROWS_WITH(set_setting(settings, "tests_shares", 1.0), Contains("did you mean 'tests_share'?"));
+  CHECK(settings == Settings{});
+}

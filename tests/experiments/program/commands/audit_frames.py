@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Frames as other programs write them, by NumPy and VTK themselves: `ogc audit` must find the one that intersects, and nothing in the others.
+
+    tests/experiments/program/commands/audit_frames.py PROGRAM      exit status 77 where NumPy or VTK are missing
+"""
+
+import itertools
+import json
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+try:
+    import numpy
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+PROGRAM = sys.argv[1]
+FRAMES, FIRST_BAD = 12, 10
+TRIANGLES = numpy.array([[0, 1, 2], [3, 4, 5]])
+
+
+def positions():
+    """A triangle, and another one that comes down to it by 1 mm a frame and has pierced it from frame 10 on."""
+    lower = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
+    upper = numpy.array([[0.2, 0.2, 0.0095], [0.3, 0.2, 0.5], [0.2, 0.3, 0.5]])
+    return numpy.array([numpy.vstack([lower, upper - [0, 0, 0.001 * k]]) for k in range(FRAMES)])
+
+
+def audit(*arguments, status):
+    result = subprocess.run([PROGRAM, "audit", *map(str, arguments), "--json"], capture_output=True, text=True)
+    assert result.returncode == status, (arguments, result.returncode, result.stderr)
+    return json.loads(result.stdout) if result.stdout else result.stderr
+
+
+def check(verdict, name, distances):
+    """All frames were audited, the first bad one is named, and the distances are those of the numbers that were stored."""
+    assert len(verdict["states"]) == FRAMES and verdict["complete"]
+    assert [state["count"] > 0 for state in verdict["states"]] == [k >= FIRST_BAD for k in range(FRAMES)]
+    assert verdict["first_intersecting"].endswith(name), verdict["first_intersecting"]
+    for state, distance in zip(verdict["states"][:FIRST_BAD], distances):
+        found = state["smallest_distances"]["vertex_triangle"]["distance"]
+        assert 0 <= distance - found <= 1e-15 * distance, (state["state"], found, distance)
+
+
+def save_archives(folder, frames):
+    for kind, save in (("stored", numpy.savez), ("deflated", numpy.savez_compressed)):
+        for real, whole, (x, faces) in itertools.product("fd", "ilq", (("positions", "triangles"), ("x", "faces"))):
+            file = folder / f"{kind}_{real}_{whole}_{x}.npz"
+            stored = frames.astype(real)
+            save(file, **{faces: TRIANGLES.astype(whole), x: stored, "note": numpy.array(["other arrays are let be"])})
+            yield file, stored[:, 3, 2].astype(float)
+    big_endian = folder / "big_endian.npz"
+    numpy.savez(big_endian, positions=frames.astype(">f4"), triangles=TRIANGLES.astype(">i4"))
+    yield big_endian, frames.astype("f")[:, 3, 2].astype(float)
+
+
+def save_point_cache(file, frames):
+    samples = frames.astype("<f4")
+    file.write_bytes(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, samples.shape[1], 0.0, 1.0, len(samples)) + samples.tobytes())
+
+
+def poly_data(points):
+    data, corners, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    corners.SetData(numpy_to_vtk(points, deep=True))
+    cells.SetData(numpy_to_vtkIdTypeArray(numpy.array([0, 3, 6]), deep=True), numpy_to_vtkIdTypeArray(TRIANGLES.ravel(), deep=True))
+    data.SetPoints(corners)
+    data.SetPolys(cells)
+    return data
+
+
+def save_vtp(file, points, mode, compressor, header, encode, order):
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(file))
+    writer.SetInputData(poly_data(points))
+    writer.SetDataMode({"ascii": writer.Ascii, "binary": writer.Binary, "appended": writer.Appended}[mode])
+    if compressor:
+        writer.SetCompressorTypeToZLib()
+        writer.SetBlockSize(64)  # several blocks, and a last one that is shorter
+    else:
+        writer.SetCompressorTypeToNone()
+    writer.SetHeaderType(header)
+    writer.SetEncodeAppendedData(encode)
+    writer.SetByteOrder(order)
+    assert writer.Write() == 1
+
+
+def check_arrays(folder):
+    frames = positions()
+    for file, distances in save_archives(folder, frames):
+        check(audit(file, status=1), "frame 10", distances)
+    numpy.savez(folder / "clean.npz", positions=frames[:FIRST_BAD], triangles=TRIANGLES)
+    assert audit(folder / "clean.npz", status=0)["clean"] is True
+    numpy.savez(folder / "one.npz", points=frames[0], faces=TRIANGLES.astype("B"))
+    assert len(audit(folder / "one.npz", status=0)["states"]) == 1
+    mesh = folder / "mesh.obj"
+    mesh.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in frames[0]) + "f 1 2 3\nf 4 5 6\n")
+    numpy.save(folder / "alone.npy", frames)
+    check(audit(folder / "alone.npy", "--mesh", mesh, status=1), "frame 10", frames[:, 3, 2])
+    save_point_cache(folder / "cache.pc2", frames)
+    check(audit(folder / "cache.pc2", "--mesh", mesh, status=1), "frame 10", frames.astype("f")[:, 3, 2].astype(float))
+    for file in ("alone.npy", "cache.pc2"):
+        assert "--mesh" in audit(folder / file, status=2)
+
+
+def check_vtp(folder):
+    frames = positions()
+    for number, options in enumerate(itertools.product(("ascii", "binary", "appended"), (False, True), (32, 64), (0, 1), (0, 1))):
+        here = folder / f"vtp_{number}"
+        here.mkdir()
+        for k, points in enumerate(frames if number == 0 else frames[[0, FRAMES - 1]]):
+            save_vtp(here / f"frame_{k}.vtp", points, *options)
+        verdict = audit(here, status=1)
+        if number == 0:
+            check(verdict, "frame_10.vtp", frames[:, 3, 2])
+        assert [state["count"] > 0 for state in verdict["states"]][-1], options
+        assert verdict["states"][0]["smallest_distances"]["vertex_triangle"]["distance"] == frames[0, 3, 2], options
+
+
+def check_refused(folder):
+    """Damage is named by file, frame and byte, and what could be read before it is reported."""
+    frames = positions()
+    numpy.savez(folder / "names.npz", cloth=frames, triangles=TRIANGLES)
+    message = audit(folder / "names.npz", status=2)
+    assert "positions" in message and "cloth" in message
+    numpy.savez(folder / "outside.npz", x=frames, faces=TRIANGLES + 1)
+    assert "vertex 6 does not exist" in audit(folder / "outside.npz", status=2)
+    numpy.savez(folder / "fortran.npz", x=numpy.asfortranarray(frames), faces=TRIANGLES)
+    assert "ascontiguousarray" in audit(folder / "fortran.npz", status=2)
+    numpy.savez(folder / "objects.npz", x=numpy.array([{}], dtype=object), faces=TRIANGLES)
+    assert "float32" in audit(folder / "objects.npz", status=2)
+    frames[7, 4, 1] = numpy.nan
+    numpy.savez(folder / "nan.npz", x=frames, faces=TRIANGLES)
+    verdict = audit(folder / "nan.npz", status=2)
+    assert len(verdict["states"]) == 7 and "frame 7: vertex 4" in verdict["stopped"] and not verdict["complete"]
+    bytes_of = (folder / "stored_f_i_x.npz").read_bytes()
+    spoiled = bytearray(bytes_of)
+    place = bytes_of.index(b"NUMPY", bytes_of.index(b"x.npy")) + 200
+    spoiled[place] ^= 1
+    (folder / "spoiled.npz").write_bytes(spoiled)
+    assert "checksum" in json.dumps(audit(folder / "spoiled.npz", status=1))
+    mesh, cache = folder / "mesh.obj", (folder / "cache.pc2").read_bytes()
+    (folder / "cut.pc2").write_bytes(cache[:-40])
+    verdict = audit(folder / "cut.pc2", "--mesh", mesh, status=1)
+    assert len(verdict["states"]) == FRAMES - 1 and "frame 11: the file ends at byte" in verdict["stopped"]
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    check_arrays(Path(scratch))
+    check_vtp(Path(scratch))
+    check_refused(Path(scratch))

@@ -1,0 +1,98 @@
+// What a suggestion promises is an inequality between its numbers and the mesh; each is checked on meshes that differ
+// in one respect.
+#include "experiments/program/runs/suggestion.hpp"
+
+#include <cmath>
+
+#include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
+#include "experiments/scenes/materials.hpp"
+#include "experiments/scenes/shapes.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc;
+using namespace ogc::experiments;
+
+namespace {
+
+constexpr double gravity = 9.81;
+
+double speed_after(double fall) { return std::sqrt(2 * gravity * fall); }
+
+/// Edges of 1/19 m, and of √2 times that.
+compare::Mesh sheet() { return grid(20, 1, 0.5); }
+
+/// Two sheets, `gap` [m] apart.
+compare::Mesh layers(double gap) {
+  compare::Scene scene;
+  append_body(scene, {.name = "lower", .material = {}}, grid(20, 1, 0.5));
+  append_body(scene, {.name = "upper", .material = {}}, grid(20, 1, 0.5 + gap));
+  return scene.mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a suggested radius is below a quarter of the median edge and not above gaps of a twentieth and more",
+          "[unit]") {
+  const double edge = 1.0 / 19;
+  const auto radius = [](const compare::Mesh& mesh) { return suggest(mesh, layer_cloth(), 1).contact_radius; };
+  CHECK(radius(sheet()).value == Approx(edge / 4).epsilon(0.1));
+  CHECK(radius(sheet()).value <= edge / 4);
+  CHECK(radius(layers(0.1 * edge)).value <= 0.1 * edge);
+  CHECK(radius(layers(0.1 * edge)).value >= 0.09 * edge);
+  CHECK_THAT(radius(layers(0.1 * edge)).reason, Catch::Matchers::Contains("gap"));
+  CHECK(radius(layers(0.001 * edge)).value == Approx(edge / 20).epsilon(0.1));
+  CHECK_THAT(radius(layers(0.001 * edge)).reason, Catch::Matchers::Contains("pushed apart"));
+}
+
+TEST_CASE("the suggested stiffness holds ten layers and stops a falling vertex within half of r", "[property]") {
+  const compare::Material cloth = layer_cloth();
+  for (const double fall : {0.0, 0.01, 1.0, 50.0}) {
+    const Suggestion found = suggest(sheet(), cloth, fall);
+    const double mass = cloth.density / 400, half = found.contact_radius.value / 2,
+                 stiffness = found.contact_stiffness.value;
+    INFO(fall << " m");
+    CHECK(stiffness * half >= 10 * mass * gravity);
+    CHECK(stiffness * half * half >= mass * std::pow(speed_after(fall), 2) * (1 - 1e-9));
+    CHECK(found.contact_stiffness.reason.size() > 20);
+  }
+}
+
+TEST_CASE("four detections are enough for a suggested step at the speed of the fall", "[property]") {
+  for (const double fall : {0.0, 0.01, 1.0, 50.0}) {
+    const Suggestion found = suggest(sheet(), layer_cloth(), fall);
+    INFO(fall << " m");
+    CHECK(found.time_step.value <= 0.01);
+    CHECK(found.time_step.value * speed_after(fall) <=
+          4 * compare::Settings{}.bound_relaxation * found.query_radius.value * (1 + 1e-9));
+    CHECK(found.iterations.value >= 10);
+    CHECK(found.iterations.value <= 100);
+  }
+}
+
+TEST_CASE("suggested numbers scale with the mesh, and are legal for the smallest and the largest one", "[property]") {
+  for (const double scale : {0x1p-14, 1.0, 0x1p18}) {
+    compare::Mesh mesh = sheet();
+    for (compare::Vec3& p : mesh.positions) p = {scale * p.x, scale * p.y, scale * p.z};
+    const Suggestion found = suggest(mesh, layer_cloth(), scale);
+    compare::Scene scene;
+    scene.name = "scaled";
+    append_body(scene, {.name = "cloth", .material = layer_cloth()}, mesh);
+    apply(found, scene);
+    round_to_single(scene);
+    INFO(scale);
+    CHECK(compare::describe(compare::validate(scene)) == "");
+    CHECK(found.contact_radius.value == Approx(std::max(0x1p-20, scale / 76)).epsilon(0.1));
+    CHECK(scene.bodies[0].material.contact_stiffness == Approx(found.contact_stiffness.value));
+  }
+}
+
+TEST_CASE("where a tenth of the edges is far shorter than most, they decide", "[unit]") {
+  const Suggestion found = suggest(cylinder({.around = 100, .along = 2, .cap = 0}, 0.5, 1, {}), layer_cloth(), 1);
+  CHECK(found.edge_length == Approx(2 * std::sin(std::acos(-1.0) / 100)).epsilon(0.01));
+  CHECK_THAT(found.contact_radius.reason, Catch::Matchers::Contains("a tenth of the edges"));
+}
+
+TEST_CASE("a mesh without a triangle gets no suggestion", "[unit]") {
+  CHECK_THROWS_AS(suggest({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}}, layer_cloth(), 1), compare::InputError);
+}

@@ -1,0 +1,139 @@
+// What can hardly be meant is said once, with its number and what to do; what is right is not.
+#include "experiments/program/runs/warnings.hpp"
+
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/files/scene_files.hpp"
+#include "experiments/scenes/registry.hpp"
+#include "experiments/scenes/shapes.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/program.hpp"
+
+using namespace ogc;
+using namespace ogc::experiments;
+using namespace ogc::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A square sheet of 2 × 2 cells far from everything, with r = 10 mm.
+compare::Scene sheet(double side = 1) {
+  compare::Scene scene;
+  scene.name = "sheet";
+  append_body(scene, {.name = "cloth", .material = {}}, grid(3, side, 0));
+  scene.settings.contact_radius = 0.01;
+  scene.settings.steps = 3;
+  return scene;
+}
+
+void throw_down(compare::Scene& scene, double speed) {
+  for (compare::Vec3& v : scene.velocities) v = {0, -speed, 0};
+}
+
+/// A row of which a solver did all rounds and lost that share.
+compare::StepMetrics step_that_lost(double share, std::int64_t step = 1) {
+  compare::StepMetrics row;
+  row.step = step;
+  row.guess_rounds = compare::Settings{}.guess_rounds;
+  row.momentum_lost_guess = share;
+  return row;
+}
+
+/// What a run of the scene says at its end: of its JSON, and of run.json the same.
+std::vector<std::string> warnings_of(compare::Scene scene) {
+  const TemporaryFolder folder;
+  round_to_single(scene);
+  const std::string command = "run " + compare::write_scene(folder / "scene", scene).string() + " --audit off --out ";
+  const ProgramResult json = run_ogc(command + (folder / "run").string() + " --json"),
+                      words = run_ogc(command + (folder / "words").string());
+  INFO(json.err << words.err);
+  REQUIRE(json.status == 0);
+  const auto warnings = nlohmann::json::parse(json.out).at("warnings").get<std::vector<std::string>>();
+  CHECK(nlohmann::json::parse(std::ifstream(folder / "run/run.json")).at("warnings").get<std::vector<std::string>>() ==
+        warnings);
+  const std::string last = words.out.substr(words.out.rfind('\n', words.out.size() - 2) + 1);
+  for (const std::string& warning : warnings) CHECK_THAT(last, Contains(warning));
+  // Said while it runs, once each kind.
+  std::size_t said = 0;
+  for (std::size_t at = words.err.find("warning: "); at != std::string::npos; at = words.err.find("warning: ", at + 1))
+    ++said;
+  CHECK(said == warnings.size());
+  CHECK((last.find("warning") != std::string::npos) == !warnings.empty());
+  return warnings;
+}
+
+}  // namespace
+
+TEST_CASE("a step that loses more than half of its momentum to truncation is warned of, once, by the worst", "[unit]") {
+  Warnings warnings(sheet());
+  CHECK(warnings.look_at(step_that_lost(0.5)).empty());
+  CHECK(warnings.look_at(step_that_lost(0.6, 7)).size() == 1);
+  CHECK(warnings.look_at(step_that_lost(0.9, 8)).empty());
+  CHECK(warnings.look_at(step_that_lost(0.7, 9)).empty());
+  REQUIRE(warnings.list().size() == 1);
+  CHECK_THAT(warnings.list()[0], Contains("step 8 lost 90 %") && Contains("time_step"));
+  // Contacts ended this loop: what it lost is right.
+  Warnings resting(sheet());
+  compare::StepMetrics row = step_that_lost(1);
+  row.guess_rounds = 2;
+  CHECK(resting.look_at(row).empty());
+  CHECK(resting.list().empty());
+}
+
+// γ_p r_q = 0.45 · 40 mm a round, 16 rounds: 0.29 m a step at most; in h = 10 ms, 29 m/s. In free flight nothing but
+// truncation takes momentum.
+TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
+          "[property]") {
+  compare::Scene scene = sheet();
+  throw_down(scene, 100);
+  const std::vector<std::string> warnings = warnings_of(scene);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("step 1 lost ") && Contains("guess_rounds"));
+  throw_down(scene, 14);
+  CHECK(warnings_of(scene).empty());
+}
+
+// As above: 29 m/s is what a handle can follow; it asks for 100.
+TEST_CASE("a run whose handles fall behind by more than r warns with the lag", "[property]") {
+  compare::Scene scene = sheet();
+  compare::PrescribedMotion motion;
+  motion.name = "handle";
+  motion.vertices = {0};
+  motion.velocity = {0, 100, 0};
+  scene.motions = {motion};
+  const std::vector<std::string> warnings = warnings_of(scene);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("lag ") && Contains("move them slower"));
+  scene.motions[0].velocity = {0, 0.5, 0};
+  CHECK(warnings_of(scene).empty());
+}
+
+TEST_CASE("a run with r above two median edges warns, and names the body with the shortest", "[unit]") {
+  compare::Scene scene = sheet();
+  append_body(scene, {.name = "fine", .fixed = true, .material = {}},
+              grid(11, 0.06, 1));  // 60 sides of 6 mm and 40 diagonals each way
+  scene.settings.contact_radius = 0.0119;
+  CHECK(Warnings(scene).list().empty());
+  scene.settings.contact_radius = 0.0121;
+  const std::vector<std::string> warnings = warnings_of(scene);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("0.0121 m, 2.02 median edges (0.006 m) of body 'fine'") && Contains("ogc suggest"));
+}
+
+TEST_CASE("a run of a scene whose box has a diagonal above 20 m warns, and says how to scale millimetres", "[unit]") {
+  const std::vector<std::string> warnings = warnings_of(sheet(1000));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("diagonal of 1.41e+03 m") && Contains("0.001"));
+  CHECK(Warnings(sheet(14.1)).list().empty());
+  CHECK(Warnings(sheet(14.2)).list().size() == 1);
+}
+
+TEST_CASE("no built-in scene begins with a warning", "[unit]") {
+  for (const SceneInfo& info : scenes())
+    for (const Scale scale : {Scale::smoke, Scale::small}) {
+      INFO(info.name);
+      CHECK(Warnings(make_scene(std::string(info.name), scale)).list() == std::vector<std::string>{});
+    }
+}

@@ -1,0 +1,173 @@
+// The registry of stages against the tree and compare/README.md, and the determinism that it states.
+#include "experiments/program/stage_list.hpp"
+
+#include <filesystem>
+#include <map>
+
+#include "compare/files/bytes.hpp"
+#include "compare/judge/judge.hpp"
+#include "compare/judge/stage_table.hpp"
+#include "reference/contestant.hpp"
+#include "tests/catch.hpp"
+#include "tests/compare/judge/faults.hpp"
+#include "tests/experiments/program.hpp"
+
+using namespace ogc;
+using namespace ogc::compare;
+
+namespace {
+
+const std::filesystem::path tree = OGC_SOURCE_DIR;
+
+std::string read(const std::string& file) { return read_bytes(tree / file); }
+
+/// Whether some file of the tree's folders has this stem.
+bool has_stem(std::initializer_list<const char*> folders, const std::string& stem) {
+  for (const char* folder : folders)
+    for (const auto& entry : std::filesystem::directory_iterator(tree / folder))
+      if (entry.path().stem() == stem) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("every stage has a contract, a reference, a CPU and a CUDA implementation", "[unit]") {
+  const Authority authority = reference::authority();
+  const Contestant host = fast::contestant(fast::Backend::cpu);
+  for (const StageInfo& info : stage_table()) {
+    const std::string name(stage_name(info.stage));
+    INFO(name);
+    CHECK(std::filesystem::exists(tree / "compare/stages" / (name + ".hpp")));
+    CHECK(std::filesystem::exists(tree / std::string(info.reference)));
+    CHECK(has_stem({"fast/kernels", "fast/stages"}, name));
+    CHECK(can_judge(info.stage, host, authority));
+    if (fast::backend_info(fast::Backend::cuda).usable)
+      CHECK(can_judge(info.stage, fast::contestant(fast::Backend::cuda), authority));
+  }
+  // Both backends instantiate one list of probes: what the CPU has, CUDA has.
+  for (const char* file : {"fast/cpu/probes.cpp", "fast/cuda/probes.cu"})
+    CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
+}
+
+TEST_CASE("agreement tests of CPU and CUDA go over all stages", "[unit]") {
+  for (const char* file : {"tests/experiments/compare.cpp", "tests/fast/cuda/agreement.cu"}) {
+    const std::string text = read(file);
+    const auto from = text.find("agrees with the reference in every stage");
+    REQUIRE(from != std::string::npos);
+    CHECK(text.find("all_stages", from) < text.find("\n}\n", from));
+  }
+}
+
+TEST_CASE("the table of stages in compare/README.md is the one that ogc compare --list --markdown prints", "[unit]") {
+  const std::string readme = read("compare/README.md"), begin = "<!-- ogc compare --list --markdown -->\n",
+                    end = "<!-- end of the list -->";
+  const auto from = readme.find(begin);
+  REQUIRE(from != std::string::npos);
+  const std::string table = readme.substr(from + begin.size(), readme.find(end) - from - begin.size());
+  CHECK(table == experiments::stage_list_markdown());
+  const tests::ProgramResult printed = tests::run_ogc("compare --list --markdown");
+  CHECK(printed.status == 0);
+  CHECK(printed.out == table);
+}
+
+TEST_CASE("every stage has at least three planted faults, and the table in compare/README.md names all of them",
+          "[unit]") {
+  std::map<Stage, int> by_stage;
+  int number = 0;
+  const std::string table = read("compare/README.md");
+  for (const tests::Fault& fault : tests::faults()) {
+    ++by_stage[fault.stage];
+    const std::string row = "| " + std::to_string(++number) + " | " + std::string(stage_name(fault.stage)) + " | " +
+                            fault.name.substr(fault.name.find(": ") + 2) + " | ";
+    INFO(row);
+    CHECK(table.find(row) != std::string::npos);
+  }
+  CHECK(table.find("| " + std::to_string(number + 1) + " | ") == std::string::npos);
+  for (const StageInfo& info : stage_table()) {
+    INFO(stage_name(info.stage));
+    CHECK(by_stage[info.stage] >= 3);
+  }
+}
+
+TEST_CASE("the list of stages names generators and parameters of each", "[unit]") {
+  const std::string list = experiments::stage_list_text();
+  REQUIRE(tests::contains(
+      list, {"detect_edge_edge", "ladder.strands", "parameters: r, r_q", "parameters: none", "cpu_to_gpu"}));
+}
+
+TEST_CASE("the CPU gives the same bits again, on one and two threads, shuffled and in small batches, in every stage",
+          "[agreement]") {
+  for (const DeterminismReport& report : experiments::determinism_of(fast::Backend::cpu, all_stages, 1000, 5)) {
+    INFO(stage_name(report.stage) << (report.changed.empty() ? "" : ": " + report.changed[0]));
+    CHECK_FALSE(report.skipped);
+    CHECK(report.cases > 0);
+    CHECK(report.changed.empty());
+  }
+}
+
+TEST_CASE("answers that depend on their company, or change from call to call, are noticed", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant odd = tests::exact_contestant(authority);
+  odd.truncate = [right = odd.truncate](const TruncateIn& in) {
+    TruncateOut out = right(in);
+    out.position[0].x = in.position.size() > 50 ? out.position[0].x : -out.position[0].x;
+    return out;
+  };
+  int call = 0;
+  odd.bound = [right = odd.bound, &call](const BoundIn& in) {
+    BoundOut out = right(in);
+    if (++call % 7 == 0 && !out.bound.empty()) out.bound[0] = -out.bound[0];
+    return out;
+  };
+  odd.detect_vertex_facet = [right = odd.detect_vertex_facet](const DetectIn& in) {
+    DetectVertexFacetOut out = right(in);
+    if (!out.contacts.empty() && out.contacts[0].vertex < 3) out.contacts.erase(out.contacts.begin());
+    return out;
+  };
+  odd.detect_edge_edge = [right = odd.detect_edge_edge](const DetectIn& in) {
+    DetectEdgeEdgeOut out = right(in);
+    std::erase_if(out.contacts, [](const EdgeEdgeContact& c) { return c.first_edge == 0; });
+    return out;
+  };
+  for (const Stage stage : {Stage::detect_vertex_facet, Stage::detect_edge_edge}) {
+    const auto by_number = check_determinism(stage, 100, 1, odd, authority, {});
+    REQUIRE(by_number.changed.size() == 1);
+    CHECK(by_number.changed[0].starts_with("renumbered: "));
+  }
+  const auto company = check_determinism(Stage::truncate, 200, 1, odd, authority, {});
+  CHECK(company.changed.size() >= 3);
+  CHECK(check_determinism(Stage::bound, 60, 1, odd, authority, {}).changed.size() >= 1);
+}
+
+TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision boundary, where it has one",
+          "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant exact = tests::exact_contestant(authority);
+  for (const StageInfo& info : stage_table()) {
+    if (!info.has_boundary) continue;
+    JudgeOptions options;
+    // so many that whole meshes and batches change the generators' shares little
+    options.cases = is_mesh_stage(info.stage) ? 30000 : 5000;
+    const StageReport report = judge_stage(info.stage, exact, authority, options);
+    INFO(stage_name(info.stage));
+    CHECK(report.tally.near_share() >= 0.5);
+  }
+}
+
+TEST_CASE(
+    "of the meshes that large runs are made of half of the cases lie within 1024 ulp of a boundary too, and the "
+    "reference passes",
+    "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant exact = tests::exact_contestant(authority);
+  for (const Stage stage : {Stage::block, Stage::detect_vertex_facet, Stage::detect_edge_edge}) {
+    JudgeOptions options;
+    options.cases = 20000;
+    options.generator = "ladder.field";
+    const StageReport report = judge_stage(stage, exact, authority, options);
+    INFO(stage_name(stage));
+    CHECK(report.passed());
+    CHECK(report.tally.questions < 40);  // meshes of more than a thousand cases
+    CHECK(report.tally.near_share() >= 0.5);
+  }
+}
