@@ -20,7 +20,7 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 /// What stiffness-proportional damping acts on (method.md §4.9): the change of a stencil's strain, or each vertex's own
 /// motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
-/// What keeps a vertex from passing through others between two detections (method.md §5b): a ball about X_prev, as in
+/// What keeps a vertex from passing through others between two detections (method.md §5.6): a ball about X_prev, as in
 /// the paper; planes between near pairs, and a ball for the others; nothing.
 enum class Bounds : std::int64_t { ball, planes, off };
 

@@ -1,4 +1,4 @@
-// Stage plane: what holds each vertex until the next detection where bounds are planes (method.md §5b): half-spaces of
+// Stage plane: what holds each vertex until the next detection where bounds are planes (method.md §5.6): half-spaces of
 // near pairs, and a ball for all pairs that have none.
 #pragma once
 

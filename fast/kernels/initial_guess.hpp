@@ -73,8 +73,8 @@ struct BeginHinge {
 };
 
 /// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored
-/// positions, and its half-spaces), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of an earlier one, and
-/// certified.
+/// positions, and its half-spaces), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of
+/// an earlier one, and certified.
 struct BeginBounds {
   const Vec* position;
   const float* bound;

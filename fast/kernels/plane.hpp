@@ -1,4 +1,4 @@
-// Planes between pairs (method.md §5b): where a ball takes from a vertex the freedom to slide along a neighbour and to
+// Planes between pairs (method.md §5.6): where a ball takes from a vertex the freedom to slide along a neighbour and to
 // leave it, a half-space takes the approach alone. A pair has one normal n and two offsets: all vertices of its first
 // side keep n·x ≤ o₁, all of its second n·x ≥ o₂, with o₁ < o₂. So do the convex hulls of both sides, at every instant
 // of a straight motion between two positions that keep it: the pair cannot meet. n may be any vector, as long as all
@@ -123,10 +123,10 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// The plane of a pair at its positions, which is not nearer than `below`, with γ_p = `share`: each side may approach by γ_p of the gap, where the other
-/// is fixed by 2γ_p. Offsets are taken from the points themselves, so n need not be exact; whether every point keeps
-/// its own is tested as it will be tested later, and a pair that fails has no plane. The offset of a fixed side lies
-/// half way from it to the other's.
+/// The plane of a pair at its positions, which is not nearer than `below`, with γ_p = `share`: each side may approach
+/// by γ_p of the gap, where the other is fixed by 2γ_p. Offsets are taken from the points themselves, so n need not be
+/// exact; whether every point keeps its own is tested as it will be tested later, and a pair that fails has no plane.
+/// The offset of a fixed side lies half way from it to the other's.
 template <int m, int n>
 OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share) {
   PairPlane plane;
@@ -263,9 +263,8 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
 
 }  // namespace slide
 
-/// `proposal` where the region holds it, bit for bit; otherwise a position of the region near it: along the half-spaces,
-/// nudged where storing took it out, scaled towards `current` where it is still outside. `current`, which the region
-/// holds, in the worst case. The proposal is finite.
+/// A position of the region near a finite proposal outside it: along the half-spaces, nudged where storing took it out,
+/// scaled towards `current` where it is still outside; in the worst case `current`, which the region holds.
 template <class Metric>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
   const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);

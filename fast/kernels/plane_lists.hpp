@@ -1,4 +1,4 @@
-// From the pairs within r_q that a search noted to each vertex's half-spaces and ball (method.md §5b):
+// From the pairs within r_q that a search noted to each vertex's half-spaces and ball (method.md §5.6):
 //
 //   MeasurePairs     by pair    its distance; how many pairs each vertex has
 //   (scan of these numbers)

@@ -1,4 +1,4 @@
-// Stage plane: is what holds the vertices enough? Decided exactly, about an answer of whomever (method.md §5b).
+// Stage plane: is what holds the vertices enough? Decided exactly, about an answer of whomever (method.md §5.6).
 #pragma once
 
 #include "compare/stages/plane.hpp"

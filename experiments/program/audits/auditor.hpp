@@ -1,6 +1,7 @@
 // Judges the states of a run while it goes on: exact intersections by the oracle, and the motion certificate against
-// exact bounds of the reference (method.md §5.5, §5.6). On a device that computes elsewhere it works beside the simulation;
-// on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured by.
+// exact bounds or planes of the reference (method.md §5.5, §5.6). On a device that computes elsewhere it works beside
+// the simulation; on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured
+// by.
 #pragma once
 
 #include <condition_variable>
