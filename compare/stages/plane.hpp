@@ -13,25 +13,26 @@ namespace ogc::compare {
 
 /// A pair of primitives that share no vertex: a vertex and a triangle, or two edges, the lower-numbered first.
 struct PrimitivePair {
-  enum class Kind : std::uint8_t { vertex_triangle, edge_edge };
+  enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< of what the pair consists
   Kind kind = Kind::vertex_triangle;
-  Index first = -1, second = -1;
+  Index first = -1, second = -1;  ///< numbers of the vertex and the triangle, or of the edges
   friend bool operator==(const PrimitivePair&, const PrimitivePair&) = default;
 };
 
 /// n·x ≤ o: one side of the plane of a pair, as one of its vertices bears it. The vertices of the pair's first side
 /// have the normal n, those of its second −n, bit by bit; n need not be a unit vector.
 struct VertexPlane {
-  PrimitivePair pair;
-  Vec3f normal;
-  double offset = 0;  ///< [m] times the length of n
+  PrimitivePair pair;  ///< whose sides the plane holds apart
+  Vec3f normal;        ///< n, away from the vertex's side
+  double offset = 0;   ///< [m] times the length of n
 };
 
 /// Row v, items[offsets[v] … offsets[v + 1]), is what vertex v bears. Empty where there are no planes.
 struct VertexPlanes {
-  std::vector<Index> offsets;
-  std::vector<VertexPlane> items;
+  std::vector<Index> offsets;      ///< [vertices + 1], or empty
+  std::vector<VertexPlane> items;  ///< of all vertices, one after the other
 
+  /// What vertex v bears.
   std::span<const VertexPlane> of(Index v) const {
     if (offsets.empty()) return {};
     const auto i = static_cast<std::size_t>(v);
@@ -40,17 +41,19 @@ struct VertexPlanes {
   }
 };
 
+/// A state, and what decides which pairs count.
 struct PlaneIn {
-  const Topology* topology = nullptr;
-  ExclusionView exclusions;
+  const Topology* topology = nullptr;      ///< of the whole scene
+  ExclusionView exclusions;                ///< pairs that are none
   std::span<const Vec3f> positions;        ///< X of the detection [m]
   std::span<const std::uint8_t> is_fixed;  ///< by vertex: it never moves, and bears no plane
   float query_radius = 0;                  ///< r_q [m]
   float bound_relaxation = 0.45f;          ///< γ_p
 };
 
+/// What a vertex may do until the next detection: K_v is its ball and its half-spaces (method.md §5.6).
 struct PlaneOut {
-  VertexPlanes planes;
+  VertexPlanes planes;       ///< by vertex, ascending by pair
   std::vector<float> bound;  ///< radius of each vertex's ball [m]
 };
 
@@ -63,6 +66,7 @@ struct PlaneTruth {
   PrimitivePair worst;        ///< the first of these, by kind, first and second
   std::size_t broken = 0;     ///< half-spaces that their vertex does not keep at X
   std::size_t too_large = 0;  ///< vertices with b_v > γ_p r_q
+  /// Whether the answer keeps the guarantee.
   bool kept() const { return uncovered == 0 && broken == 0 && too_large == 0; }
 };
 
