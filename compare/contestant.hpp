@@ -21,6 +21,7 @@
 #include "compare/stages/friction_force.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/step.hpp"
@@ -102,6 +103,7 @@ struct Snapshot {
   std::vector<std::int64_t> capacities{};
   /// of a solver whose state is in double: what positions and velocities are rounded from; else none
   std::vector<Vec3> exact_positions{}, exact_velocities{};
+  VertexPlanes planes{};  ///< of the last detection, where bounds are planes
 };
 
 /// What a simulation records beside its states.

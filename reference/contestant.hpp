@@ -8,6 +8,7 @@
 #include "reference/definitions/nearest.hpp"
 #include "reference/definitions/pair_margins.hpp"
 #include "reference/geometry/filter_counts.hpp"
+#include "reference/geometry/plane.hpp"
 #include "reference/geometry/primitive_distances.hpp"
 #include "reference/illustrations/activation_drawing.hpp"
 #include "reference/illustrations/illustrations.hpp"

@@ -282,9 +282,9 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
       case Per::vertex: return sizes.vertices;
       case Per::edge: return sizes.edges;
       case Per::triangle: return sizes.triangles;
-      case Per::two_bodies: break;
+      case Per::two_bodies: return std::int64_t{sizes.bodies} * sizes.bodies;
     }
-    return std::int64_t{sizes.bodies} * sizes.bodies;
+    return 0;
   };
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }

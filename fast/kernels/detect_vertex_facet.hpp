@@ -79,7 +79,7 @@ struct DetectVertexFacet {
     if (!(gap > limit) && !is_beyond(separation(x, t_corners), limit)) measure(v, t, gap);
   }
 
- private:
+ protected:
   OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
     const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])),
                 theirs = atomic_load(&d_min_triangle[offer.primitive]);

@@ -43,7 +43,8 @@ struct StepRow {
   int inverted = 0;  ///< tetrahedra with J ≤ 0
 };
 
-/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound.
+/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
+/// smallest distance).
 struct CheckVertex {
   const Vec* position;
   const Vec* previous;
@@ -51,13 +52,15 @@ struct CheckVertex {
   const Vec* target;
   const int* prescribed_number;
   StepControl* control;
+  RegionView regions{};
+  const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
     const Vec x = position[v];
     if (!is_finite(x)) control->count_not_finite();
-    if (bound_violated(x, previous[v], bound[v])) control->count_violation();
-    atomic_min(&control->smallest_bound, bound[v]);
+    if (is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
+    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : bound[v]);
     if (prescribed_number[v] < 0) return;
     const Vec behind = target[v] - x;
     atomic_max(&control->largest_lag, float_bits(square_root(dot(behind, behind))));

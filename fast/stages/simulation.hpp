@@ -30,7 +30,7 @@ class ResidentSimulation : public compare::Simulation {
         rest_(build_rest_state(scene_, topology_)),
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
-        detection_(backend_, topology_, exclusions_, list_capacity),
+        detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
@@ -87,6 +87,7 @@ class ResidentSimulation : public compare::Simulation {
     result.bounds = last_bounds();
     result.query_radius = query_radius_;
     result.capacities = detection_.capacities();
+    result.planes = detection_.download_planes();
     return result;
   }
 
@@ -130,6 +131,12 @@ class ResidentSimulation : public compare::Simulation {
     static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>, "copied, not converted");
     to.resize(buffer.size());
     buffer.download(reinterpret_cast<Vec*>(to.data()), to.size());
+  }
+
+  std::vector<std::uint8_t> fixed_vertices() const {
+    std::vector<std::uint8_t> fixed;
+    for (const Mobility m : rest_.mobility) fixed.push_back(m == Mobility::fixed ? 1 : 0);
+    return fixed;
   }
 
   void fill_state() {
@@ -262,7 +269,9 @@ class ResidentSimulation : public compare::Simulation {
     result.contact_energy = energies_ ? row.contact : not_asked;
     result.gravity_energy = energies_ ? row.gravity : not_asked;
     result.inverted_tetrahedra = row.inverted;
-    result.smallest_distance = row.smallest_bound / scene_.settings.bound_relaxation;
+    result.smallest_distance = scene_.settings.bounds == compare::Bounds::planes
+                                   ? row.smallest_bound
+                                   : row.smallest_bound / scene_.settings.bound_relaxation;
     result.status = static_cast<std::uint32_t>(row.status);
     return result;
   }

@@ -33,6 +33,7 @@ namespace ogc::fast {
 /// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
 struct StepSettings {
   float step, contact_radius, friction_limit, bound_relaxation;  ///< h [s], r [m], ε_v h [m], γ_p
+  float detection_radius;                                        ///< r and the margin of contacts [m]
   Vec acceleration;                                              ///< [m/s²]
   int iterations;
   bool energies;
@@ -55,14 +56,16 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   StepSettings to{};
   to.step = static_cast<float>(from.time_step);
   to.contact_radius = static_cast<float>(from.contact_radius);
+  to.detection_radius = static_cast<float>((1 + from.contact_margin) * from.contact_radius);
   to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
   to.bound_relaxation = static_cast<float>(from.bound_relaxation);
   to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
                      static_cast<float>(scene.gravity.z)};
   to.iterations = static_cast<int>(from.iterations);
   to.energies = energies;
-  to.control.contact_radius = to.contact_radius;
-  to.control.largest_query_radius = static_cast<float>(from.query_radius_cap * from.contact_radius);
+  to.control.contact_radius = to.detection_radius;
+  to.control.largest_query_radius = std::max(static_cast<float>(from.query_radius_cap * from.contact_radius),
+                                             to.detection_radius);
   to.control.cut_threshold = std::max(
       1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
   to.control.redetect_every = static_cast<int>(from.redetect_every);
@@ -171,19 +174,23 @@ class Step {
   void detect() {
     const Vec* position = state_.position.data();
     const ContactView view = detection_.view();
-    const BeginBounds before{position, view.bound, state_.previous.data(), control()};
+    const BeginBounds before{position, view.bound, state_.previous.data(), control(), detection_.regions()};
     const Both after{EndDetection{control(), detection_.overflow()}, 1,
                      sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), detection_.overflow()),
                      sweep_.slots()};
     detection_.detect(
-        position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
+        position, settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
         OnTheWay{before, std::max(1, sweep_.slots()), after, sweep_.resolve_contact(view, state_.previous.data())});
   }
 
   void guess() {
     const ContactView view = detection_.view();
+    ActiveContacts contacts{view.incidence_offsets};
+    if (settings_.detection_radius > settings_.contact_radius)
+      contacts = {view.incidence_offsets, view.incidences, view.vertex_facet, view.edge_edge, settings_.contact_radius};
     backend_.for_each(state_.vertex_count, GuessVertex{state_.target.data(), state_.previous.data(), view.bound,
-                                                       view.incidence_offsets, state_.position.data(), control()});
+                                                       contacts, state_.position.data(), control(),
+                                                       detection_.regions(), state_.prescribed_number.data()});
   }
 
   void guess_loop() {
@@ -260,6 +267,7 @@ class Step {
     view.target = s.target.data();
     view.previous = s.previous.data();
     view.bound = detection_.view().bound;
+    view.regions = detection_.regions();
     const bool swapped = iteration % 2 != 0;
     view.old = s.places.data() + (swapped ? s.vertex_count : 0);
     view.to_fresh = swapped ? -s.vertex_count : s.vertex_count;
@@ -275,8 +283,10 @@ class Step {
   void finish() {
     StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
-    backend_.for_each(s.vertex_count, CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(),
-                                                  s.prescribed_number.data(), control()});
+    const ContactView view = detection_.view();
+    backend_.for_each(s.vertex_count,
+                      CheckVertex{position, s.previous.data(), view.bound, s.target.data(), s.prescribed_number.data(),
+                                  control(), detection_.regions(), view.d_min_vertex});
     backend_.for_each(1, EndCheck{control()});
     if (settings_.energies)
       reduction_.sum(s.sums_end.data(), vertices(energies()));

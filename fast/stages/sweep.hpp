@@ -19,7 +19,7 @@ namespace ogc::fast {
 
 /// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes
 /// cannot fill a device otherwise.
-inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : (vertices <= 100000 ? 8 : 4); }
+inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : (vertices <= 300000 ? 8 : 4); }
 
 /// The streams on the host, slot by slot in the order of the colouring.
 struct SweepStreams {

@@ -2,12 +2,13 @@
 and in double precision and by Newton.
 
 All start from the same state, that of VBD in single precision after the step before, whose steps were all solved to
-convergence (γ_e = 0). Contacts are detected again when one vertex in a hundred was cut (γ_e of the paper), or as soon
-as a single one was (γ_e = 0). With γ_e = 0 one curve has a hundredth of the printed ε_v, which may be in cm/s. Curves
-have the contacts of the solver's last detection (stale), as in the paper; the table adds the residual with contacts
-detected at the end (fresh). Newton's curve has the friction of its solve, too: it jumps where friction is lagged anew.
---start-iterations gives the steps before fewer iterations. Curves can be left out (--without); picture and table name
-them, and `accept` takes them with --incomplete only.
+convergence (γ_e = 0); curves that name another step start from the state before that one. Contacts are detected again
+when one vertex in a hundred was cut (γ_e of the paper), or as soon as a single one was (γ_e = 0). With γ_e = 0 one
+curve has a hundredth of the printed ε_v, which may be in cm/s. Curves have the contacts of the solver's last detection
+(stale), as in the paper; the table adds the residual with contacts detected at the end (fresh). Newton's curve has the
+friction of its solve, too: it jumps where friction is lagged anew. --start-iterations gives the steps before fewer
+iterations. Curves can be left out (--without); picture and table name them, and `accept` takes them with --incomplete
+only.
 """
 
 import argparse
@@ -29,11 +30,12 @@ MARKS = (50, 500)  # iterations of the paper's curves of Newton and of VBD
 
 
 def label_of(name):
-    """vbd_cuda_any and its like in words."""
+    """vbd_cuda_any, vbd_cuda_any_at_25 and their like in words."""
     kind, *more = name.split("_")
     where = "single, " + more[0] if kind == "vbd" and more[0] != "double" else "double"
     zero, slow = (", γ_e = 0" if "any" in more else ""), (", ε_v = 1e-4 m/s" if "slow" in more else "")
-    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}{zero}{slow}"
+    other = f", step {more[-1]}" if "at" in more else ""
+    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}{zero}{slow}{other}"
 
 
 def curves(folder, ogc, jobs, without):
@@ -57,8 +59,12 @@ def smallest_in(rows, iterations):
     return f"{rows['residual'][rows['iteration'] <= iterations].min():.3g}"
 
 
-def summary(label, run, start, step):
-    rows = iterations(run, step)
+def last_step(run):
+    return int(run.column("step")[-1])
+
+
+def summary(label, run, start):
+    rows = iterations(run, last_step(run))
     residual = rows["residual"]
     tail = residual[-max(1, len(residual) // 5):]
     return {"curve": label, "iterations [1]": int(rows["iteration"][-1]),
@@ -86,7 +92,7 @@ def draw(runs, start, left_out, step, scale, claims, out):
     plt = style.use()
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True)
     for number, (label, run) in enumerate(runs):
-        rows = iterations(run, step)
+        rows = iterations(run, last_step(run))
         colour, dash = style.COLOURS[number % len(style.COLOURS)], style.DASHES[number // len(style.COLOURS)]
         share = f"{label} (detection {100 * detection_share(run):.2g} % of the time)"
         draw_curve(left, rows, "iteration", share, colour, dash)
@@ -113,7 +119,7 @@ def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start
     claims = [c for c in claims if isinstance(c["measure"], list)]
     single, double = commands.three_cloths(scale, list(dict.fromkeys(backends)), start_iterations)
     start, runs = curves(folder, ogc, [*single, *([] if single_only else double)], without)
-    rows, left_out = [{**summary(label, run, start, STEPS[scale]), "status": run.status}
+    rows, left_out = [{**summary(label, run, start), "status": run.status}
                       for label, run in runs], [label_of(name) for name in without]
     write_table(folder / "fig17.csv", [*rows, *(not_run("curve", label, rows[0]) for label in left_out)])
     draw(runs, start, left_out, STEPS[scale], scale, claims, folder / "fig17.png")

@@ -6,15 +6,12 @@
 #include <limits>
 
 namespace ogc::reference {
-namespace {
 
 float product_below(float a, float b) {
   const double exact = static_cast<double>(a) * b;
   const float f = static_cast<float>(exact);
   return static_cast<double>(f) > exact ? std::nextafter(f, 0.0f) : f;
 }
-
-}  // namespace
 
 compare::BoundTruth bound(const compare::BoundIn& in) {
   compare::BoundTruth truth;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/geometry/plane.hpp"
+
 namespace ogc::reference {
 namespace {
 
@@ -81,7 +83,7 @@ bool keeps_bounds(const std::vector<Vec3f>& position, const Detected& detected) 
     const Triple<double> moved = wide(position[v]) - wide(detected.previous[v]);
     if (!(dot(moved, moved) <= double{detected.bound[v]} * detected.bound[v])) return false;
   }
-  return true;
+  return broken_planes(detected.planes, position) == 0;
 }
 
 }  // namespace ogc::reference

@@ -79,7 +79,7 @@ void put(Random& random, Shape& shape, double s, double t) {
       const Base base = any_base(random, shape.size);
       return put_triangle(shape, base.second, base.third, s, t);
     }
-    default: shape.x = {Vec3{0, 0, shape.distance}, Vec3{}, Vec3{}, Vec3{}};
+    case ContactSides::point_point: shape.x = {Vec3{0, 0, shape.distance}, Vec3{}, Vec3{}, Vec3{}};
   }
 }
 

@@ -284,6 +284,17 @@ class Book(Scratch):
         self.assertEqual(fewer[0][0].arguments, (*whole[0][0].arguments[:-1], "iterations=40"))
         self.assertEqual((fewer[0][1:], fewer[1]), (whole[0][1:], whole[1]))
 
+    def test_other_steps_of_fig_17_begin_with_states_that_its_start_stores(self):
+        start, *single = commands.three_cloths("paper", ["cpu"])[0]
+        others = [job for job in single if "_at_" in job.name]
+        self.assertEqual(len(others), len(commands.THREE_CLOTHS_OTHERS["paper"]))
+        between = round(100 / 60)  # steps of 1/100 s between two frames, 60 of them a second
+        for job in others:
+            name, before = job.state
+            self.assertEqual((name, before.number % between), (start.name, 0))
+            self.assertIn(before.number + 1, job.arguments)
+            self.assertLess(before.number, start.arguments[start.arguments.index("--steps") + 1])
+
     def test_frames_are_the_first_evenly_on_to_the_last(self):
         (self.folder / "frames").mkdir()
         for step in range(0, 105, 5):

@@ -83,6 +83,14 @@ TEST_CASE("a step that loses more than half of its momentum to truncation is war
   CHECK(resting.list().empty());
 }
 
+TEST_CASE("a run without bounds says at its first and last line that nothing is guaranteed", "[unit]") {
+  compare::Scene scene = sheet();
+  scene.settings.bounds = compare::Bounds::off;
+  const std::vector<std::string> warnings = warnings_of(scene);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
+}
+
 // γ_p r_q = 0.45 · 40 mm a round, 16 rounds: 0.29 m a step at most; in h = 10 ms, 29 m/s. In free flight nothing but
 // truncation takes momentum.
 TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
