@@ -26,8 +26,10 @@
 
 #include <stdint.h>
 
-/* Of this interface. A library built for a newer one is refused by name. */
-#define OGC_PLUGIN_VERSION 5
+/* Of this interface. A library built for a newer one is refused by name; so is one that is older than the oldest whose
+ * structures have this layout. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`.) */
+#define OGC_PLUGIN_VERSION 6
+#define OGC_PLUGIN_OLDEST_VERSION 5
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1
@@ -224,8 +226,8 @@ typedef struct ogc_truncate_in {
 
 typedef struct ogc_truncate_out {
   ogc_vec3* position; /* [n] as stored, |position - previous| <= bound exactly; bit for bit what came in where nothing
-                         is exceeded */
-  uint8_t* exceeded;  /* [n] 1 where the given position was farther than the bound */
+                         is cut */
+  uint8_t* cut;       /* [n] 1 where the given position was farther than the bound */
 } ogc_truncate_out;
 
 OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out);
@@ -296,7 +298,7 @@ enum {
 typedef struct ogc_contact_force_case {
   uint8_t sides;
   int32_t own;
-  ogc_vec3 vertex[4], detected[4];
+  ogc_vec3 vertex[4], previous[4];
   float rest_squared[2]; /* 0 of an edge without triangles: compare/stages/contact_force.hpp */
   float contact_radius, stiffness;
   int64_t activation;

@@ -11,7 +11,8 @@ packages=(
   libexpat1-dev libminizip-dev libpng-dev
   libegl1 libgl1 libgl1-mesa-dri libxrender1
 )
-# Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with these.
+# Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with
+# these.
 fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-jsonschema)
 
 say() { printf '%s\n' "$*" >&2; }
@@ -32,7 +33,10 @@ install_packages() {
   mapfile -t missing < <(missing_of "$@")
   [ ${#missing[@]} -eq 0 ] && return 0
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { say "Not root and no sudo. Ask an administrator to run: apt-get install ${missing[*]}"; return 1; }
+    if ! command -v sudo >/dev/null; then
+      say "Not root and no sudo. Ask an administrator to run: apt-get install ${missing[*]}"
+      return 1
+    fi
     as_root=(sudo)
   fi
   say "Installing ${#missing[@]} packages: ${missing[*]}"
@@ -56,13 +60,15 @@ find_python() {
   fi
   say "Preparing the Python environment in .venv"
   rm -rf "$root/.venv"
-  if /usr/bin/env python3 -m venv "$root/.venv" && "$root/.venv/bin/python" -m pip install -q --disable-pip-version-check -r "$root/plots/requirements.txt" >&2; then
+  if /usr/bin/env python3 -m venv "$root/.venv" && "$root/.venv/bin/python" -m pip install -q \
+      --disable-pip-version-check -r "$root/plots/requirements.txt" >&2; then
     printf '%s' "$wanted" > "$stamp"
     python=$root/.venv/bin/python
     return 0
   fi
   rm -rf "$root/.venv"
-  say "The Python package index can't be reached: curves are drawn with the distribution's matplotlib; meshes are not rendered and VTK checks are skipped."
+  say "The Python package index can't be reached: curves are drawn with the distribution's matplotlib; meshes are not" \
+    "rendered and VTK checks are skipped."
   install_packages "${fallback_packages[@]}" || return 1
   python=/usr/bin/python3
 }

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::fast {
 

@@ -90,7 +90,8 @@ class CountingBackend : public CpuBackend {
  public:
   SearchCount edges, facets;
 
-  void search(const Searches<DetectEdgeEdge>& edge_edge, const Searches<DetectVertexFacet>& vertex_facet) {
+  template <class EdgeEdge, class VertexFacet>
+  void search(const Searches<EdgeEdge>& edge_edge, const Searches<VertexFacet>& vertex_facet) {
     edges = count_searches(edge_edge);
     facets = count_searches(vertex_facet);
   }

@@ -13,21 +13,25 @@ def available():
 
 
 def picture(bodies, camera, size=(640, 480)):
-    """An RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from camera = (eye, target, up).
+    """An RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from camera =
+    (eye, target, up).
 
-    Front and back of a sheet have different colours, so that folds can be told; ambient occlusion makes contacts readable.
+    Front and back of a sheet have different colours, so that folds can be told; ambient occlusion makes contacts
+    readable.
     """
     import pyvista as pv
     from vtkmodules.vtkCommonCore import vtkLogger
 
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # without a display VTK warns that it found none, and goes on
+    # without a display VTK warns that it found none, and goes on
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     pv.OFF_SCREEN = True
     plotter = pv.Plotter(off_screen=True, window_size=list(size))
     plotter.set_background("white")
     for points, triangles, front, back in bodies:
         faces = np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel()
         mesh = pv.PolyData(np.asarray(points, dtype=float), faces)
-        plotter.add_mesh(mesh, color=front, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, backface_params={"color": back})
+        plotter.add_mesh(mesh, color=front, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1,
+                         backface_params={"color": back})
     extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
     plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")
@@ -38,7 +42,8 @@ def picture(bodies, camera, size=(640, 480)):
 
 
 def write_movie(scenes, camera, out, frames_per_second, size=(640, 480)):
-    """MP4 (H.264) with a picture of each element of `scenes`, which is what `picture` takes as bodies. Returns what `available` does."""
+    """MP4 (H.264) with a picture of each element of `scenes`, which is what `picture` takes as bodies. Returns what
+    `available` does."""
     usable, reason = available()
     try:
         import imageio
@@ -46,7 +51,8 @@ def write_movie(scenes, camera, out, frames_per_second, size=(640, 480)):
     except ImportError as error:
         return False, f"a package for movies can't be imported ({error}); install plots/requirements.txt"
     if usable:
-        with imageio.get_writer(out, fps=frames_per_second, codec="libx264", quality=5, macro_block_size=16, ffmpeg_log_level="error") as writer:
+        with imageio.get_writer(out, fps=frames_per_second, codec="libx264", quality=5, macro_block_size=16,
+                                ffmpeg_log_level="error") as writer:
             for bodies in scenes:
                 writer.append_data(picture(bodies, camera, size))
     return usable, reason

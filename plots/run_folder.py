@@ -1,4 +1,5 @@
-"""Reads run folders (design of the data: experiments/README.md, "Read a run"). Says in words what is missing, instead of drawing nonsense."""
+"""Reads run folders (design of the data: experiments/README.md, "Read a run"). Says in words what is missing, instead
+of drawing nonsense."""
 
 import csv
 import json
@@ -34,7 +35,8 @@ class Run:
         self.folder = Path(folder)
         manifest = self.folder / "run.json"
         if not manifest.is_file():
-            raise RunError(f"{self.folder} is no run folder: it has no run.json. Make one with: ogc run SCENE --out {self.folder}")
+            raise RunError(f"{self.folder} is no run folder: it has no run.json. Make one with: ogc run SCENE --out "
+                           f"{self.folder}")
         self.manifest = json.loads(manifest.read_text())
         self._take_audit(self.folder / "audit.json")
         self.steps, self.units = _read_steps(self.folder / "steps.csv")
@@ -66,7 +68,8 @@ class Run:
         return self.manifest["settings"][name]["value"]
 
     def bodies(self):
-        """The scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's first vertex."""
+        """The scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's first
+        vertex."""
         path = self.folder / "trajectory.vtkhdf"
         if not path.is_file():
             raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
@@ -97,17 +100,20 @@ class Run:
 
     def require_finished(self):
         if self.status != "finished":
-            raise RunError(f"{self.folder} is not finished (status: {self.status}); its frames can be read, its figure can't be drawn")
+            raise RunError(f"{self.folder} is not finished (status: {self.status}); its frames can be read, its figure "
+                           "can't be drawn")
         if not self.manifest.get("guarantee_kept", True):
             raise RunError(f"{self.folder}: the audit failed; see run.json, or audit.json beside it")
 
 
 def commits_in_words(runs):
-    """The commit of the program that made `runs`; where there are several, which run is whose, because such a picture compares programs, too."""
+    """The commit of the program that made `runs`; where there are several, which run is whose, because such a picture
+    compares programs, too."""
     commits = [run.manifest["commit"][:10] + (" (dirty)" if run.manifest.get("dirty") else "") for run in runs]
     if len(set(commits)) == 1:
         return f"commit {commits[0]}"
-    return "MIXED, not one program's runs: " + ", ".join(f"{run.folder.name} of commit {commit}" for run, commit in zip(runs, commits))
+    return "MIXED, not one program's runs: " + ", ".join(f"{run.folder.name} of commit {commit}"
+                                                         for run, commit in zip(runs, commits))
 
 
 def _checksum(frame):

@@ -15,7 +15,8 @@ def load_claims(path, backend):
     path = Path(path)
     if not path.is_file():
         return {}
-    return {c["quantity"]: (c["value"], c["machine"]) for c in json.loads(path.read_text())["claims"] if c.get("backend") == backend}
+    return {c["quantity"]: (c["value"], c["machine"]) for c in json.loads(path.read_text())["claims"]
+            if c.get("backend") == backend}
 
 
 def is_cloth(body):
@@ -24,7 +25,8 @@ def is_cloth(body):
 
 
 def bodies_of(run, frame):
-    """Bodies as `render.picture` wants them, with the frame's positions; bodies that are fixed or wholly prescribed grey."""
+    """Bodies as `render.picture` wants them, with the frame's positions; bodies that are fixed or wholly prescribed
+    grey."""
     fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
     result, cloth = [], 0
     for body in run.bodies():
@@ -39,16 +41,19 @@ def bodies_of(run, frame):
 
 
 def draw_time(axes, run, claims, profiled):
-    """Time a step of `run`; behind it, where `profiled` was profiled, its times by stage (with a synchronisation after each stage, so their sum is larger)."""
+    """Time a step of `run`; behind it, where `profiled` was profiled, its times by stage (with a synchronisation after
+    each stage, so their sum is larger)."""
     stages = profiled.stage_columns()
     if stages:
-        axes.stackplot(profiled.column("step"), list(stages.values()), labels=[f"profiled: {name.replace('_', ' ')}" for name in stages],
+        axes.stackplot(profiled.column("step"), list(stages.values()),
+                       labels=[f"profiled: {name.replace('_', ' ')}" for name in stages],
                        colors=style.COLOURS[1:], alpha=0.7)
     axes.plot(run.column("step"), run.column("wall"), label="step")
     for quantity, dash in (("step_ms_average", "--"), ("step_ms_maximum", ":")):
         if quantity in claims:
             value, machine = claims[quantity]
-            axes.axhline(value, color="black", linestyle=dash, linewidth=0.8, label=f"paper, {quantity.split('_')[-1]}: {value:g} ms ({machine})")
+            axes.axhline(value, color="black", linestyle=dash, linewidth=0.8,
+                         label=f"paper, {quantity.split('_')[-1]}: {value:g} ms ({machine})")
     axes.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
     if stages:
         axes.legend(fontsize=6.5, ncols=2)
@@ -61,15 +66,18 @@ def draw_detections(axes, run):
     steps = run.column("step")
     axes.step(steps, run.column("discrete_detections"), where="mid", label="detections")
     axes.step(steps, run.column("guess_rounds"), where="mid", linestyle="--", label="rounds of the guess loop")
-    axes.set(xlabel="step", ylabel="count a step", title="Detections (all discrete; none is continuous)", ylim=(0, None))
+    axes.set(xlabel="step", ylabel="count a step", title="Detections (all discrete; none is continuous)",
+             ylim=(0, None))
     axes.legend()
 
 
 def draw_lag(axes, run):
     """Nothing is drawn of a run that never lagged but the axis."""
     axes.plot(run.column("step"), 1e3 * run.column("largest_lag"), label="of the prescribed vertex that lags most")
-    axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8, label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
-    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion, which obeys bounds", ylim=(0, None))
+    axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8,
+                 label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
+    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion, which obeys bounds",
+             ylim=(0, None))
     axes.legend()
 
 
@@ -84,7 +92,8 @@ def draw_contacts(axes, run):
 def draw_distance(axes, run):
     radius, distance = run.setting("contact_radius"), run.column("smallest_distance")
     axes.plot(run.column("step"), 1e3 * distance, label="smallest distance (never above the exact one)")
-    axes.axhline(1e3 * radius, color="black", linestyle="--", linewidth=0.8, label=f"contact radius r = {1e3 * radius:g} mm")
+    axes.axhline(1e3 * radius, color="black", linestyle="--", linewidth=0.8,
+                 label=f"contact radius r = {1e3 * radius:g} mm")
     axes.axhline(5e2 * radius, color="black", linestyle=":", linewidth=0.8, label="τ = r/2")
     axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance of non-adjacent primitives")
     if 0 < distance.min() < radius / 100:  # on a linear axis it would look like an intersection
@@ -108,8 +117,8 @@ def draw_frames(figure, grid, run, steps, camera):
 
 
 def draw_movie(run, camera, out, most=160, frames_per_second=24, shortest=5):
-    """MP4 of a finished run's stored frames, of every second, third … where there are more than `most`; so slow that it lasts `shortest` seconds where few were
-    brought home. Throws RunError like `draw`."""
+    """MP4 of a finished run's stored frames, of every second, third … where there are more than `most`; so slow that it
+    lasts `shortest` seconds where few were brought home. Throws RunError like `draw`."""
     run.require_finished()
     chosen = run.frames[::-(-len(run.frames) // most)]
     frames = (bodies_of(run, run.frame(path)) for path in chosen)
@@ -123,14 +132,17 @@ def headline(run):
     m = run.manifest
     words = {True: f"exact audit of {m.get('audited_states')} states: no intersection", False: "exact audit: FAILED"}
     kept = words.get(m.get("guarantee_kept"), "not audited")
-    return (f"{m['scene']['name']}, {m['backend']} ({m['device']}), {len(run.column('step'))} steps: median {np.median(wall):.3g} ms, "
+    return (f"{m['scene']['name']}, {m['backend']} ({m['device']}), {len(run.column('step'))} steps: median "
+            f"{np.median(wall):.3g} ms, "
             f"worst {wall.max():.3g} ms a step; {kept}; {commits_in_words([run])}")
 
 
 def draw(run, frames, camera, claims, out, profiled=None, driven=False):
-    """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or failed its audit.
+    """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or
+    failed its audit.
 
-    `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None. `driven`: lag in place of detections.
+    `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None. `driven`: lag
+    in place of detections.
     """
     run.require_finished()
     plt = style.use()

@@ -1,4 +1,5 @@
-"""The house style of all figures: colours that survive colour-blindness and grey print, units on all axes, vector text."""
+"""The house style of all figures: colours that survive colour-blindness and grey print, units on all axes, vector
+text."""
 
 from pathlib import Path
 
@@ -18,7 +19,8 @@ def use():
         "axes.prop_cycle": matplotlib.cycler(color=COLOURS),
         "axes.grid": True, "grid.alpha": 0.25, "axes.spines.top": False, "axes.spines.right": False,
         "font.size": 9, "axes.titlesize": 9, "legend.fontsize": 8, "legend.frameon": False,
-        "figure.constrained_layout.use": True, "figure.dpi": 100, "savefig.dpi": 160, "pdf.fonttype": 42, "svg.fonttype": "none",
+        "figure.constrained_layout.use": True, "figure.dpi": 100, "savefig.dpi": 160, "pdf.fonttype": 42,
+                         "svg.fonttype": "none",
     })
     return plt
 

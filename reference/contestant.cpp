@@ -8,6 +8,7 @@
 #include "reference/energies/membrane.hpp"
 #include "reference/energies/rest_state.hpp"
 #include "reference/energies/spring.hpp"
+#include "reference/energies/tetrahedron.hpp"
 #include "reference/geometry/block.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/closest_face.hpp"
@@ -36,6 +37,7 @@ compare::Authority authority() {
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
   authority.bending = [](const compare::BendingIn& in) { return bending(in); };
   authority.spring = [](const compare::SpringIn& in) { return spring(in); };
+  authority.tetrahedron = [](const compare::TetrahedronIn& in) { return tetrahedron(in); };
   authority.contact_force = [](const compare::ContactForceIn& in) { return contact_force(in); };
   authority.friction_force = [](const compare::FrictionForceIn& in) { return friction_force(in); };
   authority.rest_state = rest_state;

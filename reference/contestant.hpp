@@ -1,13 +1,14 @@
 // The reference as the judge's authority: exact where the answer is discrete, correctly bounded where it is not.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/definitions/block_margins.hpp"
 #include "reference/definitions/contact_sets.hpp"
 #include "reference/definitions/gauss_map.hpp"
 #include "reference/definitions/nearest.hpp"
 #include "reference/definitions/pair_margins.hpp"
 #include "reference/geometry/filter_counts.hpp"
+#include "reference/geometry/plane.hpp"
 #include "reference/geometry/primitive_distances.hpp"
 #include "reference/illustrations/activation_drawing.hpp"
 #include "reference/illustrations/illustrations.hpp"

@@ -38,6 +38,7 @@ class ReferenceSimulation : public compare::Simulation {
                 std::move(step.detected.previous),
                 std::move(step.detected.bound),
                 step.query_radius};
+      state_.planes = std::move(step.detected.planes);
     }
     return rows;
   }
@@ -48,6 +49,7 @@ class ReferenceSimulation : public compare::Simulation {
     state_ = snapshot;
     state_.previous = state_.positions;
     state_.bounds.assign(state_.positions.size(), 0);
+    state_.planes = {};
   }
 
   std::vector<std::string> stage_names() const override {

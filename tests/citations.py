@@ -22,7 +22,8 @@ from pathlib import Path
 
 HISTORY = {"CHANGELOG.md"}  # says what was
 # Documents that programs write, by those who say so. An entry that nothing cites is a finding itself.
-WRITTEN = {"counts.md": "experiments/judge_counts", "table1_paper.md": "python3 -m paper_figures.table1"}
+WRITTEN = {"counts.md": "the part judge of paper_figures.workflow.runner",
+           "table1_paper.md": "python3 -m paper_figures.figures.table1"}
 SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply", ".pdf", ".npz"}
 
 COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may go on in the next line
@@ -157,7 +158,8 @@ def normal(path):
 
 def tracked(source):
     """Texts of all files that git tracks; of others their names."""
-    names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
+    names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True,
+                           check=True).stdout.split("\n")
     files = {}
     for name in filter(None, names):
         path = Path(source) / name
@@ -177,10 +179,11 @@ SOUND = {
     "README.md": "See [the method](compare/method.md), [its energies](compare/method.md#4-energies), `method.md` §4.\n",
     "compare/method.md": "# Method\n\n## 4. Energies\n\n### 4.2 Contact\n\n## 5b. Planes\n\n**In bold.** Words.\n",
     "compare/deviations.md": "| where | why |\n|---|---|\n| §5.1.3 | the body |\n",
-    "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; compare/deviations.md, §5.1.3.\n",
+    "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; "
+                          "compare/deviations.md, §5.1.3.\n",
     "fast/a.py": '# method.md, 4. And method.md, "Contact": README.md is the start.\n',
     "reference/README.md": "In `compare/method.md`, \"In bold\", and [a](../compare/method.md).\n",
-    "experiments/judge_counts": 'writes counts.md and "table1_paper.md"\n',
+    "experiments/counts": 'writes counts.md and "table1_paper.md"\n',
 }
 # File that changes, its text, where the finding is and what it says.
 PLANTED = (
@@ -226,7 +229,8 @@ def main(arguments):
         findings += house.findings
         if not house.documents:
             findings.append(f"{arguments[0]}: no documents there")
-        findings += [f"tests/citations.py: nothing cites {name}: remove it" for name in sorted(set(WRITTEN) - house.used)]
+        findings += [f"tests/citations.py: nothing cites {name}: remove it"
+                     for name in sorted(set(WRITTEN) - house.used)]
     for finding in findings:
         print(finding)
     return 1 if findings else 0

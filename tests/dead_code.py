@@ -32,7 +32,8 @@ WINDOW = "tests look through it into what is private"
 CALLED = "a library or the system calls it by this name"
 # Names that stand alone on purpose, each with the reason. An entry whose name is gone is a finding itself.
 KEPT = {
-    **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate", "penetration_depths",
+    **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate",
+                     "penetration_depths",
                      "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
     **dict.fromkeys(("bounds_above_exact", "edge_edge_by_definition", "edge_edge_over_all_pairs", "edge_edge_with_tree",
                      "reference_step", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
@@ -89,7 +90,8 @@ def self_test():
     member = {"c.hpp": "struct Used {\n  bool idle() const;\n};\n", "c.cpp": "bool Used::idle() const { return 1; }\n"}
     commented = {"c.cpp": 'int idle() { return 0; }  // idle\nauto t = "idle";\nauto n = t;\n'}
     plants = {"a declared and defined function": (declared, "idle"), "a member": (member, "idle"),
-              "an inline function": ({"c.hpp": "template <class T>\nOGC_HD T idle(const T& x) {\n  return x;\n}\n"}, "idle"),
+              "an inline function": ({"c.hpp": "template <class T>\nOGC_HD T idle(const T& x) {\n  return x;\n}\n"},
+                                     "idle"),
               "one that a comment and a text name": (commented, "idle"),
               "a type": ({"c.hpp": "struct Idle {\n  int x;\n};\n"}, "Idle"),
               "an alias": ({"c.hpp": "using Idle = int;\n"}, "Idle"),
@@ -113,7 +115,8 @@ def main(arguments):
         return 2
     findings = self_test()
     if arguments[0] != "--self-test":
-        files = tracked(arguments[0], *(f"{room}/*.{end}" for room in ROOMS for end in ("cpp", "hpp", "cu", "cuh", "in")))
+        files = tracked(arguments[0], *(f"{room}/*.{end}" for room in ROOMS
+                                        for end in ("cpp", "hpp", "cu", "cuh", "in")))
         dead, stale = dead_names(files, KEPT)
         words = "nothing but tests uses it: remove it, or say in KEPT (tests/dead_code.py) what it is for"
         findings += [f"{name}: {words}" for name in dead]

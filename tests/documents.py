@@ -1,12 +1,12 @@
-"""Every command that a document prints is understood by the program that it calls, and those that take seconds are run as
-printed.
+"""Every command that a document prints is understood by the program that it calls, and those that take seconds are run
+as printed.
 
 Usage: documents.py SOURCE_DIR OGC. Exit status 77: skipped, a package that plots need is missing.
 
-Commands are the lines of shell blocks, and code in the text that begins like one. `ogc` and our scripts parse them without
-running anything (OGC_PARSE_ONLY), Python's own parser does so for ours; blocks of Python are run. What a document says is
-tried where it says it: in a folder that looks like the repository after `tests/run`, with a run, a mesh and a scene of the
-names that documents use.
+Commands are the lines of shell blocks, and code in the text that begins like one. `ogc` and our scripts parse them
+without running anything (OGC_PARSE_ONLY), Python's own parser does so for ours; blocks of Python are run. What a
+document says is tried where it says it: in a folder that looks like the repository after `tests/run`, with a run, a
+mesh and a scene of the names that documents use.
 """
 
 import ast
@@ -43,7 +43,6 @@ NOT_RUN = {
     r"--cases \d{6,}|ogc compare( |$)(?!.*(--problem|truncate))": "minutes; the judge's own tests ask every stage",
     r"data=input": "a data set that is not part of this repository",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
-    r"paper_figures\.(device_runs|fig17|accept)": "runs of the paper's size",
     r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
@@ -208,20 +207,21 @@ PLANTED = {
     "```sh\nogc audit my.obj && ogc contacts my.obj --radius\n```": "--radius",
     "`ogc runs twist`": "subcommand",
     "`ogc compare --cases many`": "cases",
-    "```sh\npython3 -m paper_figures.verdicts --writes\n```": "--writes",
-    "```sh\npython3 -m paper_figures.check runs --all\n```": "takes no options",
+    "```sh\npython3 -m paper_figures.workflow.verdicts --writes\n```": "--writes",
+    "```sh\npython3 -m paper_figures.workflow.check runs --all\n```": "takes no options",
     "`python3 -m paper_figures.nothing --x`": "no module",
     "```sh\nexperiments/reproduce fig12 --scal smoke\n```": "--scal",
     "`experiments/reproduce fig99`": "fig99",
-    "`experiments/table1 PROGRAM OUT --windw 3`": "--windw",
+    "`python3 -m paper_figures.workflow.runner --windw 3`": "--windw",
     "`experiments/bundle --strip`": "--strip",
     "`tests/mutants.py BUILD --stagez a`": "--stagez",
     "```sh\nfrobnicate --all\n```": "nobody parses this",
 }
 SOUND = (
     "```sh\nX=1 ogc audit my.obj > out.txt   # words --nonsense\nogc run twist \\\n  --scale smoke\n```",
-    "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`", "`experiments/table1 PROGRAM OUT --window 3 twist`",
-    "`python3 -m paper_figures.verdicts --write`", "`python3 -m paper_figures.device_runs`",
+    "`ogc run`", "`ogc audit …`", "`ogc run SCENE --solver newton`",
+         "`python3 -m paper_figures.workflow.runner --window 3 twist`",
+    "`python3 -m paper_figures.workflow.verdicts --write`", "`python3 -m paper_figures.workflow.runner`",
     "## What is not there yet\n\n`ogc view my.obj`\n",
 )
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, no paths of a machine.
+"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, no
+paths of a machine.
 
 The tables below are the include rules of CONTRIBUTING.md; a room is named by its folder, the longest that fits. Usage:
 
     tests/includes.py ROOT         the self-test, then ROOT; one line for each finding, exit status 1 where there is any
-    tests/includes.py --self-test  only the self-test: violations planted in a temporary tree must be found, and nothing else
+    tests/includes.py --self-test  only the self-test: violations planted in a temporary tree must be found, and nothing
+      else
 """
 
 import re
@@ -18,21 +20,31 @@ LONGEST_FILE = 800
 
 PROBLEM = ("compare/problem/", "compare/stages/")
 FILES = PROBLEM + ("compare/files/", "compare/record/")
+CONTESTANT = ("compare/contestant.hpp",)
+CASES = FILES + CONTESTANT + ("compare/judge/cases/",)
+ENGINE = CASES + ("compare/judge/engine/",)
+REPORT = ENGINE + ("compare/judge/report/",)
 
 # Room -> beginnings of the project includes that it may have.
 PROJECT = {
     "compare/problem": PROBLEM,
     "compare/stages": PROBLEM,
+    "compare/contestant.hpp": PROBLEM,
     "compare/files": FILES,
-    "compare/record": FILES,
-    "compare/judge": FILES + ("compare/judge/",),
+    "compare/record": FILES + CONTESTANT,
+    # Each may include those before it; nobody includes a stage, which the list in cases/ points to.
+    "compare/judge/cases": CASES,
+    "compare/judge/engine": ENGINE,
+    "compare/judge/report": REPORT,
+    "compare/judge/stages": REPORT + ("compare/judge/stages/",),
     "compare/oracle": PROBLEM + ("compare/oracle/",),
     "compare/plugin.h": (),
-    "reference": PROBLEM + ("reference/",),
-    "fast": PROBLEM + ("fast/",),
+    "reference": PROBLEM + CONTESTANT + ("reference/",),
+    "fast": PROBLEM + CONTESTANT + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
     "experiments/examples": ("compare/", "fast/contact_sets.hpp"),
-    "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp", "fast/contact_sets.hpp"),
+    "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
+                                                  "fast/contestant.hpp", "fast/contact_sets.hpp"),
     "tests": ("",),
 }
 
@@ -78,21 +90,21 @@ FOREIGN = {
 }
 
 STANDARD = set(
-    """algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits clocale cmath codecvt compare
-    complex concepts condition_variable coroutine csetjmp csignal cstdarg cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque
-    exception execution filesystem format forward_list fstream functional future initializer_list iomanip ios iosfwd iostream istream iterator latch
-    limits list locale map memory memory_resource mutex new numbers numeric optional ostream queue random ranges ratio regex scoped_allocator semaphore
-    set shared_mutex source_location span sstream stack stdexcept stop_token streambuf string string_view syncstream system_error thread tuple
-    type_traits typeindex typeinfo unordered_map unordered_set utility valarray variant vector version""".split()
+    """algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes
+    climits clocale cmath codecvt compare complex concepts condition_variable coroutine csetjmp csignal cstdarg
+    cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque exception execution filesystem format
+    forward_list fstream functional future initializer_list iomanip ios iosfwd iostream istream iterator latch
+    limits list locale map memory memory_resource mutex new numbers numeric optional ostream queue random ranges
+    ratio regex scoped_allocator semaphore set shared_mutex source_location span sstream stack stdexcept stop_token
+    streambuf string string_view syncstream system_error thread tuple type_traits typeindex typeinfo unordered_map
+    unordered_set utility valarray variant vector version""".split()
 )
-
-# It stands above the two folders of ogc_problem, whose stages it lists; neither of them may include it.
-ABOVE_ITS_FOLDER = "compare/problem/contestant.hpp"
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
 # `.git` is a file in a linked worktree.
-SKIPPED = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake", ".pytest_cache"}
+SKIPPED = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake",
+           ".pytest_cache"}
 
 
 class House:
@@ -139,7 +151,8 @@ class House:
                 continue
             project, foreign = match.groups()
             if room is None:
-                self.report(file, number, "stands in no room that may include anything; add its folder to tests/includes.py")
+                self.report(file, number, "stands in no room that may include anything; add its folder to "
+                                          "tests/includes.py")
             elif project is not None:
                 self.check_project(file, number, room, project)
             else:
@@ -184,20 +197,19 @@ class House:
                     stack.append(iter(self.includes[included]))
 
     def check_folder_pairs(self):
-        """A .cpp at the top of a room and the program's main.cpp assemble their parts, which see the headers beside them:
-        that is no pair, two headers are."""
+        """A .cpp at the top of a room and the program's main.cpp assemble their parts, which see the headers beside
+        them: that is no pair, two headers are."""
         edges = {}
         for file, included in self.includes.items():
             for number, other in included:
-                if other == ABOVE_ITS_FOLDER and below(file, "compare/problem", "compare/stages"):
-                    self.report(file, number, f'"{other}" stands above the folders of ogc_problem; they may not include it')
                 assembles = "/" not in folder(file) and file.endswith(".cpp") or file.endswith("/main.cpp")
-                if file != ABOVE_ITS_FOLDER and not assembles:
+                if not assembles:
                     edges.setdefault((folder(file), folder(other)), (file, number, other))
         for (one, two), (file, number, other) in sorted(edges.items()):
             if one < two and (two, one) in edges:
                 back, back_number, _ = edges[(two, one)]
-                self.report(file, number, f'"{other}": the folders {one} and {two} include each other (the other way: {back}:{back_number})')
+                self.report(file, number, f'"{other}": the folders {one} and {two} include each other (the other way: '
+                                          f'{back}:{back_number})')
 
 
 def folder(file):
@@ -218,17 +230,18 @@ def longest_beginning(table, name):
 
 SOUND = {
     "compare/problem/mesh.hpp": "#include <vector>\n",
-    "compare/problem/contestant.hpp": '#include "compare/stages/bound.hpp"\n',
+    "compare/contestant.hpp": '#include "compare/stages/bound.hpp"\n',
     "compare/stages/bound.hpp": '#include "compare/problem/mesh.hpp"\n',
     "compare/files/scene.cpp": "#include <nlohmann/json.hpp>\n#include <fcntl.h>\n",
     "compare/oracle/audit.cpp": '#include <CGAL/AABB_tree.h>\n#include "compare/problem/mesh.hpp"\n',
-    "reference/contestant.hpp": '#include "compare/problem/contestant.hpp"\n',
-    "fast/contestant.hpp": '#include "compare/problem/contestant.hpp"\n',
+    "reference/contestant.hpp": '#include "compare/contestant.hpp"\n',
+    "fast/contestant.hpp": '#include "compare/contestant.hpp"\n',
     "fast/contact_sets.hpp": "#include <span>\n",
     "fast/cpu/cpu.hpp": '#include "fast/contestant.hpp"\n',
     "fast/contestant.cpp": '#include "fast/cpu/cpu.hpp"\n',
     "fast/cuda/backend.cu": "#include <cub/cub.cuh>\n#include <cuda_runtime.h>\n",
-    "experiments/run.cpp": '#include <CLI/CLI.hpp>\n#include "fast/contestant.hpp"\n#include "reference/contestant.hpp"\n',
+    "experiments/run.cpp": '#include <CLI/CLI.hpp>\n#include "fast/contestant.hpp"\n#include '
+                           '"reference/contestant.hpp"\n',
     "experiments/program/commands/contacts.cpp": '#include "fast/contact_sets.hpp"\n',
     "tests/fast/all.cpp": '#include <catch2/catch.hpp>\n#include "fast/contact_sets.hpp"\n',
     "README.md": "See https://example.org/work/page and ../work/notes.\n",
@@ -249,34 +262,47 @@ PLANTED = {
         "reference may not include", "reference/x.cpp:1",
     ),
     "oracle includes the judge": (
-        {"compare/judge/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/x.hpp"\n'},
+        {"compare/judge/cases/x.hpp": "", "compare/oracle/x.cpp": '#include "compare/judge/cases/x.hpp"\n'},
         "compare/oracle may not", "compare/oracle/x.cpp:1",
+    ),
+    "the engine of the judge includes a stage": (
+        {"compare/judge/stages/x.hpp": "", "compare/judge/engine/x.cpp": '#include "compare/judge/stages/x.hpp"\n'},
+        "compare/judge/engine may not", "compare/judge/engine/x.cpp:1",
     ),
     "experiments includes the inside": (
         {"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'},
         "experiments may not", "experiments/x.cpp:1",
     ),
-    "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'}, "experiments may not", "experiments/x.cpp:1"),
-    "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in", "fast/x.cpp:1"),
+    "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'},
+                                       "experiments may not", "experiments/x.cpp:1"),
+    "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in",
+                     "fast/x.cpp:1"),
     "assimp outside of its file": (
         {"compare/files/x.cpp": "#include <assimp/scene.h>\n"},
         "is allowed only in compare/files/assimp_mesh.cpp", "compare/files/x.cpp:1",
     ),
-    "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in", "compare/problem/x.cpp:1"),
-    "dlopen outside of plugins": ({"experiments/x.cpp": "#include <dlfcn.h>\n"}, "<dlfcn.h> is allowed only in experiments/plugins", "experiments/x.cpp:1"),
-    "CUDA outside of cuda": ({"fast/kernels/x.hpp": "#include <cuda_runtime.h>\n"}, "is allowed only in fast/cuda", "fast/kernels/x.hpp:1"),
-    "TBB in a kernel": ({"fast/kernels/x.hpp": "#include <tbb/parallel_for.h>\n"}, "is allowed only in", "fast/kernels/x.hpp:1"),
+    "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in",
+                        "compare/problem/x.cpp:1"),
+    "dlopen outside of plugins": ({"experiments/x.cpp": "#include <dlfcn.h>\n"},
+                                  "<dlfcn.h> is allowed only in experiments/plugins", "experiments/x.cpp:1"),
+    "CUDA outside of cuda": ({"fast/kernels/x.hpp": "#include <cuda_runtime.h>\n"}, "is allowed only in fast/cuda",
+                             "fast/kernels/x.hpp:1"),
+    "TBB in a kernel": ({"fast/kernels/x.hpp": "#include <tbb/parallel_for.h>\n"}, "is allowed only in",
+                        "fast/kernels/x.hpp:1"),
     "an unknown library": ({"fast/x.cpp": "#include <fmt/format.h>\n"}, "neither standard nor", "fast/x.cpp:1"),
     "not from the root": ({"fast/x.cpp": '#include "contestant.hpp"\n'}, "does not exist", "fast/x.cpp:1"),
     "a file in no room": ({"plots/x.cpp": "#include <vector>\n"}, "stands in no room", "plots/x.cpp:1"),
     "a cycle": (
-        {"fast/a.hpp": '#include "fast/b.hpp"\n', "fast/b.hpp": '#include "fast/c.hpp"\n', "fast/c.hpp": '#include "fast/a.hpp"\n'},
+        {"fast/a.hpp": '#include "fast/b.hpp"\n', "fast/b.hpp": '#include "fast/c.hpp"\n',
+         "fast/c.hpp": '#include "fast/a.hpp"\n'},
         "closes an include cycle: fast/a.hpp -> fast/b.hpp -> fast/c.hpp -> fast/a.hpp",
         "fast/c.hpp:1",
     ),
-    "a file that includes itself": ({"fast/a.hpp": '#include "fast/a.hpp"\n'}, "closes an include cycle", "fast/a.hpp:1"),
+    "a file that includes itself": ({"fast/a.hpp": '#include "fast/a.hpp"\n'}, "closes an include cycle",
+                                    "fast/a.hpp:1"),
     "folders that include each other": (
-        {"fast/cpu/a.hpp": "", "fast/cpu/b.hpp": '#include "fast/stages/b.hpp"\n', "fast/stages/a.hpp": '#include "fast/cpu/a.hpp"\n', "fast/stages/b.hpp": ""},
+        {"fast/cpu/a.hpp": "", "fast/cpu/b.hpp": '#include "fast/stages/b.hpp"\n',
+         "fast/stages/a.hpp": '#include "fast/cpu/a.hpp"\n', "fast/stages/b.hpp": ""},
         "the folders fast/cpu and fast/stages include each other",
         "fast/cpu/b.hpp:1",
     ),
@@ -286,12 +312,13 @@ PLANTED = {
         "fast/x.hpp:1",
     ),
     "a stage includes contestant.hpp": (
-        {"compare/stages/x.hpp": '#include "compare/problem/contestant.hpp"\n'},
-        "stands above the folders",
+        {"compare/contestant.hpp": "", "compare/stages/x.hpp": '#include "compare/contestant.hpp"\n'},
+        "compare/stages may not include",
         "compare/stages/x.hpp:1",
     ),
     "a long file": ({"fast/x.cpp": "\n" * (LONGEST_FILE + 1)}, "has 801 lines", "fast/x.cpp:801"),
-    "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine", "README.md:2"),
+    "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine",
+                            "README.md:2"),
     "a path in a script": ({".ci/run": "cd '/" + "root/ogc'\n"}, "absolute path of a machine", ".ci/run:1"),
 }
 

@@ -50,12 +50,14 @@ SETS = {
                      "tests/fast/cpu/*.cpp", "tests/fast/*.cpp")),
 }
 FOR_AVX2 = "fast/cpu/packed_sweep.cpp"  # compiled a second time
-STAGES = ("closest_face closest_points activation truncate membrane bending spring bound block detect_vertex_facet detect_edge_edge contact_force "
+STAGES = ("closest_face closest_points activation truncate membrane bending spring tetrahedron bound block "
+          "detect_vertex_facet detect_edge_edge contact_force "
           "friction_force initial_guess rest_state sweep step").split()
 AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/unit_tests.cpp"]
 
 BINARY = {  # operator -> (struct, what its alternatives are)
-    "<": ("Less", ("<=", ">=")), ">": ("Greater", (">=", "<=")), "<=": ("LessEqual", ("<", ">")), ">=": ("GreaterEqual", (">", "<")),
+    "<": ("Less", ("<=", ">=")), ">": ("Greater", (">=", "<=")), "<=": ("LessEqual", ("<", ">")),
+            ">=": ("GreaterEqual", (">", "<")),
     "==": ("Equal", ("!=",)), "!=": ("Unequal", ("==",)),
     "+": ("Plus", ("-", "left term alone")), "-": ("Minus", ("+", "left term alone")),
     "*": ("Times", ("/", "left factor alone")), "/": ("Over", ("*", "left factor alone")),
@@ -106,7 +108,8 @@ class Rewriter:
 
     def line(self, file, number, line):
         code = code_of(line)
-        if not code.strip() or code.lstrip().startswith(("#", "static_assert", "template", "using", "}")) or "constexpr" in code:
+        if not code.strip() or code.lstrip().startswith(("#", "static_assert", "template", "using",
+                                                         "}")) or "constexpr" in code:
             return line
         edits = []  # (begin, end, text)
 
@@ -131,7 +134,8 @@ class Rewriter:
             for match in COORDINATE.finditer(code):
                 other = NEXT[match[2]]
                 id = self.take(file, number, "coordinate", match[0], (f"{match[1]}.{other}",))
-                edits.append((match.start(), match.end(), f"(::ogc_mutant::on({id}) ? {match[1]}.{other} : {match[0]})"))
+                edits.append((match.start(), match.end(),
+                              f"(::ogc_mutant::on({id}) ? {match[1]}.{other} : {match[0]})"))
 
         def indices():
             for match in INDEX.finditer(code):
@@ -160,7 +164,8 @@ class Rewriter:
                 edits.append((match.end(), match.end(), f"::ogc_mutant::negated({id}, "))
                 edits.append((end, end, ")"))
 
-        for kind, collect in (("operator", operators), ("sign", signs), ("coordinate", coordinates), ("index", indices), ("number", literals),
+        for kind, collect in (("operator", operators), ("sign", signs), ("coordinate", coordinates), ("index", indices),
+                              ("number", literals),
                               ("choice", choices), ("condition", conditions)):
             edits_before, mutants_before = len(edits), len(self.mutants)
             collect()
@@ -196,8 +201,8 @@ KIND_ORDER = ("number", "coordinate", "condition", "choice", "sign", "index", "o
 
 
 def compile_all(sources, folder, flags, jobs):
-    """Compiles (source, flags), a rewritten source in place of the original, `jobs` at a time; returns what the compiler
-    said of each, empty where it succeeded, and the objects."""
+    """Compiles (source, flags), a rewritten source in place of the original, `jobs` at a time; returns what the
+    compiler said of each, empty where it succeeded, and the objects."""
     objects = [folder / (source.replace("/", "_") + "".join(own) + ".o") for source, own in sources]
 
     def one(source, target):
@@ -375,7 +380,8 @@ SELF_TEST = [  # a line, and what becomes of it (with M for ::ogc_mutant); numbe
     ("  x = p.x + 2.0F * q[1];",
      "  x = (M::on(5) ? p.y : p.x) + M::Plus{1} + M::literal(7, 2.0F) * M::Times{3} * q[M::index(6, 1)];"),
     ("  const auto* to = smaller(a, b);  // a < b", "  const auto* to = M::smaller(1, a, b);  "),
-    ("  for (int k = 0; k != n; ++k) sum << k;", "  for (int k = M::literal(2, 0); k != M::Unequal{1} != n; ++k) sum << k;"),
+    ("  for (int k = 0; k != n; ++k) sum << k;",
+     "  for (int k = M::literal(2, 0); k != M::Unequal{1} != n; ++k) sum << k;"),
     ("  a.resize(n * 4), b = &a;", "  a.resize(n * M::Times{1} * M::literal(3, 4)), b = &a;"),
     ("template <class T, int a = 1 + 2>", "template <class T, int a = 1 + 2>"),
     ("  constexpr int most = 1 + 2;", "  constexpr int most = 1 + 2;"),
@@ -460,7 +466,8 @@ def parsed():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=Path, nargs="?")
     parser.add_argument("--self-test", action="store_true", help="only see whether all this works")
-    parser.add_argument("--of", choices=sorted(SETS), default="kernels", help="fast/kernels, or fast/stages and fast/cpu")
+    parser.add_argument("--of", choices=sorted(SETS), default="kernels",
+                        help="fast/kernels, or fast/stages and fast/cpu")
     parser.add_argument("--files", help="only these, such as fast/cpu/pack.hpp, separated by commas")
     parser.add_argument("--stages", default=",".join(STAGES))
     parser.add_argument("--cases", type=int, default=2000, help="of a stage; of a mesh stage a quarter")
@@ -468,7 +475,8 @@ def parsed():
     parser.add_argument("--jobs", type=int, default=1, help="compilations, then mutants, at a time")
     parser.add_argument("--limit", type=int, default=1 << 30, help="only so many that are reached, drawn at random")
     parser.add_argument("--minutes", type=float, default=25, help="after which no further mutant is begun")
-    parser.add_argument("--only", default="", help="only these ids, separated by commas: to see whether more cases find them")
+    parser.add_argument("--only", default="",
+                        help="only these ids, separated by commas: to see whether more cases find them")
     parser.add_argument("--since", metavar="COMMIT", help="only in lines that this commit did not have")
     parser.add_argument("--flags", default="", help="for the compiler, such as -fsanitize=address,undefined")
     parser.add_argument("--keep", metavar="DIR", type=Path, help="leave the program here and judge nothing")

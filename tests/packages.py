@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be included,
-imported or called somewhere.
+"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be
+included, imported or called somewhere.
 
     tests/packages.py SOURCE_DIR     the self-test, then one line for each package that is not; exit status 1 for any
 
-What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones, other
-systems).
+What a Debian package brings is asked of dpkg, so a package that is not installed here is not judged (optional ones,
+other systems).
 """
 
 import re
@@ -25,7 +25,7 @@ STATED = {
     **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"),
                     ("PyVista draws without a screen", r"import pyvista")),
 }
-IMPORTED_AS = {"PyYAML": "yaml", "vtk": "vtkmodules"}
+IMPORTED_AS = {"PyYAML": "yaml", "pillow": "PIL", "vtk": "vtkmodules"}
 INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
 IMPORT = re.compile(r"^\s*(?:import|from)\s+(\w+)|-m (\w+)", re.M)
 EXECUTOR = re.compile(r"^executor: (\w+)", re.M)
@@ -46,8 +46,8 @@ def said(*command):
 
 
 def files_of(package, deep=True):
-    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies stands
-    for; none where it is not installed."""
+    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies
+    stands for; none where it is not installed."""
     listed = said("dpkg", "-L", package).splitlines()
     places = ("/usr/include/", "/usr/bin/", "/usr/lib/python3/dist-packages/")
     found = [path for path in listed if path.startswith(places)]
@@ -122,7 +122,7 @@ def main(arguments):
         return 2
     root = Path(arguments[0])
     names = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True, check=True).stdout.split()
-    kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle|measure|table1))$")
+    kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle))$")
     texts = filter(kinds.search, names)
     ours = {"experiments/dependencies.sh", "plots/requirements.txt", "tests/packages.py"}
     there = (name for name in texts if name not in ours and (root / name).is_file())

@@ -19,6 +19,7 @@ from pathlib import Path
 
 # Enumeration, its header, and what must handle each of its values.
 DISPATCHES = (
+    ("Stage", "compare/judge/cases/stage.hpp", ("compare/judge/cases/stage.cpp",)),
     ("MembraneModel", "compare/problem/scene.hpp",
      ("reference/energies/membrane.cpp", "reference/solvers/vertex_system.cpp", "reference/solvers/potential.cpp")),
     ("BendingModel", "compare/problem/scene.hpp",

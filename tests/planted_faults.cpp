@@ -1,12 +1,12 @@
 // All planted faults in one program, chosen at run time by number: `planted_faults` judges them all and prints how many
-// cases each needed, as the table of compare/README.md; `planted_faults NUMBER` judges one and prints what the judge
-// says of it. Exit status 1 where the judge finds nothing in 10⁵ cases.
+// cases each needed, as a table; `planted_faults NUMBER` judges one and prints what the judge says of it. Exit status 1
+// where the judge finds nothing in 10⁵ cases.
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "compare/judge/judge.hpp"
-#include "compare/judge/report.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/report.hpp"
 #include "reference/contestant.hpp"
 #include "tests/compare/judge/faults.hpp"
 

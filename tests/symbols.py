@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Checks that objects compiled for a larger machine share no function with the rest of the program: of a function that several objects define the linker
-keeps one, and it must not be one that a smaller machine cannot run.
+"""Checks that objects compiled for a larger machine share no function with the rest of the program: of a function that
+several objects define the linker keeps one, and it must not be one that a smaller machine cannot run.
 
-    tests/symbols.py NM NAMESPACE OBJECT...     one line for each symbol that the linker may merge and that does not name NAMESPACE; exit status 1 where there is any
+    tests/symbols.py NM NAMESPACE OBJECT...     one line for each symbol that the linker may merge and that does not
+      name NAMESPACE; exit status 1 where there is any
 """
 
 import subprocess
@@ -23,7 +24,8 @@ def main(nm, namespace, *objects):
         sys.exit("symbols: does not find what is planted")
     found = []
     for path in objects:
-        lines = subprocess.run([nm, "-C", "--defined-only", path], check=True, capture_output=True, text=True).stdout.splitlines()
+        lines = subprocess.run([nm, "-C", "--defined-only", path], check=True, capture_output=True,
+                               text=True).stdout.splitlines()
         if not any(namespace in line for line in lines):
             sys.exit(f"symbols: nothing of {namespace} in {path}")
         found += [f"{path}: {name}" for name in strangers(lines, namespace)]

@@ -27,8 +27,8 @@ class Hdf5Handle {
   ~Hdf5Handle() { release(); }
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
-  std::int64_t id() const { return id_; }
-  bool valid() const { return id_ >= 0; }
+  std::int64_t id() const { return id_; }  ///< HDF5's own
+  bool valid() const { return id_ >= 0; }  ///< whether it holds one
   /// Releases it now; false where HDF5 reports an error.
   bool release();
 
@@ -49,7 +49,7 @@ class Hdf5File {
   static Hdf5File create_in_memory(const std::filesystem::path& name);
   static Hdf5File open(const std::filesystem::path& path);
 
-  void create_group(const std::string& name);
+  void create_group(const std::string& name);  ///< a path of names; groups above it must be there
   /// Makes a dataset of `rows` rows with `columns` values (0: one-dimensional), to be written `part` ≥ 1 rows at a
   /// time; a long one is shuffled and deflated in chunks that fit the parts, so that no chunk is compressed again and
   /// again.
@@ -83,7 +83,7 @@ class Hdf5File {
 
   template <class T>
   std::vector<T> read(const std::string& name) const;
-  std::string read_text(const std::string& name) const;
+  std::string read_text(const std::string& name) const;  ///< a dataset of text of fixed length
   /// Whether the root holds an object of this name.
   bool has(const std::string& name) const;
   std::vector<std::size_t> shape(const std::string& name) const;

@@ -41,10 +41,10 @@ class JsonNode {
   bool expect_object() const;
   bool expect_array() const;
 
-  std::size_t size() const { return value_->size(); }
-  JsonNode child(std::size_t i) const;
-  JsonNode child(const std::string& key) const;
-  const Json& value() const { return *value_; }
+  std::size_t size() const { return value_->size(); }  ///< number of children
+  JsonNode child(std::size_t i) const;                 ///< of an array
+  JsonNode child(const std::string& key) const;        ///< of an object
+  const Json& value() const { return *value_; }        ///< the JSON itself
 
  private:
   void wrong_type(const std::string& wanted) const;
@@ -70,8 +70,8 @@ class JsonObject {
   void required_value(const std::string& key, Target& target) {
     required(key, [&](const JsonNode& node) { node.read(target); });
   }
-  bool has(const std::string& key) const;
-  void finish() const;
+  bool has(const std::string& key) const;  ///< whether the object has the key
+  void finish() const;                     ///< a key that nobody asked for is a problem
 
  private:
   JsonNode node_;

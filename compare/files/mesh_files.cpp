@@ -11,6 +11,7 @@
 
 #include "compare/files/assimp_mesh.hpp"
 #include "compare/files/bytes.hpp"
+#include "compare/files/msh.hpp"
 #include "compare/files/obj.hpp"
 #include "compare/files/ply.hpp"
 #include "compare/files/vtp_parse.hpp"
@@ -19,9 +20,9 @@
 namespace ogc::compare {
 namespace {
 
-enum class MeshFormat { obj, ply, vtp, stl, off, gltf, glb };
-constexpr std::array<std::string_view, 7> extensions{".obj", ".ply",  ".vtp", ".stl",
-                                                     ".off", ".gltf", ".glb"};  // by MeshFormat
+enum class MeshFormat { obj, ply, vtp, msh, stl, off, gltf, glb };
+constexpr std::array<std::string_view, 8> extensions{".obj", ".ply", ".vtp",  ".msh",
+                                                     ".stl", ".off", ".gltf", ".glb"};  // by MeshFormat
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -66,12 +67,13 @@ bool is_mesh_file(const std::filesystem::path& path) { return format_of(path).ha
 
 PolygonMesh read_polygon_mesh(const std::filesystem::path& path) {
   const std::optional<MeshFormat> format = format_of(path);
-  if (!format) fail(path, "; use .obj, .ply, .vtp, .stl, .off, .gltf or .glb");
+  if (!format) fail(path, "; use .obj, .ply, .vtp, .stl, .off, .gltf or .glb, of tetrahedra .msh");
   const std::string bytes = read_bytes(path), name = path.string();
   switch (*format) {
     case MeshFormat::obj: return parse_obj(bytes, name);
     case MeshFormat::ply: return parse_ply(bytes, name);
     case MeshFormat::vtp: return parse_vtp(bytes, name);
+    case MeshFormat::msh: return parse_msh(bytes, name);
     case MeshFormat::stl:
     case MeshFormat::gltf:
     case MeshFormat::glb: return read_with_assimp(path, false);
@@ -90,7 +92,8 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, PlyEncoding
   const std::optional<MeshFormat> format = format_of(path);
   if (format == MeshFormat::obj) return write_bytes(path, print_obj(mesh));
   if (format == MeshFormat::ply) return write_bytes(path, print_ply(mesh, encoding));
-  fail(path, " that is written; use .obj or .ply");
+  if (format == MeshFormat::msh) return write_bytes(path, print_msh(mesh));
+  fail(path, " that is written; use .obj or .ply, of tetrahedra .msh");
 }
 
 }  // namespace ogc::compare

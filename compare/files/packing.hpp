@@ -24,15 +24,15 @@ std::size_t even_chunk_rows(std::size_t rows);
 /// A part of an array as a file holds it.
 struct PackedChunk {
   bool packed = false;  ///< shuffled and deflated; else the values as they are
-  std::string bytes;
+  std::string bytes;    ///< as they stand in the file
 };
 
 /// An array as an HDF5 dataset stores it.
 struct PackedArray {
   std::size_t rows = 0, columns = 0;  ///< columns 0: one-dimensional
   std::size_t chunk_rows = 0;         ///< of each chunk; what the last one has too many is filled up with zeros
-  std::vector<PackedChunk> chunks;
-  std::size_t byte_count() const;  ///< of all chunks
+  std::vector<PackedChunk> chunks;    ///< one after another
+  std::size_t byte_count() const;     ///< of all chunks
 };
 
 /// Packs rows of `columns` values (0: single values). Each chunk is shuffled (first bytes of all values,

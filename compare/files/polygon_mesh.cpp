@@ -8,6 +8,7 @@
 
 #include "compare/files/triangulate.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -32,14 +33,17 @@ class MeshMaker {
   MeshMaker(PolygonMesh polygons, const MeshOptions& options) : in_(std::move(polygons)), options_(options) {}
 
   LoadedMesh make() {
+    out_.notes = std::move(in_.notes);
     if (options_.weld || !in_.source.shares_vertices) weld();
     cut();
     out_.mesh.positions = std::move(in_.positions);
     out_.mesh.loose_edges = std::move(in_.loose_edges);
-    if (out_.mesh.triangles.empty() && out_.mesh.loose_edges.empty())
+    out_.mesh.tetrahedra = std::move(in_.tetrahedra);
+    if (out_.mesh.triangles.empty() && out_.mesh.loose_edges.empty() && out_.mesh.tetrahedra.empty())
       throw InputError(in_.source.file + ": has " + counted(out_.mesh.positions.size(), "vertex position") +
                        " and no face; give a mesh, not a cloud of points");
     if (!options_.keep_unused) leave_out_unused();
+    if (!out_.mesh.tetrahedra.empty()) out_.mesh.triangles = boundary_triangles(out_.mesh.tetrahedra);
     out_.source = std::move(in_.source);
     return std::move(out_);
   }
@@ -72,6 +76,8 @@ class MeshMaker {
     for (std::size_t k = 0; k < kept.size(); ++k) in_.positions[k] = in_.positions[at(kept[k])];
     in_.positions.resize(kept.size());
     for (Index& c : in_.corners) c = renamed[at(c)];
+    for (Tetrahedron& t : in_.tetrahedra)
+      for (Index& c : t) c = renamed[at(c)];
     for (Edge& e : in_.loose_edges)
       e = {std::min(renamed[at(e[0])], renamed[at(e[1])]), std::max(renamed[at(e[0])], renamed[at(e[1])])};
     note(counted(merged, "corner") + " with exactly the coordinates of another " + (merged == 1 ? "was" : "were") +
@@ -128,6 +134,7 @@ class MeshMaker {
     };
     std::ranges::for_each(out_.mesh.triangles, use);
     std::ranges::for_each(out_.mesh.loose_edges, use);
+    std::ranges::for_each(out_.mesh.tetrahedra, use);
     const auto first = static_cast<Index>(std::ranges::find(renamed, -1) - renamed.begin());
     const auto unused = static_cast<std::size_t>(std::ranges::count(renamed, -1));
     if (unused == 0) return;
@@ -154,6 +161,7 @@ class MeshMaker {
     };
     std::ranges::for_each(out_.mesh.triangles, rename);
     std::ranges::for_each(out_.mesh.loose_edges, rename);
+    std::ranges::for_each(out_.mesh.tetrahedra, rename);
     out_.mesh.positions = std::move(positions);
     in_.source.vertices = std::move(numbers);
     in_.source.first_faces = std::move(faces);

@@ -17,15 +17,17 @@ struct PolygonMesh {
   std::vector<Vec3> positions;     ///< [m]
   std::vector<Index> corners;      ///< of all faces, one after the other, each in its own order
   std::vector<Index> face_ends{};  ///< by face: end of its corners
-  std::vector<Edge> loose_edges;
+  std::vector<Edge> loose_edges;   ///< edges of no face
+  std::vector<Tetrahedron> tetrahedra{};
   MeshSource source;  ///< file, first number, lines; the numbers of vertices and faces are still the file's
+  std::vector<std::string> notes{};  ///< what the file has and the mesh has not
 
-  std::size_t face_count() const { return face_ends.size(); }
+  std::size_t face_count() const { return face_ends.size(); }  ///< number of polygons
   std::span<const Index> face(std::size_t f) const {
     const auto begin = static_cast<std::size_t>(f == 0 ? 0 : face_ends[f - 1]);
     return std::span(corners).subspan(begin, static_cast<std::size_t>(face_ends[f]) - begin);
   }
-  void add_face(std::span<const Index> face);
+  void add_face(std::span<const Index> face);  ///< one more polygon
 };
 
 /// What may be changed. What may not be is refused, and the message names the option of `ogc` that allows it.
@@ -40,11 +42,11 @@ struct MeshOptions {
 };
 
 /// A mesh, where its elements stand in the file, and a sentence for each thing that was taken otherwise than it stands
-/// there.
+/// there. Of tetrahedra the triangles are the boundary.
 struct LoadedMesh {
-  Mesh mesh;
-  MeshSource source;
-  std::vector<std::string> notes;
+  Mesh mesh;                       ///< of triangles
+  MeshSource source;               ///< where its elements come from
+  std::vector<std::string> notes;  ///< what was changed on the way, for the user
 };
 
 /// Throws InputError that names the first face or vertex that the options do not take, and faces that can't be cut.

@@ -11,7 +11,14 @@
 
 namespace ogc::compare {
 
-inline constexpr int scene_format_version = 1;
+/// A newer file is refused by name. From format 2 on bodies may have tetrahedra, and materials `solid_…`. A body's
+/// `contact` (surface) and `orientations` and the scene's `body_pairs` (empty) are reserved: a reader refuses what it
+/// does not simulate by name.
+inline constexpr int scene_format_version = 2;
+
+/// Young's modulus [Pa] and Poisson's ratio [1] that stand in place of Lamé constants: within these both constants are
+/// within their ranges (compare/problem/material_table.cpp).
+inline constexpr double least_young = 0x1p-28, most_young = 0x1p30, most_poisson = 0.4999;
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that
 /// lists every problem found.
@@ -19,7 +26,7 @@ Scene read_scene(const std::filesystem::path& file);
 
 /// What a scene file says beyond the scene.
 struct SceneFile {
-  Scene scene;
+  Scene scene;                     ///< as it was read, valid or not
   MeshSources sources;             ///< where the bodies' elements stand in their files
   std::vector<std::string> notes;  ///< a sentence about whatever was taken otherwise than it stands
 };
@@ -27,8 +34,8 @@ struct SceneFile {
 /// The same, with all of that.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
-/// Writes `folder`/NAME.json and one PLY a body (positions and, where they differ, rest positions). Returns the path of
-/// the JSON file.
+/// Writes `folder`/NAME.json and one PLY, of a solid one MSH, a body (positions and, where they differ, rest
+/// positions). Returns the path of the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
 
 /// The JSON Schema of scene files.

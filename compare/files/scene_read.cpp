@@ -2,6 +2,7 @@
 // the way is collected.
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -57,8 +58,37 @@ void read_model(const JsonNode& node, std::span<const std::string_view> names, M
   model = static_cast<Model>(found - names.begin());
 }
 
+/// A number within [least, most]; NaN with a problem noted elsewhere.
+double read_between(const JsonNode& node, double least, double most, const char* what) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  node.read(value);
+  if (node.value().is_number() && !(value >= least && value <= most))
+    node.fail("is " + shortest(value),
+              "give a number from " + shortest(least) + " to " + shortest(most) + " (" + what + ")");
+  return value;
+}
+
+/// E and ν in place of both Lamé constants: μ = E/(2(1 + ν)), λ = Eν/((1 + ν)(1 − 2ν)).
+void read_elasticity(JsonObject& object, Material& material) {
+  std::optional<double> modulus, ratio;
+  object.optional("solid_young", [&](const JsonNode& node) {
+    for (const char* lame : {"solid_mu", "solid_lambda"})
+      if (object.has(lame)) node.fail(std::string("stands beside '") + lame + "'", "give Lamé constants, or E and ν");
+    if (!object.has("solid_poisson")) node.fail("stands without 'solid_poisson'", "give both, or Lamé constants");
+    modulus = read_between(node, least_young, most_young, "Young's modulus of tetrahedra [Pa]");
+  });
+  object.optional("solid_poisson", [&](const JsonNode& node) {
+    if (!object.has("solid_young")) node.fail("stands without 'solid_young'", "give both, or Lamé constants");
+    ratio = read_between(node, 0, most_poisson, "Poisson's ratio of tetrahedra");
+  });
+  if (!modulus || !ratio) return;
+  material.solid_mu = *modulus / (2 * (1 + *ratio));
+  material.solid_lambda = *modulus * *ratio / ((1 + *ratio) * (1 - 2 * *ratio));
+}
+
 void read_material(const JsonNode& node, Material& material) {
   JsonObject object(node);
+  read_elasticity(object, material);
   for (const MaterialInfo& info : material_table()) {
     object.optional(std::string(info.name), [&](const JsonNode& value) {
       double& number = material.*info.field;
@@ -71,6 +101,18 @@ void read_material(const JsonNode& node, Material& material) {
   object.optional("bending",
                   [&](const JsonNode& value) { read_model(value, bending_model_names(), material.bending); });
   object.finish();
+}
+
+/// Keys that format 2 reserves for what is not simulated yet.
+void refuse_reserved(const JsonNode& node, const std::string& what) {
+  node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
+}
+
+void read_contact_kind(const JsonNode& node) {
+  std::string kind = "surface";
+  node.read(kind);
+  if (kind == "volume") return refuse_reserved(node, "contact of volumes");
+  if (kind != "surface") node.fail("is '" + shown(kind) + "'", "give surface");
 }
 
 /// The file's own name with '_' for what names may not have.
@@ -106,6 +148,9 @@ class SceneReader {
                     [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
     object.optional("excluded_pairs",
                     [&](const JsonNode& node) { each(node, [&](const JsonNode& pairs) { read_excluded(pairs); }); });
+    object.optional("body_pairs", [&](const JsonNode& node) {
+      each(node, [](const JsonNode& pair) { refuse_reserved(pair, "materials of pairs of bodies"); });
+    });
     object.finish();
     stop_at_problems();
     round_to_single(scene_);
@@ -196,8 +241,9 @@ class SceneReader {
     if (!other) return {};
     const PolygonMesh& own = mesh.polygons;
     if (other->positions.size() != own.positions.size() || other->corners != own.corners ||
-        other->face_ends != own.face_ends || other->loose_edges != own.loose_edges) {
-      node.fail("has other vertices, faces or edges than the body's mesh", "write both from one mesh");
+        other->face_ends != own.face_ends || other->loose_edges != own.loose_edges ||
+        other->tetrahedra != own.tetrahedra) {
+      node.fail("has other vertices, faces, edges or tetrahedra than the body's mesh", "write both from one mesh");
       return {};
     }
     const std::vector<Index>& numbers = mesh.loaded.source.vertices;
@@ -214,6 +260,8 @@ class SceneReader {
     std::vector<Vec3> rest, velocities;
     object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
+    object.optional("contact", read_contact_kind);
+    object.optional("orientations", [](const JsonNode& value) { refuse_reserved(value, "orientations of rods"); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
     object.required("mesh", [&](const JsonNode& value) {
       if (!object.has("name") && value.value().is_string()) body.name = name_of_file(value.value().get<std::string>());

@@ -28,6 +28,9 @@ Json object(const Json& properties, const std::vector<std::string>& required) {
   return json;
 }
 
+/// Of a key that nothing may stand at yet.
+Json reserved(const std::string& what) { return {{"not", Json::object()}, {"description", "reserved " + what}}; }
+
 std::string with_unit(std::string_view meaning, std::string_view unit) {
   return std::string(meaning) + " [" + std::string(unit) + "]";
 }
@@ -68,6 +71,14 @@ Json material_schema() {
     row["maximum"] = info.maximum;
     row["default"] = defaults.*info.field;
   }
+  const auto between = [&](const char* name, const char* description, double minimum, double maximum) {
+    Json& row = properties[name] = value("number", description);
+    row["minimum"] = minimum;
+    row["maximum"] = maximum;
+  };
+  between("solid_young", "tetrahedra: Young's modulus; with solid_poisson in place of Lamé constants [Pa]", least_young,
+          most_young);
+  between("solid_poisson", "tetrahedra: Poisson's ratio [1]", 0, most_poisson);
   properties["membrane"] = model_schema(membrane_model_names(), name_of(defaults.membrane));
   properties["bending"] = model_schema(bending_model_names(), name_of(defaults.bending));
   return object(properties, {});
@@ -77,12 +88,16 @@ Json body_schema() {
   const Json properties = {
       {"name", value("string", "letters, digits, _ and -; default: that of the mesh's file")},
       {"fixed", value("boolean", "never moves; default false")},
-      {"mesh", value("string", ".ply or .obj file, relative to this file; start positions [m]")},
-      {"rest_mesh", value("string", "the same faces at their rest positions [m]; default: the mesh")},
+      {"mesh", value("string",
+                     ".ply or .obj file, of tetrahedra .msh, relative to this file; start positions [m]. The surface "
+                     "of tetrahedra is their boundary")},
+      {"rest_mesh", value("string", "the same faces or tetrahedra at their rest positions [m]; default: the mesh")},
       {"velocity", vector("of all vertices at the start [m/s]; default 0")},
       {"velocities",
        value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
+      {"contact", {{"enum", {"surface"}}, {"default", "surface"}}},
+      {"orientations", reserved("for orientations of rods")},
   };
   return object(properties, {"mesh"});
 }
@@ -151,7 +166,7 @@ Json excluded_schema() {
 
 std::string scene_schema() {
   const Json properties = {
-      {"format_version", {{"const", scene_format_version}}},
+      {"format_version", {{"type", "integer"}, {"minimum", 1}, {"maximum", scene_format_version}}},
       {"name", value("string", "letters, digits, _ and -; default: that of this file")},
       {"gravity", vector("[m/s²]; default [0, -9.81, 0]")},
       {"settings", settings_schema()},
@@ -162,6 +177,8 @@ std::string scene_schema() {
       {"excluded_pairs", array(excluded_schema(),
                                "two faces are no contact, and not audited, where a vertex of one and a vertex of the "
                                "other are such a pair")},
+      {"body_pairs",
+       {{"type", "array"}, {"maxItems", 0}, {"description", "reserved for materials of pairs of bodies"}}},
   };
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
   schema.update(object(properties, {"format_version", "bodies"}));

@@ -59,27 +59,32 @@ Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& va
   for (const auto& [a, b] : scene.mesh.loose_edges) {
     if (a >= first && a < end) mesh.loose_edges.push_back({a - first, b - first});
   }
+  for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
+    const auto& [a, b, c, d] = scene.mesh.tetrahedra[static_cast<std::size_t>(t)];
+    mesh.tetrahedra.push_back({a - first, b - first, c - first, d - first});
+  }
   return mesh;
 }
 
 Json body_json(const std::filesystem::path& folder, const Scene& scene, const Body& body) {
   const std::string stem = scene.name + "_" + body.name;
+  const std::string extension = body.is_solid() ? ".msh" : ".ply";
   const auto write = [&](const std::string& name, const std::vector<Vec3>& values) {
     write_mesh(folder / name, body_mesh(scene, body, values));
     return name;
   };
-  Json json = {{"name", body.name}, {"fixed", body.fixed}, {"mesh", write(stem + ".ply", scene.mesh.positions)}};
+  Json json = {{"name", body.name}, {"fixed", body.fixed}, {"mesh", write(stem + extension, scene.mesh.positions)}};
   const auto start = scene.mesh.positions.begin() + body.first_vertex,
              rest = scene.rest_positions.begin() + body.first_vertex;
   if (!std::equal(start, start + body.vertex_count, rest, same_bits))
-    json["rest_mesh"] = write(stem + "_rest.ply", scene.rest_positions);
+    json["rest_mesh"] = write(stem + "_rest" + extension, scene.rest_positions);
   const auto velocity = scene.velocities.begin() + body.first_vertex;
   const bool uniform = std::all_of(velocity, velocity + body.vertex_count,
                                    [&](const Vec3& v) { return same_bits(v, *velocity); });
   if (uniform) {
     json["velocity"] = rounded_json(*velocity);
   } else {
-    json["velocities"] = write(stem + "_velocities.ply", scene.velocities);
+    json["velocities"] = write(stem + "_velocities" + extension, scene.velocities);
   }
   json["material"] = material_json(body.material);
   return json;

@@ -13,22 +13,22 @@ using XmlAttributes = std::map<std::string, std::string>;
 
 /// One <DataArray> of a <Piece>.
 struct VtkArray {
-  std::string section;  ///< the element around it: "Points", "Polys", …
-  XmlAttributes attributes;
-  std::string text;      ///< what stands between its tags, where it is not appended
-  std::size_t line = 0;  ///< of its tag
+  std::string section;       ///< the element around it: "Points", "Polys", …
+  XmlAttributes attributes;  ///< of its element
+  std::string text;          ///< what stands between its tags, where it is not appended
+  std::size_t line = 0;      ///< of its tag
 };
 
 struct VtkPiece {
-  XmlAttributes attributes;
-  std::vector<VtkArray> arrays;
+  XmlAttributes attributes;      ///< of its element
+  std::vector<VtkArray> arrays;  ///< in the file's order
 };
 
 struct VtkDocument {
-  XmlAttributes file;  ///< of <VTKFile>
-  std::vector<VtkPiece> pieces;
-  std::string encoding;       ///< of <AppendedData>: "raw", "base64", or empty where there is none
-  std::string_view appended;  ///< what follows the underscore, up to the end of the file: a view into the bytes
+  XmlAttributes file;            ///< of <VTKFile>
+  std::vector<VtkPiece> pieces;  ///< in the file's order
+  std::string encoding;          ///< of <AppendedData>: "raw", "base64", or empty where there is none
+  std::string_view appended;     ///< what follows the underscore, up to the end of the file: a view into the bytes
 };
 
 /// Parses the XML of `bytes`; `name` stands in the errors. Raw appended data ends the XML. Throws InputError with the

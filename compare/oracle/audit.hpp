@@ -11,13 +11,13 @@
 
 namespace ogc::compare {
 
-enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle };
+enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle };  ///< what meets
 
 /// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, or vertex `first` lies on triangle
 /// `second` that does not contain it.
 struct Intersection {
-  IntersectionKind kind = IntersectionKind::edge_triangle;
-  Index first = -1, second = -1;
+  IntersectionKind kind = IntersectionKind::edge_triangle;  ///< which faces meet
+  Index first = -1, second = -1;                            ///< edge or vertex, triangle
   friend auto operator<=>(const Intersection&, const Intersection&) = default;
 };
 
@@ -27,8 +27,8 @@ struct AuditOptions {
 
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
-  std::size_t count = 0;
-  std::size_t pairs_tested = 0;  ///< edge–triangle pairs whose boxes meet, without those left out
+  std::size_t count = 0;                    ///< of all intersections
+  std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet, without those left out
 };
 
 /// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are

@@ -18,7 +18,7 @@ struct Box {
   std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};
   void add(const Vec3& point);
   void add(const Box& box);
-  bool meets(const Box& other) const;
+  bool meets(const Box& other) const;  ///< closed boxes
 };
 
 /// Box of the given points.

@@ -11,10 +11,10 @@ namespace ogc::compare {
 /// Smallest distances over pairs that share no vertex and do not lie inside one rigid group, without isolated vertices
 /// [m]; infinite, with -1, where there is no pair.
 struct SmallestDistances {
-  double vertex_triangle = std::numeric_limits<double>::infinity();
-  Index vertex = -1, triangle = -1;
-  double edge_edge = std::numeric_limits<double>::infinity();
-  Index edge = -1, other_edge = -1;  ///< edge < other_edge
+  double vertex_triangle = std::numeric_limits<double>::infinity();  ///< [m]
+  Index vertex = -1, triangle = -1;                                  ///< the pair; −1 where there is none
+  double edge_edge = std::numeric_limits<double>::infinity();        ///< [m]
+  Index edge = -1, other_edge = -1;                                  ///< edge < other_edge
 };
 
 /// Which pairs are nearest is decided exactly; of pairs equally near the one with the smallest numbers is named. The

@@ -38,13 +38,13 @@ struct LeastSquare {
 
 /// A number that is not above the least quotient.
 struct SquareBelow {
-  double value = std::numeric_limits<double>::infinity();
+  double value = std::numeric_limits<double>::infinity();  ///< a lower bound of the smallest quotient
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 
 template <class N>
 struct DistanceVector {
-  N x, y, z;
+  N x, y, z;  ///< coordinates
 };
 template <class N>
 DistanceVector<N> minus(const DistanceVector<N>& a, const DistanceVector<N>& b) {

@@ -11,8 +11,8 @@ namespace ogc::compare {
 
 /// Coordinates that were not zero and below 2⁻⁴⁰ of the largest one.
 struct Dust {
-  std::size_t count = 0;
-  double largest = 0;  ///< [m]
+  std::size_t count = 0;  ///< of coordinates
+  double largest = 0;     ///< [m]
 };
 
 /// Sets the dust of a mesh to 0. The largest coordinate is that of the mesh; positions that are not finite count for

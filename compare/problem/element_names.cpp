@@ -33,14 +33,14 @@ std::string place(const std::string& body, const MeshSource& source, const std::
 
 ElementNames::ElementNames(MeshSource source) {
   parts_.push_back(
-      {{}, 0, std::numeric_limits<Index>::max(), 0, 0, std::make_shared<const MeshSource>(std::move(source))});
+      {{}, 0, std::numeric_limits<Index>::max(), 0, 0, 0, std::make_shared<const MeshSource>(std::move(source))});
 }
 
 ElementNames::ElementNames(const Scene& scene, const MeshSources& sources) {
   Index edges = 0;
   for (const Body& body : scene.bodies) {
     const Index last = body.first_vertex + body.vertex_count - 1;
-    parts_.push_back({body.name, body.first_vertex, last, body.first_triangle, edges,
+    parts_.push_back({body.name, body.first_vertex, last, body.first_triangle, edges, body.first_tetrahedron,
                       parts_.size() < sources.size() ? sources[parts_.size()] : nullptr});
     const auto is_own = [&](const Edge& e) { return e[0] >= body.first_vertex && e[0] <= last; };
     edges += static_cast<Index>(std::ranges::count_if(scene.mesh.loose_edges, is_own));
@@ -103,9 +103,23 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
   const Index local = t - part.first_triangle;
   const std::string in_scene = local == t ? "" : std::to_string(t) + " in the scene";
   if (part.source == nullptr) return name("triangle " + std::to_string(local), part, {vertices(corners), in_scene});
+  if (!part.source->tetrahedra.empty())  // derived, the file has no number for it
+    return name("boundary triangle", part, {vertices(corners), place(part.body, *part.source, {}), in_scene});
   const Index number = file_number(part.source->faces, local);
   return name("face " + std::to_string(number + part.source->first), part,
               {vertices(corners), place(part.body, *part.source, lines(part.source->face_lines, {number})), in_scene});
+}
+
+std::string ElementNames::tetrahedron(Index t, const Tetrahedron& corners) const {
+  static const Part none;
+  const auto after = std::ranges::upper_bound(parts_, t, {}, &Part::first_tetrahedron);  // as part_of_triangle
+  const Part& part = after == parts_.begin() ? none : *(after - 1);
+  const Index local = t - part.first_tetrahedron;
+  const std::string in_scene = local == t ? "" : std::to_string(t) + " in the scene";
+  if (part.source == nullptr) return name("tetrahedron " + std::to_string(local), part, {vertices(corners), in_scene});
+  const MeshSource& source = *part.source;
+  return name("tetrahedron " + std::to_string(file_number(source.tetrahedra, local) + source.first), part,
+              {vertices(corners), place(part.body, source, lines(source.tetrahedron_lines, {local})), in_scene});
 }
 
 std::string ElementNames::edge(const Edge& ends) const {

@@ -16,7 +16,7 @@ struct Scene;
 /// Where the elements of a mesh stand in the file that it was read from. Numbers "in the file" are from 0 here;
 /// messages add `first`.
 struct MeshSource {
-  std::string file;
+  std::string file;             ///< where the elements stand
   Index first = 0;              ///< the number that the file gives its first vertex and face: 1 in OBJ
   bool shares_vertices = true;  ///< false: its faces have corners of their own (STL), and no vertex has a number
   std::vector<Index> vertices;  ///< number in the file, by vertex, ascending; empty: its own
@@ -25,6 +25,9 @@ struct MeshSource {
   std::vector<Index> faces;  ///< number in the file, by triangle: several of them may be of one face. Empty: its own
   std::vector<std::size_t> vertex_lines, face_lines,
       edge_lines;  ///< from 1, by number in the file; empty where it has no lines
+  /// Of tetrahedra, by number in the mesh: the file's number, and the line from 1.
+  std::vector<Index> tetrahedra{};
+  std::vector<std::size_t> tetrahedron_lines{};
 };
 
 /// Of each body of a scene in turn; where it is null, or there are fewer, the mesh of the body comes from no file.
@@ -40,19 +43,21 @@ class ElementNames {
   /// (…; sheet.obj, line 7; …)".
   explicit ElementNames(const Scene& scene, const MeshSources& sources = {});
 
-  std::string vertex(Index v) const;
+  std::string vertex(Index v) const;  ///< "vertex 3", with its place in the file
   /// "vertices 3, 4"; empty where the file gives vertices no numbers.
   std::string vertices(std::span<const Index> list) const;
   std::string triangle(Index t, const Triangle& corners) const;
   /// An edge has no number in any file: "edge (vertices 3, 4; lines 4, 5)".
   std::string edge(const Edge& ends) const;
   std::string loose_edge(Index e, const Edge& ends) const;
+  /// "tetrahedron 7 (vertices 1, 2, 3, 4; line 40)".
+  std::string tetrahedron(Index t, const Tetrahedron& corners) const;
 
  private:
   struct Part {
     std::string body;                          ///< empty: a mesh that stands alone
     Index first_vertex = 0, last_vertex = -1;  ///< none where last is before first
-    Index first_triangle = 0, first_edge = 0;
+    Index first_triangle = 0, first_edge = 0, first_tetrahedron = 0;
     std::shared_ptr<const MeshSource> source;
   };
   const Part& part_of(Index vertex) const;

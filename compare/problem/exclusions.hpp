@@ -22,7 +22,7 @@ struct Exclusions {
 
 /// The same, owned by somebody else, who must outlive it.
 struct ExclusionView {
-  std::span<const Index> groups;
+  std::span<const Index> groups;             ///< as in Exclusions
   const CompressedRows* partners = nullptr;  ///< null: there are none
 
   ExclusionView() = default;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double least = 0x1p-30, most = 0x1p40;
 
-constexpr std::array<MaterialInfo, 8> table{{
+constexpr std::array<MaterialInfo, 12> table{{
     {"density", "kg/m²", "mass per rest area", least, most, &Material::density},
     {"lame_mu", "N/m", "membrane: second Lamé constant times thickness", 0, most, &Material::lame_mu},
     {"lame_lambda", "N/m", "membrane: first Lamé constant (plane stress) times thickness", 0, most,
@@ -21,6 +21,10 @@ constexpr std::array<MaterialInfo, 8> table{{
     {"contact_stiffness", "N/m", "k_c; two surfaces meet with the harmonic mean", least, most,
      &Material::contact_stiffness},
     {"friction", "1", "μ_c; two surfaces meet with the arithmetic mean", 0, 0x1p10, &Material::friction},
+    {"solid_density", "kg/m³", "tetrahedra: mass per rest volume", least, most, &Material::solid_density},
+    {"solid_mu", "Pa", "tetrahedra: second Lamé constant", least, most, &Material::solid_mu},
+    {"solid_lambda", "Pa", "tetrahedra: first Lamé constant", 0, most, &Material::solid_lambda},
+    {"solid_damping", "s", "stiffness-proportional damping k_d of tetrahedra", 0, most, &Material::solid_damping},
 }};
 
 constexpr std::array<std::string_view, 3> membrane_names{"none", "st_venant_kirchhoff", "stable_neo_hookean"};

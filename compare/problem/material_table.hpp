@@ -11,9 +11,9 @@ namespace ogc::compare {
 
 /// One row of the table of material constants.
 struct MaterialInfo {
-  std::string_view name, unit, meaning;
-  double minimum, maximum;  ///< inclusive; single precision holds both exactly
-  double Material::*field;
+  std::string_view name, unit, meaning;  ///< "contact_stiffness", "N/m", one line
+  double minimum, maximum;               ///< inclusive; single precision holds both exactly
+  double Material::*field;               ///< where it is kept
 };
 
 /// All constants, in the order of the struct. Ranges keep squares and products of two of them finite and normal in

@@ -11,36 +11,38 @@ namespace ogc::compare {
 
 /// Rows of different length in one array: row i is items[offsets[i] .. offsets[i+1]), ascending.
 struct CompressedRows {
-  std::vector<Index> offsets{0};
-  std::vector<Index> items;
-  std::size_t rows() const { return offsets.size() - 1; }
+  std::vector<Index> offsets{0};                           ///< of the rows, and the end
+  std::vector<Index> items;                                ///< row after row
+  std::size_t rows() const { return offsets.size() - 1; }  ///< how many
   std::span<const Index> operator[](std::size_t i) const {
     return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
   }
 };
 
-/// What a mesh file gives: positions [m], triangles, and edges that belong to no triangle (yarn).
+/// What a mesh file gives: positions [m], triangles, edges that belong to no triangle (yarn), and tetrahedra. In a
+/// scene the boundary of the tetrahedra stands among the triangles (compare/problem/tetrahedra.hpp).
 struct Mesh {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
-  std::vector<Edge> loose_edges;
+  std::vector<Vec3> positions;      ///< by vertex [m]
+  std::vector<Triangle> triangles;  ///< by numbers of vertices
+  std::vector<Edge> loose_edges;    ///< edges of no triangle
+  std::vector<Tetrahedron> tetrahedra{};
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
 /// One bending stencil: an interior edge with exactly two triangles. `edge` is its number, `opposite[k]` the vertex of
 /// `triangles[k]` that is not on the edge; triangles ascending. Non-manifold edges give no hinge.
 struct Hinge {
-  Index edge = -1;
-  std::array<Index, 2> triangles{-1, -1};
-  std::array<Index, 2> opposite{-1, -1};
+  Index edge = -1;                         ///< that both triangles share
+  std::array<Index, 2> triangles{-1, -1};  ///< the lower-numbered first
+  std::array<Index, 2> opposite{-1, -1};   ///< their vertices that are not on the edge
 };
 
 /// Adjacency of a complex of `vertex_count` vertices. Edge numbers are names that both contestants share: all edges of
 /// triangles and all loose edges, without repetition, sorted by smaller, then larger vertex.
 struct Topology {
-  Index vertex_count = 0;
-  std::vector<Triangle> triangles;
-  std::vector<Edge> edges;
+  Index vertex_count = 0;                            ///< vertices of no face count
+  std::vector<Triangle> triangles;                   ///< as given
+  std::vector<Edge> edges;                           ///< the smaller vertex first, ascending
   std::vector<std::array<Index, 3>> triangle_edges;  ///< k-th entry: the edge from corner k to corner k+1 (mod 3)
   CompressedRows vertex_triangles;                   ///< triangles that contain v
   CompressedRows vertex_edges;                       ///< edges that contain v
@@ -52,6 +54,10 @@ struct Topology {
   std::vector<Index> boundary_edges;      ///< edges with exactly one triangle
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
+
+  /// Whether v belongs to an edge: only vertices inside solids do not. They take no part in detection, contact or
+  /// audit, and no bound holds them (method.md §2).
+  bool on_surface(Index v) const { return !vertex_edges[static_cast<std::size_t>(v)].empty(); }
 };
 
 /// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws

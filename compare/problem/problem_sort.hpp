@@ -23,7 +23,7 @@ class ProblemSort {
   void add(const std::string& where, const std::string& detail = {}) {
     if (++count_ <= limit_) problems_.push_back({where, detail.empty() ? what_ : what_ + ": " + detail, remedy_});
   }
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return count_; }  ///< of all problems, listed or not
 
  private:
   std::vector<Problem>& problems_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -72,12 +73,18 @@ std::size_t append_body(Scene& scene, Body body, const Mesh& mesh) {
   const auto first = static_cast<Index>(scene.mesh.positions.size());
   body.first_vertex = first;
   body.vertex_count = static_cast<Index>(mesh.positions.size());
+  const std::vector<Triangle> triangles = mesh.tetrahedra.empty() ? mesh.triangles
+                                                                  : boundary_triangles(mesh.tetrahedra);
   body.first_triangle = static_cast<Index>(scene.mesh.triangles.size());
-  body.triangle_count = static_cast<Index>(mesh.triangles.size());
+  body.triangle_count = static_cast<Index>(triangles.size());
+  body.first_tetrahedron = static_cast<Index>(scene.mesh.tetrahedra.size());
+  body.tetrahedron_count = static_cast<Index>(mesh.tetrahedra.size());
   scene.mesh.positions.insert(scene.mesh.positions.end(), mesh.positions.begin(), mesh.positions.end());
   scene.rest_positions.insert(scene.rest_positions.end(), mesh.positions.begin(), mesh.positions.end());
   scene.velocities.resize(scene.mesh.positions.size());
-  for (const auto& [a, b, c] : mesh.triangles) scene.mesh.triangles.push_back({first + a, first + b, first + c});
+  for (const auto& [a, b, c] : triangles) scene.mesh.triangles.push_back({first + a, first + b, first + c});
+  for (const auto& [a, b, c, d] : mesh.tetrahedra)
+    scene.mesh.tetrahedra.push_back({first + a, first + b, first + c, first + d});
   for (const auto& [a, b] : mesh.loose_edges) scene.mesh.loose_edges.push_back({first + a, first + b});
   scene.bodies.push_back(std::move(body));
   return scene.bodies.size() - 1;
@@ -110,6 +117,12 @@ std::vector<Index> rigid_groups(const Scene& scene) {
     for (const Index v : scene.motions[k].vertices) groups[static_cast<std::size_t>(v)] = static_cast<Index>(k + 1);
   }
   return groups;
+}
+
+Index bounded_count(const Topology& topology, std::span<const Index> groups) {
+  Index count = 0;
+  for (std::size_t v = 0; v < groups.size(); ++v) count += groups[v] != 0 && topology.on_surface(static_cast<Index>(v));
+  return count;
 }
 
 Exclusions exclusions(const Scene& scene) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,31 +14,39 @@
 
 namespace ogc::compare {
 
-enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };
-enum class BendingModel { none, discrete_hinge, isometric_quadratic };
+enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };  ///< method.md §4.6
+enum class BendingModel { none, discrete_hinge, isometric_quadratic };       ///< method.md §4.7
 
-/// Constants of one body's surface (method.md §4.5 to §4.10).
+/// Constants of one body: of its surface (method.md §4.5 to §4.10), and of its volume where it has tetrahedra
+/// (method.md §8).
 struct Material {
-  double density = 0.2;  ///< mass per rest area [kg/m²]
-  MembraneModel membrane = MembraneModel::st_venant_kirchhoff;
-  double lame_mu = 10, lame_lambda = 10;  ///< plane-stress Lamé constants times thickness [N/m]
-  BendingModel bending = BendingModel::discrete_hinge;
+  double density = 0.2;                                         ///< mass per rest area [kg/m²]
+  MembraneModel membrane = MembraneModel::st_venant_kirchhoff;  ///< energy of triangles
+  double lame_mu = 10, lame_lambda = 10;                        ///< plane-stress Lamé constants times thickness [N/m]
+  BendingModel bending = BendingModel::discrete_hinge;          ///< energy of hinges
   /// k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², isometric: of k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖² [J]
   double bending_stiffness = 5e-7;
-  double membrane_damping = 0;     ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
-  double bending_damping = 0;      ///< the same for θ − θᵗ [s]
-  double contact_stiffness = 100;  ///< k_c [N/m]; two surfaces meet with the harmonic mean
-  double friction = 0.2;           ///< μ_c [1]; two surfaces meet with the arithmetic mean
+  double membrane_damping = 0;                ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
+  double bending_damping = 0;                 ///< the same for θ − θᵗ [s]
+  double contact_stiffness = 100;             ///< k_c [N/m]; two surfaces meet with the harmonic mean
+  double friction = 0.2;                      ///< μ_c [1]; two surfaces meet with the arithmetic mean
+  double solid_density = 1000;                ///< ρ, mass per rest volume [kg/m³]
+  double solid_mu = 1e4, solid_lambda = 1e4;  ///< Lamé constants of the volume [Pa]
+  double solid_damping = 0;                   ///< k_d of ψ_d = (k_d/h) ϕ(G − Gᵗ) of the volume [s]
   friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// A contiguous range of vertices and triangles with one material. A fixed body never moves and needs no energies.
+/// A contiguous range of vertices, triangles and tetrahedra with one material. A fixed body never moves and needs no
+/// energies. The triangles of a body with tetrahedra are their boundary (compare/problem/tetrahedra.hpp): they meet
+/// other surfaces, but have neither mass nor energies of their own.
 struct Body {
-  std::string name;
-  Index first_vertex = 0, vertex_count = 0;
-  Index first_triangle = 0, triangle_count = 0;
-  bool fixed = false;
-  Material material;
+  std::string name;                              ///< for messages and files
+  Index first_vertex = 0, vertex_count = 0;      ///< its vertices are consecutive
+  Index first_triangle = 0, triangle_count = 0;  ///< its triangles are consecutive
+  bool fixed = false;                            ///< an obstacle that never moves
+  Material material;                             ///< of all of it
+  Index first_tetrahedron = 0, tetrahedron_count = 0;
+  bool is_solid() const { return tetrahedron_count > 0; }
   friend bool operator==(const Body&, const Body&) = default;
 };
 
@@ -45,7 +54,7 @@ struct Body {
 struct Keyframes {
   std::vector<double> times;     ///< ascending [s]; at least two where there are any
   std::vector<Vec3f> positions;  ///< [m]; frame by frame, in each the vertices in the order of the motion
-  bool empty() const { return times.empty(); }
+  bool empty() const { return times.empty(); }  ///< whether there are none
   friend bool operator==(const Keyframes&, const Keyframes&) = default;
 };
 
@@ -54,13 +63,13 @@ struct Keyframes {
 /// about `axis` through `centre`. Its vertices form one group: pairs inside are no contacts, not even where keyframes
 /// deform it.
 struct PrescribedMotion {
-  std::string name;
-  std::vector<Index> vertices;
+  std::string name;              ///< for messages and files
+  std::vector<Index> vertices;   ///< which it moves
   Vec3 centre{}, axis{1, 0, 0};  ///< [m]; direction of the axis: not zero, its length does not matter
   double angular_velocity = 0;   ///< ω [rad/s]
   Vec3 velocity{};               ///< u [m/s]
   double start = 0, end = 1e30;  ///< [s]
-  Keyframes keyframes;
+  Keyframes keyframes;           ///< in place of a rigid motion, where there are any
   friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
@@ -79,13 +88,13 @@ struct Spring {
 };
 
 struct Scene {
-  std::string name;
-  Mesh mesh;                         ///< start positions X⁰ [m] of all bodies
-  std::vector<Vec3> rest_positions;  ///< [m]; same length as mesh.positions
-  std::vector<Vec3> velocities;      ///< V⁰ [m/s]; same length
-  std::vector<Body> bodies;          ///< cover all vertices and triangles, in order
-  std::vector<PrescribedMotion> motions;
-  std::vector<Spring> springs;
+  std::string name;                       ///< for messages and files
+  Mesh mesh;                              ///< start positions X⁰ [m] of all bodies
+  std::vector<Vec3> rest_positions;       ///< [m]; same length as mesh.positions
+  std::vector<Vec3> velocities;           ///< V⁰ [m/s]; same length
+  std::vector<Body> bodies;               ///< cover all vertices, triangles and tetrahedra, in order
+  std::vector<PrescribedMotion> motions;  ///< of vertices that no force moves
+  std::vector<Spring> springs;            ///< between vertices, or a vertex and an edge
   /// vertices: a pair of faces with one of them on each side is left out (stitched primitives, §5.1.3)
   std::vector<std::array<Index, 2>> excluded_pairs;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
@@ -94,7 +103,8 @@ struct Scene {
 };
 
 /// Appends the mesh as a body at rest in its rest shape; `body` gives name, material and whether it is fixed, its
-/// ranges are set here. Returns its number.
+/// ranges are set here. Of a mesh with tetrahedra their boundary becomes the body's triangles, whatever triangles it
+/// has. Returns its number.
 std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
 
 /// Rounds every number that a stage sees (positions, rest data, velocities, materials, gravity, settings) to the
@@ -107,6 +117,9 @@ void add_stitch(Scene& scene, Index first, Index second, Index third, double rat
 
 /// What moves with what: -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
 std::vector<Index> rigid_groups(const Scene& scene);
+
+/// K: how many vertices move and have a bound, those of the surface that are not fixed. `groups`: of rigid_groups.
+Index bounded_count(const Topology& topology, std::span<const Index> groups);
 
 /// Pairs that are left out of contact, d_min and audit: by rigid_groups and excluded_pairs.
 Exclusions exclusions(const Scene& scene);

@@ -19,8 +19,9 @@ constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
 constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
+constexpr std::array<std::string_view, 3> bounds_names{"ball", "planes", "off"};
 
-constexpr std::array<SettingInfo, 15> problem_table{{
+constexpr std::array<SettingInfo, 17> problem_table{{
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
@@ -30,9 +31,15 @@ constexpr std::array<SettingInfo, 15> problem_table{{
      &Settings::contact_radius},
     {"query_radius_cap", "r", "farthest that detection looks for neighbours, in contact radii: the cap of r_q", 1, 1024,
      &Settings::query_radius_cap},
+    {"bounds", "1",
+     "what keeps a vertex from passing through others between two detections: a ball as in the paper, planes between "
+     "near pairs, or nothing",
+     0, 2, &Settings::bounds, bounds_names},
     {"bound_relaxation", "1",
      "share of its distance to the nearest neighbour that a vertex may move before the next detection, γ_p of Eq. 21",
      0x1p-10, 0.5 - 0x1p-10, &Settings::bound_relaxation},
+    {"contact_margin", "r", "how much farther than the contact radius contacts are listed, before they act", 0, 1,
+     &Settings::contact_margin},
     {"redetect_fraction", "1",
      "share of vertices stopped at their bounds from which contacts are detected again within a step, γ_e", 0, 1,
      &Settings::redetect_fraction},

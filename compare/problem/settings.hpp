@@ -20,6 +20,9 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 /// What stiffness-proportional damping acts on (method.md §4.9): the change of a stencil's strain, or each vertex's own
 /// motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
+/// What keeps a vertex from passing through others between two detections (method.md §5.6): a ball about X_prev, as in
+/// the paper; planes between near pairs, and a ball for the others; nothing.
+enum class Bounds : std::int64_t { ball, planes, off };
 
 /// Names of the activations and damping forms, in the order of the enumerations.
 std::span<const std::string_view> activation_names();
@@ -31,7 +34,9 @@ struct Settings {
   std::int64_t iterations = 40;     ///< sweeps a step
   double contact_radius = 0.005;    ///< r [m]
   double query_radius_cap = 4;      ///< cap of r_q, in units of r (method.md §5.3)
+  Bounds bounds = Bounds::ball;     ///< what keeps vertices from passing through others between two detections
   double bound_relaxation = 0.45;   ///< γ_p, Eq. 21
+  double contact_margin = 0;        ///< by which contacts are listed beyond r, in units of r
   double redetect_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
   std::int64_t redetect_every = 0;  ///< re-detect at the latest after so many iterations; 0: never by count
   std::int64_t guess_rounds = 16;   ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
@@ -59,10 +64,10 @@ struct DeclaredSetting {
 
 /// One row of the table of settings.
 struct SettingInfo {
-  std::string_view name, unit, meaning;
-  double minimum, maximum;  ///< inclusive
+  std::string_view name, unit, meaning;  ///< "contact_radius", "m", one line
+  double minimum, maximum;               ///< inclusive
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               DeclaredSetting>
+               Bounds Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/problem_sort.hpp"
 #include "compare/problem/ranges.hpp"
+#include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
 
@@ -59,25 +61,30 @@ void check_materials(std::vector<Problem>& problems, const Scene& scene) {
 
 // Whether the bodies are consecutive ranges that end at the last vertex and triangle; lists the first gap.
 bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
-  const std::string remedy = "bodies are consecutive ranges that cover all vertices and triangles";
-  std::int64_t vertex = 0, triangle = 0;
+  const std::string remedy = "bodies are consecutive ranges that cover all vertices, triangles and tetrahedra";
+  std::int64_t vertex = 0, triangle = 0, tetrahedron = 0;
   for (const Body& body : scene.bodies) {
-    if (body.first_vertex != vertex || body.first_triangle != triangle || body.vertex_count <= 0 ||
-        body.triangle_count < 0) {
+    if (body.first_vertex != vertex || body.first_triangle != triangle || body.first_tetrahedron != tetrahedron ||
+        body.vertex_count <= 0 || body.triangle_count < 0 || body.tetrahedron_count < 0) {
       problems.push_back(
           {quoted("body", body.name), "does not begin where the one before it ends, or is empty", remedy});
       return false;
     }
     vertex += body.vertex_count;
     triangle += body.triangle_count;
+    tetrahedron += body.tetrahedron_count;
   }
-  if (vertex == static_cast<std::int64_t>(scene.mesh.positions.size()) &&
-      triangle == static_cast<std::int64_t>(scene.mesh.triangles.size()))
+  const auto of = [](std::int64_t covered, std::size_t all, const char* kind) {
+    return std::to_string(covered) + " of " + std::to_string(all) + " " + kind;
+  };
+  const Mesh& mesh = scene.mesh;
+  if (vertex == std::ssize(mesh.positions) && triangle == std::ssize(mesh.triangles) &&
+      tetrahedron == std::ssize(mesh.tetrahedra))
     return true;
   problems.push_back({"scene",
-                      "bodies cover " + std::to_string(vertex) + " of " + std::to_string(scene.mesh.positions.size()) +
-                          " vertices and " + std::to_string(triangle) + " of " +
-                          std::to_string(scene.mesh.triangles.size()) + " triangles",
+                      "bodies cover " + of(vertex, mesh.positions.size(), "vertices, ") +
+                          of(triangle, mesh.triangles.size(), "triangles and ") +
+                          of(tetrahedron, mesh.tetrahedra.size(), "tetrahedra"),
                       remedy});
   return false;
 }
@@ -95,9 +102,32 @@ void check_ownership(std::vector<Problem>& problems, const Scene& scene, const E
       if (!own) foreign.add(names.triangle(t, corners), quoted("of body", body.name));
     }
   }
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
+      const Tetrahedron& corners = scene.mesh.tetrahedra[static_cast<std::size_t>(t)];
+      if (!std::all_of(corners.begin(), corners.end(), [&](Index v) { return owner_of(v) == static_cast<Index>(b); }))
+        foreign.add(names.tetrahedron(t, corners), quoted("of body", body.name));
+    }
+  }
   for (std::size_t e = 0; e < scene.mesh.loose_edges.size(); ++e) {
     const Edge& ends = scene.mesh.loose_edges[e];
     if (owner_of(ends[0]) != owner_of(ends[1])) foreign.add(names.loose_edge(static_cast<Index>(e), ends));
+  }
+}
+
+// A solid's triangles are derived, so that nothing else can stand among them.
+void check_boundaries(std::vector<Problem>& problems, const Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    if (!body.is_solid()) continue;
+    const auto first = static_cast<std::size_t>(body.first_tetrahedron),
+               triangle = static_cast<std::size_t>(body.first_triangle);
+    const std::vector<Triangle> boundary = boundary_triangles(
+        std::span(scene.mesh.tetrahedra).subspan(first, static_cast<std::size_t>(body.tetrahedron_count)));
+    const auto own = std::span(scene.mesh.triangles).subspan(triangle, static_cast<std::size_t>(body.triangle_count));
+    if (!std::equal(boundary.begin(), boundary.end(), own.begin(), own.end()))
+      problems.push_back({quoted("body", body.name), "has tetrahedra and triangles that are not their boundary",
+                          "give sheets a body of their own"});
   }
 }
 
@@ -259,12 +289,18 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit, const Eleme
   if (scene.mesh.positions.empty()) return problems;
   std::vector<Problem> known;
   const bool indices_are_valid = check_indices({scene.mesh, names, 0, known});
-  const bool has_rest = check_lengths(problems, scene) && scene.rest_positions != scene.mesh.positions;
-  if (indices_are_valid && has_rest)
-    check_positions({scene.mesh, names, limit, problems}, scene.rest_positions, "rest ");
+  const bool has_lengths = check_lengths(problems, scene);
+  if (indices_are_valid && has_lengths) {
+    const MeshCheck check{scene.mesh, names, limit, problems};
+    if (scene.rest_positions != scene.mesh.positions) check_positions(check, scene.rest_positions, "rest ");
+    check_volumes(check, scene.rest_positions);
+  }
   check_velocities(problems, scene, names, limit);
   const bool covered = check_cover(problems, scene);
-  if (covered && indices_are_valid) check_ownership(problems, scene, names, limit);
+  if (covered && indices_are_valid) {
+    check_ownership(problems, scene, names, limit);
+    check_boundaries(problems, scene);
+  }
   check_motions(problems, scene, names, covered, limit);
   check_springs(problems, scene, names, limit);
   check_excluded(problems, scene, names, limit);

@@ -13,16 +13,18 @@ namespace ogc::compare {
 /// One thing that is wrong with a mesh or scene: where it stands ("face 18 (line 40)", "motion 'left', vertex 3 of body
 /// 'sheet'") and what to do.
 struct Problem {
-  std::string where, what, remedy;
+  std::string where, what, remedy;  ///< which element, what is wrong, what to do
 };
 
 /// Index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity, coordinate beyond 2²⁰ m, edge
-/// length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided exactly), isolated vertex. At
-/// most `limit` entries of each sort are listed, then a count. `names`: what its elements are called.
+/// length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided exactly), isolated vertex,
+/// face of three tetrahedra or of two on one side. At most `limit` entries of each sort are listed, then a count.
+/// `names`: what its elements are called.
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit = 10, const ElementNames& names = {});
 
-/// The mesh, its rest positions, bodies that do not cover it, motions of unknown, fixed or doubly prescribed vertices,
-/// settings out of range, negative stiffness, density or friction. Elements are named by body, as its file counts them.
+/// The mesh, its rest positions, tetrahedra that are flat or inverted there, bodies that do not cover it, motions of
+/// unknown, fixed or doubly prescribed vertices, settings out of range, negative stiffness, density or friction.
+/// Elements are named by body, as its file counts them.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit = 10);
 /// The same with names that know the files of bodies' meshes.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit, const ElementNames& names);

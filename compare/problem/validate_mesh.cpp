@@ -9,6 +9,7 @@
 #include <span>
 
 #include "compare/problem/problem_sort.hpp"
+#include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/zero_area.hpp"
 
@@ -41,6 +42,10 @@ std::string triangle_name(const MeshCheck& check, std::size_t t) {
   return check.names.triangle(static_cast<Index>(t), check.mesh.triangles[t]);
 }
 
+std::string tetrahedron_name(const MeshCheck& check, std::size_t t) {
+  return check.names.tetrahedron(static_cast<Index>(t), check.mesh.tetrahedra[t]);
+}
+
 std::string loose_edge_name(const MeshCheck& check, std::size_t e) {
   return check.names.loose_edge(static_cast<Index>(e), check.mesh.loose_edges[e]);
 }
@@ -70,6 +75,13 @@ void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, con
   for (std::size_t e = 0; e < check.mesh.loose_edges.size(); ++e) {
     const auto& [a, b] = check.mesh.loose_edges[e];
     check_edge(a, b, [&] { return loose_edge_name(check, e); });
+  }
+  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t) {
+    const Tetrahedron& corners = check.mesh.tetrahedra[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = k + 1; l < 4; ++l)
+        check_edge(corners[k], corners[l], [&] { return tetrahedron_name(check, t); });
+    }
   }
 }
 
@@ -112,7 +124,8 @@ void check_loose_edges(const MeshCheck& check) {
 }
 
 void check_isolated_vertices(const MeshCheck& check) {
-  ProblemSort isolated(check.problems, check.limit, "belongs to no triangle and no edge", "remove the vertex");
+  ProblemSort isolated(check.problems, check.limit, "belongs to no triangle, no edge and no tetrahedron",
+                       "remove the vertex");
   std::vector<bool> used(check.mesh.positions.size());
   for (const Triangle& t : check.mesh.triangles) {
     for (const Index v : t) used[at(v)] = true;
@@ -120,9 +133,33 @@ void check_isolated_vertices(const MeshCheck& check) {
   for (const Edge& e : check.mesh.loose_edges) {
     for (const Index v : e) used[at(v)] = true;
   }
+  for (const Tetrahedron& t : check.mesh.tetrahedra) {
+    for (const Index v : t) used[at(v)] = true;
+  }
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (!used[v]) isolated.add(check.names.vertex(static_cast<Index>(v)));
   }
+}
+
+/// 6V below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) that may be above 2⁶⁰ m, n_k the normal of twice a face's area.
+bool is_sliver(const std::vector<Vec3>& positions, const Tetrahedron& corners) {
+  const auto edge = [&](Index from, Index to) {
+    const Vec3 &p = positions[at(from)], &q = positions[at(to)];
+    return Vec3{q.x - p.x, q.y - p.y, q.z - p.z};
+  };
+  const auto outer = [](const Vec3& a, const Vec3& b) {
+    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  double largest = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Triangle face = opposite_face(corners, k);
+    const Vec3 normal = outer(edge(face[0], face[1]), edge(face[0], face[2]));
+    largest = std::max(largest, normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+  }
+  const Vec3 normal = outer(edge(corners[0], corners[2]), edge(corners[0], corners[3])),
+             first = edge(corners[0], corners[1]);
+  const double six_volumes = first.x * normal.x + first.y * normal.y + first.z * normal.z;
+  return !(six_volumes >= 0x1p-80) || largest > 0x1p60 * 6 * six_volumes;
 }
 
 }  // namespace
@@ -131,17 +168,50 @@ bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 
 std::string printed(const Vec3& v) { return "(" + shortest(v.x) + ", " + shortest(v.y) + ", " + shortest(v.z) + ")"; }
 
+void check_tetrahedra(const MeshCheck& check) {
+  check_repeated(check, "tetrahedron", check.mesh.tetrahedra, tetrahedron_name);
+  ProblemSort shared(check.problems, check.limit, "has a face that two other tetrahedra have",
+                     "of a face there are two tetrahedra at most, one on each side: remove the others");
+  ProblemSort doubled(check.problems, check.limit, "lies on the same side of a face as another tetrahedron",
+                      "remove one of them, or reorder the vertices of the one that is inside out");
+  const std::vector<TetrahedronFace> faces = sorted_faces(check.mesh.tetrahedra);
+  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+    while (end < faces.size() && faces[end].vertices == faces[i].vertices) ++end;
+    const auto names = [&](std::size_t k) { return tetrahedron_name(check, at(faces[k].tetrahedron)); };
+    const std::string where = check.names.vertices(faces[i].vertices);
+    if (end - i > 2) shared.add(names(end - 1), where + " of " + names(i) + " and " + names(i + 1));
+    if (end - i == 2 && faces[i].even == faces[i + 1].even) doubled.add(names(i + 1), where + " of " + names(i));
+  }
+}
+
+void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions) {
+  ProblemSort flat(check.problems, check.limit, "is flat at rest", "remove the tetrahedron or move its vertices");
+  ProblemSort inverted(check.problems, check.limit, "is inverted at rest",
+                       "exchange two of its vertices, or untangle the mesh");
+  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t) {
+    const auto& [a, b, c, d] = check.mesh.tetrahedra[t];
+    const auto usable = [&](Index v) { return is_finite(rest_positions[at(v)]); };
+    if (!std::ranges::all_of(check.mesh.tetrahedra[t], usable)) continue;
+    const int side = orientation(rest_positions[at(a)], rest_positions[at(b)], rest_positions[at(c)],
+                                 rest_positions[at(d)]);
+    if (side == 0 || (side > 0 && is_sliver(rest_positions, check.mesh.tetrahedra[t])))
+      flat.add(tetrahedron_name(check, t));
+    if (side < 0) inverted.add(tetrahedron_name(check, t));
+  }
+}
+
 bool check_indices(const MeshCheck& check) {
   const std::size_t count = check.mesh.positions.size();
   ProblemSort range(check.problems, check.limit, "names a vertex that does not exist",
                     "vertices are numbered from 0 to " + std::to_string(count - 1));
-  ProblemSort repeated(check.problems, check.limit, "has the same vertex twice", "remove the face");
+  ProblemSort repeated(check.problems, check.limit, "has the same vertex twice", "remove it");
   const auto check_face = [&](std::span<const Index> corners, const auto& face_name) {
     for (const Index v : corners) {
       if (v < 0 || at(v) >= count) return range.add(face_name(), std::to_string(v));
     }
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      if (corners[k] == corners[(k + 1) % corners.size()])
+      const auto rest = corners.subspan(k + 1);
+      if (std::find(rest.begin(), rest.end(), corners[k]) != rest.end())
         return repeated.add(face_name(), check.names.vertex(corners[k]));
     }
   };
@@ -149,6 +219,8 @@ bool check_indices(const MeshCheck& check) {
     check_face(check.mesh.triangles[t], [&] { return triangle_name(check, t); });
   for (std::size_t e = 0; e < check.mesh.loose_edges.size(); ++e)
     check_face(check.mesh.loose_edges[e], [&] { return loose_edge_name(check, e); });
+  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t)
+    check_face(check.mesh.tetrahedra[t], [&] { return tetrahedron_name(check, t); });
   return range.count() == 0 && repeated.count() == 0;
 }
 
@@ -159,7 +231,7 @@ void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions,
 }
 
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit, const ElementNames& names) {
-  if (mesh.positions.empty()) return {{"mesh", "has no vertices", "give at least one triangle or edge"}};
+  if (mesh.positions.empty()) return {{"mesh", "has no vertices", "give at least one triangle, edge or tetrahedron"}};
   std::vector<Problem> problems;
   const MeshCheck check{mesh, names, limit, problems};
   if (check_indices(check)) {
@@ -167,6 +239,7 @@ std::vector<Problem> validate(const Mesh& mesh, std::size_t limit, const Element
     check_repeated(check, "loose edge", mesh.loose_edges, loose_edge_name);
     check_loose_edges(check);
     check_isolated_vertices(check);
+    check_tetrahedra(check);
     check_positions(check, mesh.positions, "");
   } else {
     check_coordinates(check, mesh.positions, "");

@@ -9,13 +9,13 @@ namespace ogc::compare {
 
 /// A point or vector of the problem, in double [unit given where it is used].
 struct Vec3 {
-  double x = 0, y = 0, z = 0;
+  double x = 0, y = 0, z = 0;  ///< coordinates
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
 /// A point or vector as a stage sees it: single precision, so that both contestants answer the same question.
 struct Vec3f {
-  float x = 0, y = 0, z = 0;
+  float x = 0, y = 0, z = 0;  ///< coordinates
   friend bool operator==(const Vec3f&, const Vec3f&) = default;
 };
 
@@ -24,14 +24,16 @@ using Index = std::int32_t;
 using Edge = std::array<Index, 2>;
 /// Vertex indices of a triangle, in the order of the mesh file.
 using Triangle = std::array<Index, 3>;
+/// Vertex indices of a tetrahedron; at rest det(x₁ − x₀, x₂ − x₀, x₃ − x₀) > 0.
+using Tetrahedron = std::array<Index, 4>;
 
 /// A face of the complex (method.md §2.1): a vertex, the interior of an edge, or the interior of a triangle.
 enum class FaceKind : std::uint8_t { vertex = 0, edge = 1, triangle = 2 };
 
 /// Names one face: kind and number within its kind. Ordered by kind, then number.
 struct Face {
-  FaceKind kind = FaceKind::vertex;
-  Index index = -1;
+  FaceKind kind = FaceKind::vertex;  ///< whose numbers `index` counts
+  Index index = -1;                  ///< −1: none
   friend auto operator<=>(const Face&, const Face&) = default;
 };
 

@@ -2,40 +2,15 @@
 // that.
 #include "compare/problem/zero_area.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "compare/problem/expansion.hpp"
 
 namespace ogc::compare {
 namespace {
 
 std::array<double, 3> coordinates(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-// Sum of products without rounding, as a non-overlapping expansion (Shewchuk 1997, Grow-Expansion): it is zero exactly
-// where all components are.
-class ExactSum {
- public:
-  void add_product(double a, double b) {
-    const double product = a * b;
-    add(std::fma(a, b, -product));
-    add(product);
-  }
-  bool is_zero() const {
-    return std::all_of(parts_.begin(), parts_.begin() + count_, [](double part) { return part == 0; });
-  }
-
- private:
-  void add(double value) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const double sum = value + parts_[i], part = sum - value;
-      parts_[i] = (value - (sum - part)) + (parts_[i] - part);
-      value = sum;
-    }
-    parts_[count_++] = value;
-  }
-  std::array<double, 12> parts_{};  // six products of two parts each
-  std::size_t count_ = 0;
-};
 
 // Whether the projections of a, b and c on the plane of coordinates i and j lie on a line; exact. The filter: each
 // factor is rounded once and each product once, so the difference is known to 3ε(|p| + |q|) + O(ε²), ε = 2⁻⁵³; 4ε
@@ -44,14 +19,14 @@ bool on_a_line(const std::array<double, 3>& a, const std::array<double, 3>& b, c
                std::size_t i, std::size_t j) {
   const double p = (b[i] - a[i]) * (c[j] - a[j]), q = (b[j] - a[j]) * (c[i] - a[i]);
   if (std::abs(p - q) > 0x4p-53 * (std::abs(p) + std::abs(q))) return false;
-  ExactSum sum;
+  Expansion<12> sum;  // six products of two parts each
   sum.add_product(a[i], b[j]);
   sum.add_product(-a[j], b[i]);
   sum.add_product(b[i], c[j]);
   sum.add_product(-b[j], c[i]);
   sum.add_product(c[i], a[j]);
   sum.add_product(-c[j], a[i]);
-  return sum.is_zero();
+  return sum.sign() == 0;
 }
 
 }  // namespace

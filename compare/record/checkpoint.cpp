@@ -60,6 +60,8 @@ void check_version(const Hdf5File& file, const std::string& path) {
     throw InputError(path + ": is of checkpoint format " + std::to_string(version) + ", newer than format " +
                      std::to_string(checkpoint_format_version) +
                      ", the newest that this program reads: use a newer ogc");
+  if (file.has("orientations"))
+    throw InputError(path + ": holds orientations of rods, which this program does not simulate yet: use a newer ogc");
 }
 
 Stored content(const Hdf5File& file) {

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <string>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::compare {
 
-inline constexpr std::int64_t checkpoint_format_version = 2;
+/// A newer file is refused by name. Format 3 reserves `orientations` [segments × 4] of rods: a program without rods
+/// can't go on from such a state, and says so.
+inline constexpr std::int64_t checkpoint_format_version = 3;
 
 /// A state that was judged, where states are judged at all.
 struct Checkpoint {

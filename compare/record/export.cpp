@@ -8,18 +8,21 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/record/vtp.hpp"
+#include "compare/record/vtu.hpp"
 
 namespace ogc::compare {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 3> names{"obj", "ply", "vtp"};
+constexpr std::array<std::string_view, 4> names{"obj", "ply", "vtp", "vtu"};
 
 void write_frame(const fs::path& path, ExportFormat format, const Scene& scene, std::span<const Index> bodies,
                  const Frame& frame) {
   if (format == ExportFormat::vtp)
     write_durably(path, vtp_bytes(scene.mesh, bodies, frame));
+  else if (format == ExportFormat::vtu)
+    write_durably(path, vtu_bytes(scene, bodies, frame));
   else
     write_mesh(path, {to_double(frame.positions), scene.mesh.triangles, scene.mesh.loose_edges});
 }
@@ -50,7 +53,7 @@ std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, co
     files.push_back(out / name);
     index.emplace_back(frame.time, name);
   }
-  if (format == ExportFormat::vtp) {
+  if (format == ExportFormat::vtp || format == ExportFormat::vtu) {
     files.push_back(out / (run.scene().name + ".pvd"));
     write_durably(files.back(), pvd_text(index));
   }

@@ -13,8 +13,9 @@
 
 namespace ogc::compare {
 
-/// The newest frames that this program writes and reads. Format 1 has neither its number nor a checksum.
-inline constexpr std::int64_t frame_format_version = 2;
+/// The newest frames that this program writes and reads. Format 1 has neither its number nor a checksum; format 3
+/// reserves `orientations` [segments × 4] of rods, which readers leave alone.
+inline constexpr std::int64_t frame_format_version = 3;
 
 /// One stored state.
 struct Frame {
@@ -27,10 +28,10 @@ struct Frame {
 
 /// The same as it is stored; making it takes most of the time of writing, and can be done on any thread.
 struct PackedFrame {
-  std::int64_t step = 0;
-  double time = 0;            ///< [s]
-  std::int64_t checksum = 0;  ///< CRC-32, see above
-  PackedArray positions, velocities, bounds;
+  std::int64_t step = 0;                      ///< as in Frame
+  double time = 0;                            ///< [s]
+  std::int64_t checksum = 0;                  ///< CRC-32, see above
+  PackedArray positions, velocities, bounds;  ///< as in Frame
 };
 
 /// "frame_000025", the name of a file that holds the state after a step, without its extension.
@@ -41,7 +42,7 @@ std::span<const float> as_floats(std::span<const Vec3f> vectors);
 /// And back.
 std::vector<Vec3f> as_vectors(const std::vector<float>& floats);
 
-PackedFrame pack(const Frame& frame);
+PackedFrame pack(const Frame& frame);  ///< without loss
 
 /// The bytes of the file.
 std::string frame_bytes(const PackedFrame& frame);

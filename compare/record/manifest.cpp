@@ -78,6 +78,8 @@ Json bodies_json(const Scene& scene) {
                     {"vertex_count", body.vertex_count},
                     {"first_triangle", body.first_triangle},
                     {"triangle_count", body.triangle_count},
+                    {"first_tetrahedron", body.first_tetrahedron},
+                    {"tetrahedron_count", body.tetrahedron_count},
                     {"fixed", body.fixed},
                     {"prescribed_vertices", prescribed_count(scene, body)},
                     {"material", material_json(body.material)}});
@@ -90,6 +92,7 @@ Json scene_json(const Manifest& manifest, const Scene& scene) {
           {"vertices", scene.mesh.positions.size()},
           {"triangles", scene.mesh.triangles.size()},
           {"loose_edges", scene.mesh.loose_edges.size()},
+          {"tetrahedra", scene.mesh.tetrahedra.size()},
           {"springs", scene.springs.size()},
           {"excluded_pairs", scene.excluded_pairs.size()},
           {"gravity", {{"value", {scene.gravity.x, scene.gravity.y, scene.gravity.z}}, {"unit", "m/s²"}}},

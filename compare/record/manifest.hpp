@@ -17,17 +17,17 @@ inline constexpr int run_format_version = 2;
 
 /// What run.json says besides the scene: who ran what, where, when.
 struct Provenance {
-  std::string solver, backend, device, command;
-  std::string version, commit, compiler, cuda;  ///< of the program
-  bool dirty = false;
-  std::string started, ended, status;        ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
-  std::vector<std::string> warnings;         ///< what can hardly be meant, in words
-  std::map<std::string, std::string> extra;  ///< further entries of run.json; "yes" and "no" are truth values there
+  std::string solver, backend, device, command;  ///< as the user named them, and where it ran
+  std::string version, commit, compiler, cuda;   ///< of the program
+  bool dirty = false;                            ///< whether the tree had changes beyond the commit
+  std::string started, ended, status;            ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
+  std::vector<std::string> warnings;             ///< what can hardly be meant, in words
+  std::map<std::string, std::string> extra;      ///< further entries of run.json; "yes" and "no" are truth values there
 };
 
 /// What run.json says beside the copy of the scene's numbers.
 struct Manifest {
-  Provenance provenance;
+  Provenance provenance;                 ///< who ran it, and with what
   std::string scene_name, scene_file;    ///< file: relative to the run folder
   std::vector<std::string> stage_names;  ///< of steps.csv
 };

@@ -119,7 +119,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& prov
   make_folder(folder_ / "frames");
   manifest_.scene_file = store_scene(folder_, scene_);
   steps_.emplace(folder_ / "steps.csv");
-  steps_->append(step_header(manifest_.stage_names));
+  steps_->append(step_header(manifest_.stage_names, !scene_.mesh.tetrahedra.empty()));
   if (manifest_.provenance.started.empty()) manifest_.provenance.started = utc_now();
   manifest_.provenance.status = "running";
   write_manifest();
@@ -155,7 +155,7 @@ void RunWriter::keep_frames(const std::function<bool(std::int64_t)>& keep) {
 void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", manifest_text(manifest_, scene_)); }
 
 void RunWriter::add_steps(const std::vector<StepMetrics>& rows) {
-  steps_->append(step_lines(rows, manifest_.stage_names.size()));
+  steps_->append(step_lines(rows, manifest_.stage_names.size(), !scene_.mesh.tetrahedra.empty()));
   if (const std::string iterations = iteration_lines(rows); !iterations.empty()) {
     if (!iterations_) iterations_.emplace(folder_ / "iterations.csv").append(iteration_header());
     iterations_->append(iterations);

@@ -31,8 +31,8 @@
 #include <utility>
 #include <vector>
 
+#include "compare/contestant.hpp"
 #include "compare/files/durable_file.hpp"
-#include "compare/problem/contestant.hpp"
 #include "compare/record/checkpoint.hpp"
 #include "compare/record/frame_file.hpp"
 #include "compare/record/manifest.hpp"
@@ -86,7 +86,7 @@ class RunWriter {
     std::int64_t frames = 0;      ///< of this writer
     std::int64_t last_step = -1;  ///< of the last of them, or of those that a run goes on from
   };
-  Written written() const { return {written_frames_, written_step_}; }
+  Written written() const { return {written_frames_, written_step_}; }  ///< what is safe on disk
   /// Time that calls waited for the disk [s].
   double waited_seconds() const { return queue_.waited_seconds() + closing_seconds_; }
 
@@ -116,10 +116,10 @@ class RunWriter {
 class RunReader {
  public:
   explicit RunReader(std::filesystem::path folder);
-  const Scene& scene() const { return scene_; }
-  const Provenance& provenance() const { return manifest_.provenance; }
-  const std::vector<std::string>& stage_names() const { return manifest_.stage_names; }
-  std::size_t frame_count() const { return frames_.size(); }
+  const Scene& scene() const { return scene_; }                                          ///< as it was run
+  const Provenance& provenance() const { return manifest_.provenance; }                  ///< of run.json
+  const std::vector<std::string>& stage_names() const { return manifest_.stage_names; }  ///< columns of `--profile`
+  std::size_t frame_count() const { return frames_.size(); }                             ///< finished ones
   /// Step of the i-th frame, ascending.
   std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
   /// Throws InputError also where it does not fit the scene.

@@ -37,6 +37,9 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
+/// Behind those, of scenes with tetrahedra.
+constexpr StepColumn solid_column{"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra};
+
 constexpr std::string_view stage_prefix = "stage_", stage_unit = " [ms]";
 
 template <class T>
@@ -77,7 +80,8 @@ bool is_titled(const StepColumn& column, std::string_view title) {
          (!column.former_name.empty() && title == title_of(column.former_name, column.unit));
 }
 
-std::vector<std::string> parse_header(const std::string& file, std::string_view line) {
+/// The table without rows.
+StepTable parse_header(const std::string& file, std::string_view line) {
   const std::vector<std::string_view> titles = split(line);
   const auto refuse = [&](std::size_t i, const std::string& expected) {
     throw InputError(file + ": line 1: column " + std::to_string(i + 1) + " is '" +
@@ -86,24 +90,35 @@ std::vector<std::string> parse_header(const std::string& file, std::string_view 
   };
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (i >= titles.size() || !is_titled(columns[i], titles[i])) refuse(i, column_title(columns[i]));
-  std::vector<std::string> stage_names;
-  for (std::size_t i = columns.size(); i < titles.size(); ++i) {
+  StepTable table;
+  table.has_solids = titles.size() > columns.size() && titles[columns.size()] == column_title(solid_column);
+  for (std::size_t i = columns.size() + (table.has_solids ? 1 : 0); i < titles.size(); ++i) {
     if (!titles[i].starts_with(stage_prefix) || !titles[i].ends_with(stage_unit)) refuse(i, "stage_NAME [ms]");
-    stage_names.emplace_back(
+    table.stage_names.emplace_back(
         titles[i].substr(stage_prefix.size(), titles[i].size() - stage_prefix.size() - stage_unit.size()));
   }
-  return stage_names;
+  return table;
 }
 
-/// False where the line is not a row of so many stages.
-bool parse_row(std::string_view line, std::size_t stage_count, StepMetrics& row) {
+/// How many numbers a row has.
+std::size_t width_of(const StepTable& table) {
+  return columns.size() + (table.has_solids ? 1 : 0) + table.stage_names.size();
+}
+
+/// False where the line is not a row of such a table.
+bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) {
   const std::vector<std::string_view> parts = split(line);
-  if (parts.size() != columns.size() + stage_count) return false;
+  if (parts.size() != width_of(table)) return false;
+  const auto read = [&](std::size_t i, const StepColumn& column) {
+    return std::visit([&](auto field) { return parse(parts[i], row.*field); }, column.field);
+  };
   for (std::size_t i = 0; i < columns.size(); ++i)
-    if (!std::visit([&](auto field) { return parse(parts[i], row.*field); }, columns[i].field)) return false;
+    if (!read(i, columns[i])) return false;
+  if (table.has_solids && !read(columns.size(), solid_column)) return false;
+  const std::size_t stage_count = table.stage_names.size(), first = parts.size() - stage_count;
   row.stage_ms.resize(stage_count);
   for (std::size_t i = 0; i < stage_count; ++i)
-    if (!parse(parts[columns.size() + i], row.stage_ms[i])) return false;
+    if (!parse(parts[first + i], row.stage_ms[i])) return false;
   return true;
 }
 
@@ -111,18 +126,19 @@ bool parse_row(std::string_view line, std::size_t stage_count, StepMetrics& row)
 
 std::span<const StepColumn> step_columns() { return columns; }
 
-std::string step_header(std::span<const std::string> stage_names) {
+std::string step_header(std::span<const std::string> stage_names, bool has_solids) {
   std::string text;
   for (const StepColumn& column : columns) {
     if (!text.empty()) text += ',';
     text += column_title(column);
   }
+  if (has_solids) text += "," + column_title(solid_column);
   for (const std::string& name : stage_names) text.append(",").append(stage_prefix).append(name).append(stage_unit);
   text += '\n';
   return text;
 }
 
-std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count) {
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids) {
   std::string text;
   for (const StepMetrics& row : rows) {
     if (!row.stage_ms.empty() && row.stage_ms.size() != stage_count)
@@ -131,6 +147,7 @@ std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_coun
       if (&column != &columns.front()) text += ',';
       std::visit([&](auto field) { print(text, row.*field); }, column.field);
     }
+    if (has_solids) text += "," + std::to_string(row.inverted_tetrahedra);
     for (std::size_t i = 0; i < stage_count; ++i) {
       text += ',';
       print(text, row.stage_ms.empty() ? std::numeric_limits<double>::quiet_NaN() : row.stage_ms[i]);
@@ -153,10 +170,10 @@ StepTable read_steps(const std::filesystem::path& folder, std::int64_t last) {
     if (number > 0 && std::from_chars(line.data(), line.data() + line.size(), step).ec == std::errc{} && step > last)
       break;
     if (++number == 1)
-      table.stage_names = parse_header(path.string(), line);
-    else if (!parse_row(line, table.stage_names.size(), table.rows.emplace_back()))
+      table = parse_header(path.string(), line);
+    else if (!parse_row(line, table, table.rows.emplace_back()))
       throw InputError(path.string() + ": line " + std::to_string(number) + ": is no row of " +
-                       std::to_string(columns.size() + table.stage_names.size()) +
+                       std::to_string(width_of(table)) +
                        " numbers: the file was changed by hand or is damaged; remove the line");
   }
   if (number == 0)

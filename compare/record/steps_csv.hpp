@@ -10,32 +10,33 @@
 #include <variant>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::compare {
 
 /// One column: "name [unit]" in the header.
 struct StepColumn {
-  std::string_view name, unit;
+  std::string_view name, unit;  ///< of the heading: "wall_ms", "ms"
   std::variant<double StepMetrics::*, std::int64_t StepMetrics::*, std::uint32_t StepMetrics::*> field;
   std::string_view former_name{};  ///< in run format 1, where it is another one; read, never written
 };
 
-/// All columns but those of the stages, in the order of the file.
+/// All columns but those of solids and stages, in the order of the file.
 std::span<const StepColumn> step_columns();
 
-/// The header line; stages become "stage_NAME [ms]".
-std::string step_header(std::span<const std::string> stage_names);
+/// The header line; stages become "stage_NAME [ms]". Only rows of scenes with solids have `inverted_tetrahedra`.
+std::string step_header(std::span<const std::string> stage_names, bool has_solids = false);
 
 /// One line a row; numbers read back as the same double, "nan" where a quantity was not asked for. Rows without times
 /// by stage get "nan" in each stage's column. Throws std::invalid_argument where a row has times for another number of
 /// stages.
-std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count);
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids = false);
 
 /// What steps.csv holds so far.
 struct StepTable {
-  std::vector<std::string> stage_names;
-  std::vector<StepMetrics> rows;
+  std::vector<std::string> stage_names;  ///< columns of `--profile`
+  std::vector<StepMetrics> rows{};       ///< in the order of the steps
+  bool has_solids = false;               ///< with a column `inverted_tetrahedra`
 };
 
 /// Reads steps.csv of a run up to the row of step `last`. A last line without its end (the run was killed) is left out.

@@ -1,35 +1,13 @@
 #include "compare/record/vtp.hpp"
 
-#include <bit>
-
 #include "compare/problem/text.hpp"
+#include "compare/record/vtk_appended.hpp"
 
 namespace ogc::compare {
 namespace {
 
-constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-
-/// Collects the arrays behind the XML: each with its length in bytes before it, named in the XML by its offset.
-class Appended {
- public:
-  template <class T>
-  std::string array(const char* type, const char* name, std::span<const T> values, int components = 1) {
-    std::string tag = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-                      std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) +
-                      "\"/>";
-    const std::uint64_t size = values.size_bytes();
-    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
-    return tag;
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
 template <std::size_t Corners>
-std::string cells(Appended& appended, const char* kind, const std::vector<std::array<Index, Corners>>& cells) {
+std::string cells(AppendedArrays& appended, const char* kind, const std::vector<std::array<Index, Corners>>& cells) {
   std::vector<Index> connectivity, ends;
   for (const auto& cell : cells) {
     connectivity.insert(connectivity.end(), cell.begin(), cell.end());
@@ -40,11 +18,11 @@ std::string cells(Appended& appended, const char* kind, const std::vector<std::a
 }
 
 /// The whole file: `data` are the arrays of points and cells, `points` the array of the positions.
-std::string file_text(const Mesh& mesh, const std::string& data, const std::string& points, Appended& appended) {
+std::string file_text(const Mesh& mesh, const std::string& data, const std::string& points, AppendedArrays& appended) {
   std::string text =
       std::string(
           "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" header_type=\"UInt64\" byte_order=\"") +
-      byte_order + "\">\n<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(mesh.positions.size()) +
+      vtk_byte_order + "\">\n<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(mesh.positions.size()) +
       "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(mesh.loose_edges.size()) +
       "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(mesh.triangles.size()) + "\">\n";
   text += data + "<Points>" + points + "</Points>\n";
@@ -57,7 +35,7 @@ std::string file_text(const Mesh& mesh, const std::string& data, const std::stri
 }  // namespace
 
 std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame) {
-  Appended appended;
+  AppendedArrays appended;
   const std::string data = "<PointData Vectors=\"velocity\">" +
                            appended.array("Float32", "velocity", as_floats(frame.velocities), 3) +
                            appended.array("Float32", "bound", std::span<const float>(frame.bounds)) +
@@ -67,7 +45,7 @@ std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Fra
 }
 
 std::string vtp_bytes(const LabelledMesh& part) {
-  Appended appended;
+  AppendedArrays appended;
   const auto labels = [&](const char* name, const std::vector<Index>& numbers) {
     return appended.array("Int32", name, std::span<const Index>(numbers));
   };
@@ -84,7 +62,7 @@ std::string vtp_bytes(const LabelledMesh& part) {
 std::string pvd_text(const std::vector<std::pair<double, std::string>>& files) {
   std::string text = std::string(
                          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"") +
-                     byte_order + "\">\n<Collection>\n";
+                     vtk_byte_order + "\">\n<Collection>\n";
   for (const auto& [time, file] : files)
     text += "<DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" + file + "\"/>\n";
   return text + "</Collection>\n</VTKFile>\n";

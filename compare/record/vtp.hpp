@@ -16,7 +16,7 @@ std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Fra
 
 /// A part of a mesh, with numbers that say what it is a part of.
 struct LabelledMesh {
-  Mesh mesh;
+  Mesh mesh;                          ///< its polygons as triangles
   std::vector<Index> vertex_numbers;  ///< by vertex
   std::vector<Index> cell_numbers;    ///< by loose edge, then by triangle
   std::vector<Index> cell_counts;     ///< likewise: how many intersections it is named in

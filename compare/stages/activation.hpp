@@ -12,8 +12,8 @@ namespace ogc::compare {
 /// n cases: r [m] and k_c [N/m] within 2⁻²⁰ … 2²⁰, distance d [m] from the smaller of
 /// 2⁻²⁰ and 2⁻⁴⁰ r to 2²⁰; which energy.
 struct ActivationIn {
-  std::vector<float> distance, contact_radius, stiffness;
-  std::vector<ContactActivation> activation;
+  std::vector<float> distance, contact_radius, stiffness;  ///< by case: d [m], r [m], k_c [N/m]
+  std::vector<ContactActivation> activation;               ///< by case
 };
 
 /// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic stage holds. `ogc`: k_c/2 (r − d)² from τ on,
@@ -21,15 +21,15 @@ struct ActivationIn {
 /// r)², numbers in metres, so that g' jumps at τ; `quadratic`: k_c/2 (r − d)²; `ipc_log`: −k_c (d − r)² ln(d/r);
 /// `cubic`: 2 k_c/(3r) (r − d)³.
 struct ActivationOut {
-  std::vector<float> energy, slope, curvature;
+  std::vector<float> energy, slope, curvature;  ///< by case: g [J], g' [N], g'' [N/m]
 };
 
 /// Values in double from multiprecision, and the sum of the moduli of the terms of which each consists, but at least
 /// 2⁻¹⁰² where d < r: the unit of the errors. u times that is the smallest normal number, so that underflow next to r
 /// counts little.
 struct ActivationTruth {
-  std::vector<double> energy, slope, curvature;
-  std::vector<double> energy_scale, slope_scale, curvature_scale;
+  std::vector<double> energy, slope, curvature;                    ///< exact
+  std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 
 /// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ

@@ -20,19 +20,19 @@ namespace ogc::compare {
 /// With `per_vertex` damping the energy is the elastic term alone; with B, its block, and moved = x − xᵗ of the vertex
 /// the force is less k B moved, and the block (1 + k) B.
 struct BendingCase {
-  std::array<Vec3f, 4> vertex;  ///< x0, x1, o0, o1 [m]
-  std::array<Vec3f, 4> start;   ///< likewise at the start of the step, for θᵗ
-  float stiffness = 0;          ///< c [J]
-  float rest_angle = 0;         ///< θ₀ [rad]
-  float damping = 0;            ///< k = k_d/h [1]
-  std::int32_t own = 0;         ///< which vertex is asked about, 0 … 3
-  BendingModel model = BendingModel::discrete_hinge;
-  std::array<float, 3> weight{};  ///< w of x1, o0, o1 [1/m]; that of x0 is minus their sum
-  DampingForm damping_form = DampingForm::strain;
+  std::array<Vec3f, 4> vertex;                        ///< x0, x1, o0, o1 [m]
+  std::array<Vec3f, 4> start;                         ///< likewise at the start of the step, for θᵗ
+  float stiffness = 0;                                ///< c [J]
+  float rest_angle = 0;                               ///< θ₀ [rad]
+  float damping = 0;                                  ///< k = k_d/h [1]
+  std::int32_t own = 0;                               ///< which vertex is asked about, 0 … 3
+  BendingModel model = BendingModel::discrete_hinge;  ///< which energy
+  std::array<float, 3> weight{};                      ///< w of x1, o0, o1 [1/m]; that of x0 is minus their sum
+  DampingForm damping_form = DampingForm::strain;     ///< which damping
 };
 
 struct BendingIn {
-  std::vector<BendingCase> cases;
+  std::vector<BendingCase> cases;  ///< each by itself
 };
 
 /// In units of u · scale. A difference (1), a normal (a product and a difference, twice where it is squared), its

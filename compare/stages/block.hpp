@@ -20,17 +20,17 @@ struct BlockQuestion {
     /// 10⁻⁶‖e‖²‖e'‖²) are no legal question of this stage (their contacts: compare/stages/detect_edge_edge.hpp).
     edge_in_edges,
   };
-  Kind kind = Kind::vertex_in_surface;
-  Index of = -1;  ///< a vertex, or an edge, that has no vertex in common with a
-  Face face;      ///< a; no triangle where kind is edge_in_edges
+  Kind kind = Kind::vertex_in_surface;  ///< what `of` counts
+  Index of = -1;                        ///< a vertex, or an edge, that has no vertex in common with a
+  Face face;                            ///< a; no triangle where kind is edge_in_edges
   friend bool operator==(const BlockQuestion&, const BlockQuestion&) = default;
 };
 
 /// Positions are at most 2²⁰ m in modulus, however small; collapsed triangles and edges are legal.
 struct BlockIn {
-  const Topology* topology = nullptr;
-  std::span<const Vec3f> positions;  ///< [m], length vertex_count
-  std::span<const BlockQuestion> questions;
+  const Topology* topology = nullptr;        ///< of the mesh
+  std::span<const Vec3f> positions;          ///< [m], length vertex_count
+  std::span<const BlockQuestion> questions;  ///< each by itself
 };
 
 struct BlockOut {
@@ -40,8 +40,8 @@ struct BlockOut {
 /// grey: a margin that decides the answer lies in its grey zone; either answer is accepted there. For an edge in edges
 /// that includes the margins that say which point of `of` is closest.
 struct BlockTruth {
-  std::vector<std::uint8_t> inside, grey;
-  std::vector<std::uint8_t> near;  ///< 1 where such a margin lies within near_factor
+  std::vector<std::uint8_t> inside, grey;  ///< exact; 1 where either answer is accepted
+  std::vector<std::uint8_t> near;          ///< 1 where such a margin lies within near_factor
 };
 
 }  // namespace ogc::compare

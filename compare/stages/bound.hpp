@@ -10,18 +10,20 @@
 namespace ogc::compare {
 
 struct BoundIn {
-  const Topology* topology = nullptr;
+  const Topology* topology = nullptr;                               ///< of the mesh
   std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
   float bound_relaxation = 0.45f;                                   ///< γ_p
 };
 
 struct BoundOut {
-  std::vector<float> bound;  ///< b_v [m], by vertex; never above γ_p · min(…)
+  /// b_v [m], by vertex; never above γ_p · min(…). Of a vertex inside a solid (Topology::on_surface), which nothing
+  /// bounds, the largest finite number.
+  std::vector<float> bound;
 };
 
 /// Exact: the largest single-precision number that is not above the real product.
 struct BoundTruth {
-  BoundOut exact;
+  BoundOut exact;  ///< rounded down
 };
 
 /// One-sided. Largest shortfall in units of u · b: one product, rounded down (2 u), in a kernel that may round to

@@ -16,8 +16,8 @@ enum class TriangleFeature : std::uint8_t { corner_0, corner_1, corner_2, edge_0
 /// n independent cases; all arrays have length n. Coordinates [m]. A triangle of zero area is legal: its interior is
 /// never the closest face.
 struct ClosestFaceIn {
-  std::vector<Vec3f> point;
-  std::vector<std::array<Vec3f, 3>> triangle;
+  std::vector<Vec3f> point;                    ///< by case [m]
+  std::vector<std::array<Vec3f, 3>> triangle;  ///< by case and corner [m]
 };
 
 struct ClosestFaceOut {
@@ -32,8 +32,8 @@ struct ClosestFaceOut {
 /// those on the other side of a boundary. Distances: `distance_below` is the largest single-precision number that is
 /// not above the exact distance.
 struct ClosestFaceTruth {
-  ClosestFaceOut exact;
-  std::vector<std::uint8_t> accepted;
+  ClosestFaceOut exact;                        ///< rounded
+  std::vector<std::uint8_t> accepted;          ///< bit f: feature f is accepted
   std::vector<std::uint8_t> near;              ///< 1 where a margin between features lies within near_factor
   std::vector<double> distance;                ///< [m], within 2⁻⁴⁰ max(distance, Σ|δ|)
   std::vector<std::array<double, 3>> weights;  ///< within 2⁻⁴⁰ weight_condition

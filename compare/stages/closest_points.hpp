@@ -10,34 +10,34 @@
 
 namespace ogc::compare {
 
-enum class EdgeFeature : std::uint8_t { end_0, end_1, interior };
+enum class EdgeFeature : std::uint8_t { end_0, end_1, interior };  ///< of a closed edge
 
 /// n independent cases; `first` is the lower-numbered edge. Edges of zero length are legal (during a run): such an edge
 /// is its end_0.
 struct ClosestPointsIn {
-  std::vector<std::array<Vec3f, 2>> first, second;
+  std::vector<std::array<Vec3f, 2>> first, second;  ///< by case and end [m]
 };
 
 /// `nearly_parallel`: ‖e×e'‖² < 10⁻⁶ ‖e‖² ‖e'‖² and the projection of the second edge on the line of the first overlaps
 /// the first in more than a point. Then both features are interior, and the points are the middle of the overlap and
 /// its projection on the (closed) second edge.
 struct ClosestPointsOut {
-  std::vector<EdgeFeature> first_feature, second_feature;
-  std::vector<std::uint8_t> nearly_parallel;
-  std::vector<std::array<float, 2>> parameters;  ///< of the contact points, in [0, 1] from end_0 to end_1
-  std::vector<float> contact_distance;           ///< [m], between the contact points, nearest
-  std::vector<float> distance_below;             ///< [m], never above the exact distance of the two edges
+  std::vector<EdgeFeature> first_feature, second_feature;  ///< where the closest points lie
+  std::vector<std::uint8_t> nearly_parallel;               ///< 0 or 1
+  std::vector<std::array<float, 2>> parameters;            ///< of the contact points, in [0, 1] from end_0 to end_1
+  std::vector<float> contact_distance;                     ///< [m], between the contact points, nearest
+  std::vector<float> distance_below;                       ///< [m], never above the exact distance of the two edges
 };
 
 /// Code of an answer: first_feature + 3 · second_feature + 9 · nearly_parallel; bit `code` of `accepted` says whether
 /// it is acceptable.
 struct ClosestPointsTruth {
-  ClosestPointsOut exact;
-  std::vector<std::uint32_t> accepted;
-  std::vector<std::uint8_t> near;                  ///< 1 where a margin between answers lies within near_factor
+  ClosestPointsOut exact;               ///< rounded
+  std::vector<std::uint32_t> accepted;  ///< bit f + 3 f' + 9 p: features f, f' and nearly_parallel p are accepted
+  std::vector<std::uint8_t> near;       ///< 1 where a margin between answers lies within near_factor
   std::vector<double> contact_distance, distance;  ///< [m]
-  std::vector<std::array<double, 2>> parameters;
-  std::vector<double> parameter_condition;  ///< as weight_condition of closest_face
+  std::vector<std::array<double, 2>> parameters;   ///< exact
+  std::vector<double> parameter_condition;         ///< as weight_condition of closest_face
 };
 
 /// Units as in closest_face; the interior–interior solution has two more products in its determinant.

@@ -36,18 +36,18 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// and e_k g'' at the exact distance, which no point of it can exceed, or 2 e_k g'' where others are updated together.
 /// d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
-  ContactSides sides = ContactSides::point_point;
-  std::int32_t own = 0;                     ///< which vertex is asked about, 0 … vertex_count(sides) − 1
-  std::array<Vec3f, 4> vertex;              ///< x [m]; what the sides lack is 0
-  std::array<Vec3f, 4> detected;            ///< x at the last detection [m], for e_k
-  std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 of an edge without triangles
-  float contact_radius = 0, stiffness = 0;  ///< r [m], k_c [N/m]
-  ContactActivation activation = ContactActivation::ogc;
+  ContactSides sides = ContactSides::point_point;  ///< what meets
+  std::int32_t own = 0;                            ///< which vertex is asked about, 0 … vertex_count(sides) − 1
+  std::array<Vec3f, 4> vertex;                     ///< x [m]; what the sides lack is 0
+  std::array<Vec3f, 4> previous;                   ///< X_prev, x at the last detection [m], for e_k
+  std::array<float, 2> rest_squared{};             ///< ‖ē‖², ‖ē'‖² [m²]; 0 of an edge without triangles
+  float contact_radius = 0, stiffness = 0;         ///< r [m], k_c [N/m]
+  ContactActivation activation = ContactActivation::ogc;  ///< g
   std::uint8_t together = 0;  ///< bit k: vertex k is updated together with the own one, whose bit means nothing
 };
 
 struct ContactForceIn {
-  std::vector<ContactForceCase> cases;
+  std::vector<ContactForceCase> cases;  ///< each by itself
 };
 
 /// In units of u · scale. On the longest way from an input to the force lie a difference (1), the first parameter of

@@ -1,4 +1,4 @@
-// What the two detections share: their question, and how grey cases are listed.
+// What the two detections share: their question, and lists of grey cases.
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@ namespace ogc::compare {
 
 /// The question of detect_vertex_facet and detect_edge_edge. Views; the owner must outlive the call.
 struct DetectIn {
-  const Topology* topology = nullptr;
-  ExclusionView exclusions;          ///< groups: length vertex_count or 0 (see exclusions(Scene))
-  std::span<const Vec3f> positions;  ///< [m], length vertex_count
-  float contact_radius = 0;          ///< r [m]
-  float query_radius = 0;            ///< r_q ≥ r [m]
+  const Topology* topology = nullptr;  ///< of the mesh
+  ExclusionView exclusions;            ///< groups: length vertex_count or 0 (see exclusions(Scene))
+  std::span<const Vec3f> positions;    ///< [m], length vertex_count
+  float contact_radius = 0;            ///< r [m]
+  float query_radius = 0;              ///< r_q ≥ r [m]
 };
 
 /// A grey decision: any one of `contacts` may stand in the answer, and none at all only where `absence_accepted`.
 template <class Contact>
 struct GreyDecision {
-  std::vector<Contact> contacts;
-  bool absence_accepted = false;
+  std::vector<Contact> contacts;  ///< any of them may be answered
+  bool absence_accepted = false;  ///< none of them may be, too
 };
 
 /// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as distance_below of the pair

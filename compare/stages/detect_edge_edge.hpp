@@ -15,23 +15,23 @@ namespace ogc::compare {
 /// {p, q}, each a vertex or the interior of an edge, first < second as faces. `first_edge` ∋ first and `second_edge` ∋
 /// second are the lowest-numbered edges that generate the pair: lexicographically smallest (min, max) of both.
 struct EdgeEdgeContact {
-  Face first, second;
-  Index first_edge = -1, second_edge = -1;
+  Face first, second;                       ///< a vertex or an edge each, the lower face first
+  Index first_edge = -1, second_edge = -1;  ///< that generate the pair, in the order of the faces
   friend auto operator<=>(const EdgeEdgeContact&, const EdgeEdgeContact&) = default;
 };
 
 /// Canonical order: by (first, second).
 struct DetectEdgeEdgeOut {
-  std::vector<EdgeEdgeContact> contacts;
-  std::vector<float> d_min_edge;  ///< min over non-adjacent edges, at most r_q [m], never above the exact value
+  std::vector<EdgeEdgeContact> contacts;  ///< in any order
+  std::vector<float> d_min_edge;          ///< min over non-adjacent edges, at most r_q [m], never above the exact value
 };
 
 /// The exact answer and each grey decision.
 struct DetectEdgeEdgeTruth {
-  DetectEdgeEdgeOut exact;
-  std::vector<GreyDecision<EdgeEdgeContact>> grey;
-  std::size_t pairs = 0;
-  std::size_t near = 0;  ///< edges of which some decision lies within near_factor
+  DetectEdgeEdgeOut exact;                          ///< in canonical order, distances rounded down
+  std::vector<GreyDecision<EdgeEdgeContact>> grey;  ///< all there are
+  std::size_t pairs = 0;                            ///< decided
+  std::size_t near = 0;                             ///< edges of which some decision lies within near_factor
 };
 
 }  // namespace ogc::compare

@@ -10,15 +10,15 @@ namespace ogc::compare {
 
 /// v is in contact with the face: x_v ∈ U_a and d < r. `owner` is the lowest-numbered triangle that contains the face.
 struct VertexFacetContact {
-  Index vertex = -1;
-  Face face;
-  Index owner = -1;
+  Index vertex = -1;  ///< v
+  Face face;          ///< that it touches
+  Index owner = -1;   ///< triangle whose list holds it
   friend auto operator<=>(const VertexFacetContact&, const VertexFacetContact&) = default;
 };
 
 /// Canonical order: by vertex, then face. V_OGC(t) is the same list by owner.
 struct DetectVertexFacetOut {
-  std::vector<VertexFacetContact> contacts;
+  std::vector<VertexFacetContact> contacts;  ///< in any order
   std::vector<float> d_min_vertex;    ///< min over non-adjacent triangles, at most r_q [m], never above the exact value
   std::vector<float> d_min_triangle;  ///< min over non-adjacent vertices, at most r_q [m], never above the exact value
 };
@@ -26,10 +26,10 @@ struct DetectVertexFacetOut {
 /// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; each grey
 /// decision.
 struct DetectVertexFacetTruth {
-  DetectVertexFacetOut exact;
-  std::vector<GreyDecision<VertexFacetContact>> grey;
-  std::size_t pairs = 0;  ///< candidates within r_q, the denominator of the grey share
-  std::size_t near = 0;   ///< vertices of which some decision lies within near_factor
+  DetectVertexFacetOut exact;                          ///< in canonical order, distances rounded down
+  std::vector<GreyDecision<VertexFacetContact>> grey;  ///< all there are
+  std::size_t pairs = 0;                               ///< candidates within r_q, the denominator of the grey share
+  std::size_t near = 0;                                ///< vertices of which some decision lies within near_factor
 };
 
 }  // namespace ogc::compare

@@ -15,8 +15,8 @@ namespace ogc::compare {
 /// By case: force −∂E/∂x [N] and the symmetric 3×3 block of the sweep, xx, xy, xz, yy, yz, zz [N/m], both of the vertex
 /// asked about.
 struct ForceOut {
-  std::vector<Vec3f> force;
-  std::vector<std::array<float, 6>> block;
+  std::vector<Vec3f> force;                 ///< [N]
+  std::vector<std::array<float, 6>> block;  ///< xx, xy, xz, yy, yz, zz [N/m]
 };
 
 /// One acceptable answer, and the units of its errors: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil, where
@@ -24,9 +24,9 @@ struct ForceOut {
 /// them relative to a vertex of its choice). It is what a relative change u of each input does to the answer, so no
 /// formula that reads single-precision differences can do much better.
 struct ForceAnswer {
-  Vec3 force;
-  std::array<double, 6> block{};
-  double force_scale = 0, block_scale = 0;
+  Vec3 force;                               ///< [N]
+  std::array<double, 6> block{};            ///< [N/m]
+  double force_scale = 0, block_scale = 0;  ///< units of their errors [N], [N/m]
 };
 
 /// A force with `per_vertex` damping is known as well as the block, and the motion (1), the product of matrix and
@@ -38,8 +38,8 @@ inline constexpr double per_vertex_additions = 5;
 /// features of the closest points, d = r, and d = τ of an activation with two stages. The other energies decide nothing
 /// that their answers would show.
 struct ForceTruth {
-  std::vector<std::vector<ForceAnswer>> accepted;
-  std::vector<std::uint8_t> near;
+  std::vector<std::vector<ForceAnswer>> accepted;  ///< by case, the exact one first
+  std::vector<std::uint8_t> near;                  ///< by case
 };
 
 }  // namespace ogc::compare

@@ -10,14 +10,14 @@ namespace ogc::compare {
 /// (xᵢ − xᵢᵗ). Force −μ λ f₁(‖u‖)/‖u‖ w u, block μ λ f₁(‖u‖)/‖u‖ w² (I − n nᵀ) (for w² as in contact_force: |w| Σ
 /// |w_u|), with f₁(y) = −y²/ε² + 2y/ε for y < ε = ε_v h, 1 above; f₁(y)/y = 2/ε at y = 0.
 struct FrictionForceCase {
-  ContactForceCase contact;
+  ContactForceCase contact;    ///< whose normal force is λ
   std::array<Vec3f, 4> start;  ///< xᵗ [m]
   float friction = 0;          ///< μ [1]
   float slip_limit = 0;        ///< ε_v h [m]
 };
 
 struct FrictionForceIn {
-  std::vector<FrictionForceCase> cases;
+  std::vector<FrictionForceCase> cases;  ///< each by itself
 };
 
 /// In units of u · scale. As far as the normal (contact_force) 36; the slip (a product of vectors (3), a product, a

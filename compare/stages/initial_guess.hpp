@@ -22,7 +22,7 @@ struct InitialGuessCase {
 };
 
 struct InitialGuessIn {
-  std::vector<InitialGuessCase> cases;
+  std::vector<InitialGuessCase> cases;  ///< each by itself
 };
 
 /// The position that is stored obeys ‖x − x_prev‖ ≤ b_v exactly.
@@ -34,7 +34,7 @@ struct InitialGuessOut {
 /// Exact y with the sum of the moduli of its terms in each coordinate. Position and cut are those of the *given* y
 /// (stage truncate): the judge asks for them.
 struct InitialGuessTruth {
-  std::vector<Vec3> target;
+  std::vector<Vec3> target;          ///< exact y [m]
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
 };
 

@@ -32,12 +32,12 @@ struct MembraneCase {
   float area = 0;                                  ///< A [m²]
   float lame_lambda = 0, lame_mu = 0;              ///< [N/m]
   float damping = 0;                               ///< k = k_d/h [1]
-  MembraneModel model = MembraneModel::st_venant_kirchhoff;
-  DampingForm damping_form = DampingForm::strain;
+  MembraneModel model = MembraneModel::st_venant_kirchhoff;  ///< which energy
+  DampingForm damping_form = DampingForm::strain;            ///< which damping
 };
 
 struct MembraneIn {
-  std::vector<MembraneCase> cases;
+  std::vector<MembraneCase> cases;  ///< each by itself
 };
 
 /// In units of u · scale. On the longest way from an input to the force lie a difference (1), F (a product and a sum),

@@ -1,4 +1,4 @@
-// The one unit in which tolerances are written.
+// The one unit of tolerances.
 #pragma once
 
 namespace ogc::compare {

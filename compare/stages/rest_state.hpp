@@ -1,6 +1,6 @@
-// Stage rest_state: what is computed once of the rest shape: masses, membrane and hinge stencils, rest lengths,
-// materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both sides then sweep with
-// the very same single-precision numbers.
+// Stage rest_state: what a simulation computes once of the rest shape: masses, membrane and hinge stencils, rest
+// lengths, materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both sides then
+// sweep with the very same single-precision numbers.
 #pragma once
 
 #include <vector>
@@ -12,47 +12,61 @@ namespace ogc::compare {
 
 struct RestTriangle {
   Triangle corner{};  ///< in the order of the mesh
-  Index body = -1;
-  float area = 0;  ///< A [m²]
+  Index body = -1;    ///< whose material it has
+  float area = 0;     ///< A [m²]
   /// ∇N₁, ∇N₂ [1/m] in the frame whose first axis points from corner 0 to corner 1, corner 2 above it
   std::array<std::array<float, 2>, 2> gradient{};
 };
 
 struct RestHinge {
   std::array<Index, 4> vertex{};  ///< x0 < x1 of the edge, then Hinge::opposite
-  Index body = -1;
-  float rest_angle = 0;  ///< θ₀ [rad], as θ of compare/stages/bending.hpp
-  float stiffness = 0;   ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
+  Index body = -1;                ///< whose material it has
+  float rest_angle = 0;           ///< θ₀ [rad], as θ of compare/stages/bending.hpp
+  float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
   /// Of the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) =
   /// −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖, w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ of the sums K of
   /// cotangents.
   std::array<float, 3> weight{};
 };
 
+/// A tetrahedron of a solid. What the elastic energy reads (`weight`, `inverse`) and what else reads F (`gradient`,
+/// `volume`) is rounded each by itself.
+struct RestTetrahedron {
+  Tetrahedron corner{};  ///< in the order of the mesh
+  Index body = -1;
+  float volume = 0;                                ///< V [m³]
+  float inverse = 0;                               ///< 1/(6V) [1/m³]
+  std::array<float, 6> weight{};                   ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
+  std::array<std::array<float, 3>, 3> gradient{};  ///< ∇N₁, ∇N₂, ∇N₃ [1/m]
+};
+
 /// Two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
 struct MeetingMaterial {
-  float stiffness = 0, friction = 0;
+  float stiffness = 0, friction = 0;  ///< k_c [N/m], μ_c
 };
 
 /// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no
-/// fixed body holds has a triangle. Topology: `build_topology(scene)`.
+/// fixed body holds has a triangle or a tetrahedron. Topology: `build_topology(scene)`.
 struct RestStateIn {
-  const Scene* scene = nullptr;
-  const Topology* topology = nullptr;
+  const Scene* scene = nullptr;        ///< rounded
+  const Topology* topology = nullptr;  ///< of its mesh
 };
 
-/// Triangles and hinges in the order of the topology, without those of fixed bodies and of models `none`.
+/// Triangles and hinges in the order of the topology, without those of fixed bodies, of solids and of models `none`;
+/// tetrahedra in the order of the mesh, without those of fixed bodies.
 struct RestStateOut {
-  std::vector<float> mass;  ///< m_v [kg]: a third of ρ A of each triangle at v; 0 on fixed bodies
-  std::vector<RestTriangle> triangles;
-  std::vector<RestHinge> hinges;
+  /// m_v [kg]: a third of ρ A of each triangle at v, on solids a quarter of ρ V of each tetrahedron; 0 on fixed bodies
+  std::vector<float> mass;
+  std::vector<RestTriangle> triangles;     ///< in the order of the mesh
+  std::vector<RestHinge> hinges;           ///< in the order of the topology
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
+  std::vector<RestTetrahedron> tetrahedra{};
 };
 
 /// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one
 /// vertex. `gradient` units are of ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its
-/// triangles; a meeting's is its value.
+/// triangles or tetrahedra; a meeting's is its value.
 struct RestStateTruth {
   RestStateOut exact;  ///< correctly rounded
   std::vector<double> mass, mass_scale;
@@ -64,6 +78,11 @@ struct RestStateTruth {
   std::vector<std::array<double, 3>> weight;
   std::vector<double> weight_scale;
   std::vector<double> meeting_stiffness, meeting_friction;
+  std::vector<double> volume, volume_scale, inverse, inverse_scale;
+  /// one unit for all weights of a tetrahedron, and one for all gradients
+  std::vector<std::array<double, 6>> tetrahedron_weight;
+  std::vector<std::array<std::array<double, 3>, 3>> tetrahedron_gradient;
+  std::vector<double> tetrahedron_weight_scale, tetrahedron_gradient_scale;
 };
 
 /// In units of u · scale. The one rounding to single precision: u of the value, and no scale is below its value but

@@ -17,17 +17,17 @@ namespace ogc::compare {
 ///
 /// Legal are lengths of 0 and from 2⁻⁶³ m on, now and at the start, whose squares are normal numbers.
 struct SpringCase {
-  std::array<Vec3f, 3> vertex, start;  ///< x, xᵗ [m]
-  float stiffness = 0;                 ///< k_s [N/m]
-  float rest_length = 0;               ///< l₀ [m]
-  float damping = 0;                   ///< k = k_d/h [1]
-  float ratio = 0;                     ///< s [1], from 0 to 1
-  std::int32_t own = 0;                ///< which vertex is asked about; 2 only where s > 0
-  DampingForm damping_form = DampingForm::strain;
+  std::array<Vec3f, 3> vertex, start;              ///< x, xᵗ [m]
+  float stiffness = 0;                             ///< k_s [N/m]
+  float rest_length = 0;                           ///< l₀ [m]
+  float damping = 0;                               ///< k = k_d/h [1]
+  float ratio = 0;                                 ///< s [1], from 0 to 1
+  std::int32_t own = 0;                            ///< which vertex is asked about; 2 only where s > 0
+  DampingForm damping_form = DampingForm::strain;  ///< which damping
 };
 
 struct SpringIn {
-  std::vector<SpringCase> cases;
+  std::vector<SpringCase> cases;  ///< each by itself
 };
 
 /// In units of u · scale. A difference (1), a length (a square: 1 + 2 more, halved with those of the difference by the

@@ -16,27 +16,27 @@ enum class StepEventKind : std::uint8_t {
 };
 
 struct StepEvent {
-  StepEventKind kind = StepEventKind::detection;
+  StepEventKind kind = StepEventKind::detection;  ///< what was done
   std::vector<Vec3f> position;  ///< x after the event [m]; of a detection X_prev as later events read it
-  Index cut = 0;                ///< guess, sweep: how many vertices were cut
+  Index cut = 0;                ///< guess, sweep: how many vertices it cut
   // detection alone
-  DetectVertexFacetOut vertex_facet;
-  DetectEdgeEdgeOut edge_edge;
-  std::vector<float> bound;  ///< b_v [m]
+  DetectVertexFacetOut vertex_facet;  ///< of a detection
+  DetectEdgeEdgeOut edge_edge;        ///< of a detection
+  std::vector<float> bound;           ///< b_v [m]
 };
 
 /// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.
 struct StepIn {
-  const Scene* scene = nullptr;
-  const Topology* topology = nullptr;
+  const Scene* scene = nullptr;        ///< rounded; the step begins at its start
+  const Topology* topology = nullptr;  ///< of its mesh
 };
 
 struct StepOut {
-  std::vector<Index> colour;  ///< of the sweeps
-  RestStateOut rest;          ///< of the sweeps
-  float query_radius = 0;     ///< r_q [m]
-  std::vector<Vec3f> target;  ///< y [m]
-  std::vector<StepEvent> events;
+  std::vector<Index> colour;              ///< of the sweeps
+  RestStateOut rest;                      ///< of the sweeps
+  float query_radius = 0;                 ///< r_q [m]
+  std::vector<Vec3f> target;              ///< y [m]
+  std::vector<StepEvent> events;          ///< in order
   std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
 };
 

@@ -16,16 +16,16 @@
 namespace ogc::compare {
 
 /// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's),
-/// contact and friction as in the stages of these names. Prescribed vertices (`is_prescribed`) go to y, truncated; all
-/// others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one;
-/// own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and
-/// rounded at most once.
+/// tetrahedra, contact and friction as in the stages of these names. Prescribed vertices (`is_prescribed`) go to y,
+/// truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else
+/// at its old one; own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given
+/// numbers and rounded at most once.
 struct SweepIn {
-  const Scene* scene = nullptr;  ///< rounded; materials, settings (h, r, ε_v, lanes)
-  const Topology* topology = nullptr;
-  const RestStateOut* rest = nullptr;
-  /// by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil or of a spring share
-  /// one
+  const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
+  const Topology* topology = nullptr;  ///< of the scene's mesh
+  const RestStateOut* rest = nullptr;  ///< of the scene
+  /// by vertex, from 0; −1: prescribed or fixed. No two vertices of a membrane or hinge stencil, of a spring or of a
+  /// tetrahedron share one
   std::span<const Index> colour;
   std::span<const Vec3f> old, start, target, previous;  ///< x, xᵗ, y, X_prev [m]; contacts were found at X_prev
   std::span<const float> bound;                         ///< b_v [m]
@@ -46,9 +46,9 @@ struct SweepOut {
 /// solve can then be held to a position, and a solver may fall back to a step down the gradient: `accepted` is
 /// infinite, unless the vertex was not cut and moved against its force beyond all error: then 0.
 struct SweepTruth {
-  std::vector<Vec3> position;
-  std::vector<double> accepted;
-  std::vector<std::uint8_t> grey;
+  std::vector<Vec3> position;       ///< that follows from the answer's own neighbours [m]
+  std::vector<double> accepted;     ///< largest error [m]
+  std::vector<std::uint8_t> grey;   ///< 1 where a decision may go either way
   Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
 };
 

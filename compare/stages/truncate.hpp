@@ -14,17 +14,16 @@ struct TruncateIn {
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
 };
 
-/// The position that is *stored* obeys ‖x − x_prev‖ ≤ b_v exactly. Where nothing is exceeded the position comes back
-/// bit for bit.
+/// The position that is *stored* obeys ‖x − x_prev‖ ≤ b_v exactly. A position that obeys comes back bit for bit.
 struct TruncateOut {
-  std::vector<Vec3f> position;
-  std::vector<std::uint8_t> exceeded;  ///< 1 where ‖x − x_prev‖ > b_v
+  std::vector<Vec3f> position;    ///< x [m]
+  std::vector<std::uint8_t> cut;  ///< 1 where ‖x − x_prev‖ > b_v
 };
 
 struct TruncateTruth {
-  std::vector<std::uint8_t> exceeded, grey;  ///< grey: the exact margin lies in the grey zone, either flag is accepted
-  std::vector<std::uint8_t> near;            ///< 1 where the margin lies within near_factor
-  std::vector<Vec3> position;                ///< exact result, rounded to double
+  std::vector<std::uint8_t> cut, grey;  ///< grey: the exact margin lies in the grey zone, either flag is accepted
+  std::vector<std::uint8_t> near;       ///< 1 where the margin lies within near_factor
+  std::vector<Vec3> position;           ///< exact result, rounded to double
 };
 
 /// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b): storing three

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/contestant.hpp"
 
 namespace ogc::experiments {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "experiments/plugins/process.hpp"
 
 namespace ogc::experiments {

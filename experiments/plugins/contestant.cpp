@@ -4,7 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "compare/judge/contestant_stages.hpp"
 #include "experiments/plugins/arrays.hpp"
 #include "experiments/plugins/scenes.hpp"
 
@@ -106,7 +105,7 @@ TruncateOut ask_truncate(PluginProcess& plugin, const TruncateIn& in) {
   const std::vector<Bytes> inputs{bytes_of(in.previous), bytes_of(in.position), bytes_of(in.bound)};
   const auto answer = plugin.ask("truncate", sizes_of(in.bound.size()), inputs);
   TruncateOut out;
-  Outputs(answer).to(out.position, out.exceeded);
+  Outputs(answer).to(out.position, out.cut);
   return out;
 }
 

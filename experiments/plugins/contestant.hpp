@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "experiments/plugins/process.hpp"
 
 namespace ogc::experiments {

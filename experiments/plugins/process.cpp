@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/plugins/memory.hpp"
 

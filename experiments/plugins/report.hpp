@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "compare/judge/judge.hpp"
+#include "compare/judge/engine/judge.hpp"
 #include "experiments/plugins/contestant.hpp"
 #include "experiments/program/output.hpp"
 

@@ -60,6 +60,9 @@ class SceneArrays {
         rest_(to_single(scene.rest_positions)),
         groups_(rigid_groups(scene)),
         partners_(partner_rows(rest_.size(), scene.excluded_pairs)) {
+    if (!scene.mesh.tetrahedra.empty())
+      throw ContestantFailure("the scene has tetrahedra, which version " + std::to_string(OGC_PLUGIN_VERSION) +
+                              " of compare/plugin.h does not know");
     for (const Body& body : scene.bodies) bodies_.push_back(body_of(body));
     if (partners_.rows() == 0) partners_ = rows_by_vertex(nullptr, rest_.size());
     for (const Spring& s : scene.springs)

@@ -1,7 +1,7 @@
 // The stages that are asked about a whole scene: rest_state, sweep and step.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "experiments/plugins/process.hpp"
 
 namespace ogc::experiments {

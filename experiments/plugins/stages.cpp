@@ -84,7 +84,7 @@ int call_activation(void* function, CallArrays& a) {
 }
 
 constexpr std::array truncate_outputs{OutputInfo{"position", Element::number, 3, Per::item},
-                                      OutputInfo{"exceeded", Element::byte, 1, Per::item}};
+                                      OutputInfo{"cut", Element::byte, 1, Per::item}};
 int call_truncate(void* function, CallArrays& a) {
   const ogc_truncate_in in{a.sizes.cases, a.in(), a.in(), a.in()};
   ogc_truncate_out out{a.out(), a.out()};
@@ -282,9 +282,9 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
       case Per::vertex: return sizes.vertices;
       case Per::edge: return sizes.edges;
       case Per::triangle: return sizes.triangles;
-      case Per::two_bodies: break;
+      case Per::two_bodies: return std::int64_t{sizes.bodies} * sizes.bodies;
     }
-    return std::int64_t{sizes.bodies} * sizes.bodies;
+    return 0;
   };
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }

@@ -62,9 +62,10 @@ class Library {
     const ogc_plugin_info* const info = describe();
     end_if_copy();
     if (!info) throw Refusal("ogc_plugin() returns a null pointer");
-    if (info->version != OGC_PLUGIN_VERSION)
+    if (info->version < OGC_PLUGIN_OLDEST_VERSION || info->version > OGC_PLUGIN_VERSION)
       throw Refusal("it was built for version " + std::to_string(info->version) +
-                    " of compare/plugin.h, and this program knows version " + std::to_string(OGC_PLUGIN_VERSION) +
+                    " of compare/plugin.h, and this program knows versions " +
+                    std::to_string(OGC_PLUGIN_OLDEST_VERSION) + " to " + std::to_string(OGC_PLUGIN_VERSION) +
                     "; build it with this program's header");
     if (info->memory != OGC_HOST_MEMORY && info->memory != OGC_DEVICE_MEMORY)
       throw Refusal("it asks for memory " + std::to_string(info->memory) +

@@ -4,9 +4,9 @@
 #include <chrono>
 
 #include "compare/files/bytes.hpp"
-#include "compare/judge/corpus.hpp"
-#include "compare/judge/explain/diagnose.hpp"
-#include "compare/judge/shrink.hpp"
+#include "compare/judge/engine/shrink.hpp"
+#include "compare/judge/report/corpus.hpp"
+#include "compare/judge/report/diagnose.hpp"
 #include "experiments/program/output.hpp"
 
 namespace ogc::experiments {
@@ -43,7 +43,7 @@ std::pair<compare::TestCase, std::string> Failures::small(const compare::TestCas
   if (options.seconds <= 0) return {test, message};
   compare::TestCase shrunk = compare::shrink_failure(test, message, contestant_, authority_, options);
   spent_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::size_t before = compare::primitive_count(test.data), after = compare::primitive_count(shrunk.data);
+  const std::size_t before = compare::primitive_count(test), after = compare::primitive_count(shrunk);
   if (before == after) return {std::move(shrunk), message};
   return {std::move(shrunk), message + " (message of the whole case; shrunk from " + std::to_string(before) + " to " +
                                  counted(after, "primitive") + ")"};

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/judge/explain/explanation.hpp"
-#include "compare/judge/judge.hpp"
-#include "compare/judge/states.hpp"
+#include "compare/judge/cases/states.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/explanation.hpp"
 
 namespace ogc::experiments {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <new>
 
+#include "compare/contestant.hpp"
 #include "compare/files/bytes.hpp"
-#include "compare/problem/contestant.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 #include "experiments/plugins/worker.hpp"

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/judge/judge.hpp"
-#include "compare/judge/parameters.hpp"
-#include "compare/judge/stage_table.hpp"
+#include "compare/judge/cases/parameters.hpp"
+#include "compare/judge/cases/stage_traits.hpp"
+#include "compare/judge/engine/judge.hpp"
 #include "reference/contestant.hpp"
 
 namespace ogc::experiments {
@@ -67,13 +67,14 @@ std::string stage_list_markdown() {
   std::string text =
       "| stage | asked | a case | reference | CPU | CUDA | generators | agreement tests | same bits "
       "|\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const StageInfo& info : compare::stage_table()) {
-    const std::string name(stage_name(info.stage));
+  for (const Stage stage : compare::all_stages) {
+    const StageInfo& info = compare::stage_info(stage);
+    const std::string name(info.name);
     // Both backends instantiate one list of probes (fast/stages/probes.hpp), so what the CPU has CUDA has.
-    const bool is_there = compare::can_judge(info.stage, fast, authority);
+    const bool is_there = compare::can_judge(stage, fast, authority);
     text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " +
             std::string(info.unit) + " | " + link("exact", "../" + std::string(info.reference)) +
-            (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(info.stage) + " | " +
+            (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(stage) + " | " +
             link("CPU", "../tests/experiments/compare.cpp") + ", " + link("CUDA", "../tests/fast/cuda/agreement.cu") +
             " | " + std::string(determinism_name(info.determinism)) + " |\n";
   }
@@ -82,12 +83,12 @@ std::string stage_list_markdown() {
 
 std::string stage_list_text() {
   std::string text;
-  for (const StageInfo& info : compare::stage_table()) {
-    text += std::string(stage_name(info.stage)) + ": " + std::string(info.question) +
-            "\n  a case: " + std::string(info.unit) +
+  for (const Stage stage : compare::all_stages) {
+    const StageInfo& info = compare::stage_info(stage);
+    text += std::string(info.name) + ": " + std::string(info.question) + "\n  a case: " + std::string(info.unit) +
             "; same bits: " + std::string(determinism_name(info.determinism)) + "\n";
-    text += "  generators: " + names_of(compare::generators(info.stage)) + "; of a run: states, mutated\n";
-    text += "  parameters: " + names_of(compare::parameters(info.stage)) + "\n";
+    text += "  generators: " + names_of(compare::generators(stage)) + "; of a run: states, mutated\n";
+    text += "  parameters: " + names_of(compare::parameters(stage)) + "\n";
   }
   return text;
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "compare/judge/determinism.hpp"
+#include "compare/judge/engine/determinism.hpp"
 #include "experiments/program/output.hpp"
 #include "fast/contestant.hpp"
 

@@ -1,6 +1,7 @@
-# Writes OUTPUT, the definition of build_info() (experiments/program/version.hpp). Runs at every build; touches the file only where something changed.
-# Give: SOURCE, OUTPUT, VERSION, COMPILER, CUDA.
-execute_process(COMMAND git -C ${SOURCE} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed ERROR_QUIET)
+# Writes OUTPUT, the definition of build_info() (experiments/program/version.hpp). Runs at every build; touches the file
+# only where something changed. Give: SOURCE, OUTPUT, VERSION, COMPILER, CUDA.
+execute_process(COMMAND git -C ${SOURCE} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
+  RESULT_VARIABLE failed ERROR_QUIET)
 set(dirty false)
 if(failed)
   set(commit unknown)

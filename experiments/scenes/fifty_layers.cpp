@@ -2,7 +2,7 @@
 // audit need no special code.
 #include "experiments/scenes/fifty_layers.hpp"
 
-#include "compare/judge/random.hpp"
+#include "compare/judge/cases/random.hpp"
 #include "experiments/scenes/materials.hpp"
 
 namespace ogc::experiments {

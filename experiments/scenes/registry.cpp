@@ -12,6 +12,7 @@
 #include "experiments/scenes/fifty_layers.hpp"
 #include "experiments/scenes/knot.hpp"
 #include "experiments/scenes/large_radius_twist.hpp"
+#include "experiments/scenes/mat_twist.hpp"
 #include "experiments/scenes/one_iteration_drop.hpp"
 #include "experiments/scenes/robot_shirt.hpp"
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
@@ -122,6 +123,15 @@ compare::Scene large_radius_twist_at(Scale scale) {
   return large_radius_twist();
 }
 
+compare::Scene mat_twist_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return mat_twist({.along = 16, .across = 15, .steps = 240});
+    case Scale::small: return mat_twist({.along = 40, .across = 40, .steps = 960});
+    case Scale::paper: break;
+  }
+  return mat_twist();
+}
+
 compare::Scene one_iteration_drop_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return one_iteration_drop({.vertices_a_side = 16, .sphere_subdivisions = 2, .steps = 150});
@@ -165,7 +175,7 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 11> table{{
+constexpr std::array<SceneInfo, 12> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence",
      activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
@@ -177,6 +187,7 @@ constexpr std::array<SceneInfo, 11> table{{
     {"knot", "Fig. 11, 1", "a long strip with four overhand knots, pulled at both ends", knot_at},
     {"large_radius_twist", "Fig. 2", "half a turn of a cloth whose contact radius is as large as its edges",
      large_radius_twist_at},
+    {"mat_twist", "Fig. 19", "a thin solid mat of tetrahedra twisted by its two ends", mat_twist_at},
     {"one_iteration_drop", "Fig. 20", "a square cloth falls onto a small sphere, one iteration a step",
      one_iteration_drop_at},
     {"robot_shirt", "Fig. 14", "two grippers lift, shake and fold a T-shirt", robot_shirt_at},

@@ -72,6 +72,12 @@ inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f)
 inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
+inline UpdateVertex<GatherPackedSolids> on_packs(const UpdateVertex<GatherSolids>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
+inline UpdateVertex<GatherPackedEverything> on_packs(const UpdateVertex<GatherEverything>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
 
 /// Brings to the cache what f(i, team) is going to read where no processor expects it.
 template <class F>

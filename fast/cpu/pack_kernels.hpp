@@ -1,7 +1,7 @@
 // The sum of a vertex in packs, compiled for several machines and chosen at run time, to the same bits.
 #pragma once
 
-#include "fast/kernels/sweep_models.hpp"
+#include "fast/kernels/sweep_solids.hpp"
 
 namespace ogc::fast {
 
@@ -11,15 +11,18 @@ struct LaneSums {
   int count = 0;
 };
 
-/// Parts that are not computed in packs: triangles and hinges where they have sums here, and springs.
+/// Parts that are not computed in packs: triangles and hinges where they have sums here, springs, and tetrahedra where
+/// they have.
 struct OtherParts {
-  LaneSums triangles, hinges, springs;
+  LaneSums triangles, hinges, springs, tetrahedra;
 };
 
-/// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs.
+/// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs and tetrahedra; or as
+/// GatherSolids.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const OtherParts& other);
-struct PackKernels {
+/// One for each number of lanes.
+struct GatherByLanes {
   GatherInPacks gather_4, gather_8, gather_16, gather_32;
 
   template <int W>
@@ -28,6 +31,9 @@ struct PackKernels {
     return W == 4 ? gather_4 : (W == 8 ? gather_8 : (W == 16 ? gather_16 : gather_32));
   }
 };
+struct PackKernels {
+  GatherByLanes surfaces, solids;
+};
 
 extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 
@@ -35,6 +41,13 @@ extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 bool has_avx2();
 /// The fastest that this machine can run.
 const PackKernels& pack_kernels();
+
+/// Sums of the lanes of a part that is computed item by item.
+template <class Part, int W>
+LaneSums one_by_one(const Part& part, ForceAndBlock (&lane)[W]) {
+  for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), lane[k % W]);
+  return {lane, part.count};
+}
 
 /// As GatherDefault.
 struct GatherPacked {
@@ -47,58 +60,83 @@ struct GatherPacked {
     if constexpr (W < 4)
       return GatherDefault{}(view, slot, vertex, own, team);
     else
-      return kernels.template gather<W>()(view, slot, vertex, own, {});
+      return kernels.surfaces.template gather<W>()(view, slot, vertex, own, {});
   }
 };
 
-/// As GatherEveryModel: in packs but for springs and for triangles and hinges of bodies with other models than the
-/// default ones, which are computed one by one; as there with other activations.
-struct GatherPackedEveryModel {
-  static constexpr int parts = GatherEveryModel::parts;
+/// As GatherSolids: in packs but for tetrahedra that damp, which are computed one by one.
+struct GatherPackedSolids {
+  static constexpr int parts = GatherSolids::parts;
+  const PackKernels& kernels = pack_kernels();
+
+  template <int W>
+  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                           const SerialTeam<W>& team) const {
+    if constexpr (W < 4) {
+      return GatherSolids{}(view, slot, vertex, own, team);
+    } else {
+      const SolidMaterial material = view.solids[vertex.body];
+      OtherParts other;
+      ForceAndBlock damped[W];
+      if (material.damping > 0)
+        other.tetrahedra = one_by_one(tetrahedron_part(view, slot, AddTetrahedron{view, material, own}), damped);
+      return kernels.solids.template gather<W>()(view, slot, vertex, own, other);
+    }
+  }
+};
+
+/// As GatherEveryModel, or as GatherEverything: in packs but for springs, tetrahedra and triangles and hinges of bodies
+/// with other models than the default ones, which are computed one by one; as there with other activations.
+template <class Gather>
+struct GatherPackedModels {
+  static constexpr int parts = Gather::parts;
+  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything>;
   const PackKernels& kernels = pack_kernels();
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                            const SerialTeam<W>& team) const {
     if constexpr (W >= 4) {
-      if (view.activation == ContactActivation::ogc) {
-        const SurfaceModels models = view.models[vertex.body];
-        const SurfaceMaterial material = view.materials[vertex.body];
-        const bool by_vertex = models.damping == compare::DampingForm::per_vertex;
-        const OwnVertex at{own, own - view.start[vertex.vertex]};
-        ForceAndBlock triangles[W], hinges[W], springs[W];
-        OtherParts other;
-        if (by_vertex || models.membrane == compare::MembraneModel::stable_neo_hookean) {
-          const auto add = [&](int i, ForceAndBlock& sum) {
-            add_any_membrane(view, view.membrane[i], material, models, at, sum);
-          };
-          other.triangles = one_by_one(
-              part(
-                  vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add),
-              triangles);
-        }
-        if (by_vertex || models.bending == compare::BendingModel::isometric_quadratic) {
-          const auto add = [&](int i, ForceAndBlock& sum) {
-            add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{},
-                          material, models, at, sum);
-          };
-          other.hinges = one_by_one(part(
-                                        vertex.hinge_count, [&](int k) { return vertex.hinge_begin + k; }, add),
-                                    hinges);
-        }
-        other.springs = one_by_one(spring_part(view, slot, models, at), springs);
-        return kernels.template gather<W>()(view, slot, vertex, own, other);
-      }
+      if (view.activation == ContactActivation::ogc) return in_packs<W>(view, slot, vertex, own);
     }
-    return GatherEveryModel{}(view, slot, vertex, own, team);
+    return Gather{}(view, slot, vertex, own, team);
   }
 
  private:
-  template <class Part, int W>
-  static LaneSums one_by_one(const Part& part, ForceAndBlock (&lane)[W]) {
-    for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), lane[k % W]);
-    return {lane, part.count};
+  template <int W>
+  ForceAndBlock in_packs(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own) const {
+    const SurfaceModels models = view.models[vertex.body];
+    const SurfaceMaterial material = view.materials[vertex.body];
+    const bool by_vertex = models.damping == compare::DampingForm::per_vertex;
+    const OwnVertex at{own, own - view.start[vertex.vertex]};
+    ForceAndBlock triangles[W], hinges[W], springs[W], tetrahedra[W];
+    OtherParts other;
+    if (by_vertex || models.membrane == compare::MembraneModel::stable_neo_hookean) {
+      const auto add = [&](int i, ForceAndBlock& sum) {
+        add_any_membrane(view, view.membrane[i], material, models, at, sum);
+      };
+      other.triangles = one_by_one(part(
+                                       vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add),
+                                   triangles);
+    }
+    if (by_vertex || models.bending == compare::BendingModel::isometric_quadratic) {
+      const auto add = [&](int i, ForceAndBlock& sum) {
+        add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{},
+                      material, models, at, sum);
+      };
+      other.hinges = one_by_one(part(
+                                    vertex.hinge_count, [&](int k) { return vertex.hinge_begin + k; }, add),
+                                hinges);
+    }
+    other.springs = one_by_one(spring_part(view, slot, models, at), springs);
+    if constexpr (has_solids) {
+      const AddAnyTetrahedron add{view, view.solids[vertex.body], models, at};
+      other.tetrahedra = one_by_one(tetrahedron_part(view, slot, add), tetrahedra);
+    }
+    return kernels.surfaces.template gather<W>()(view, slot, vertex, own, other);
   }
 };
+using GatherPackedEveryModel = GatherPackedModels<GatherEveryModel>;
+using GatherPackedEverything = GatherPackedModels<GatherEverything>;
 
 }  // namespace ogc::fast

@@ -66,6 +66,22 @@ void add_hinges(const SweepView& view, const Items<HingeIncidence, P>& items, co
   sum = selected<P>(items.counted && shape.defined, with, sum);
 }
 
+/// Without damping.
+template <class P>
+void add_tetrahedra(const SweepView& view, const Items<TetrahedronIncidence, P>& items, const SolidMaterial& material,
+                    const Vector<P>& own, ForceAndBlockOf<P>& sum) {
+  using Incidence = TetrahedronIncidence;
+  const auto weight = [&](int k) { return items.each([k](const Incidence& i) { return i.stencil.weight[k]; }); };
+  const TetrahedronStencilOf<P> stencil{{weight(0), weight(1), weight(2)},
+                                        items.each([](const Incidence& i) { return i.stencil.inverse; })};
+  const auto corner = [&](int k) {
+    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[k])]; });
+  };
+  ForceAndBlockOf<P> with = sum;
+  add_tetrahedron(stencil, material, corner(0) - own, corner(1) - own, corner(2) - own, with);
+  sum = selected<P>(items.counted, with, sum);
+}
+
 /// The lanes of a team of W, P::width in a pack.
 template <int W, class P>
 struct Lanes {
@@ -108,6 +124,18 @@ struct Lanes {
   }
 };
 
+/// Both sorts of contacts.
+template <int W, class P>
+void add_contact_parts(const SweepView& view, int slot, Lanes<W, P>& lanes) {
+  const ContactRow row = view.contact_rows[slot];
+  const ContactIncidence* contacts = view.contacts + row.begin;
+  const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
+    add_contacts(view, items, sum);
+  };
+  lanes.add_part(contacts, row.vertex_facet, add);
+  lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
+}
+
 template <int W>
 [[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                       const OtherParts& other) {
@@ -132,13 +160,28 @@ template <int W>
                    });
   }
   lanes.add_part(other.springs);
-  const ContactRow row = view.contact_rows[slot];
-  const ContactIncidence* contacts = view.contacts + row.begin;
-  const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
-    add_contacts(view, items, sum);
-  };
-  lanes.add_part(contacts, row.vertex_facet, add);
-  lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
+  lanes.add_part(other.tetrahedra);
+  add_contact_parts<W, P>(view, slot, lanes);
+  return lanes.total();
+}
+
+template <int W>
+[[gnu::flatten]] ForceAndBlock gather_solids(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                                             const OtherParts& other) {
+  using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
+  Lanes<W, P> lanes;
+  if (other.tetrahedra.lane != nullptr) {
+    lanes.add_part(other.tetrahedra);
+  } else {
+    const SolidMaterial material = view.solids[vertex.body];
+    const TetrahedronRow row = view.tetrahedron_rows[slot];
+    const Vector<P> here = everywhere<P>(own);
+    lanes.add_part(view.tetrahedra + row.begin, row.count,
+                   [&](const Items<TetrahedronIncidence, P>& items, ForceAndBlockOf<P>& sum) {
+                     add_tetrahedra(view, items, material, here, sum);
+                   });
+  }
+  add_contact_parts<W, P>(view, slot, lanes);
   return lanes.total();
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
 

@@ -6,6 +6,9 @@
 
 namespace ogc::fast {
 
+/// b_v of a vertex that no face holds.
+inline constexpr float largest_float = 0x1.fffffep127f;
+
 /// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the largest of the counts.
 struct ResetDistances {
   const float* query_radius;
@@ -32,6 +35,10 @@ struct ConservativeBound {
   /// above it.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
+    if (vertex_edges.offsets[v] == vertex_edges.offsets[v + 1]) {  // inside a solid: nothing bounds it
+      bound[v] = largest_float;
+      return;
+    }
     float d = d_min_vertex[v];
     for (int k = vertex_edges.offsets[v]; k < vertex_edges.offsets[v + 1]; ++k)
       d = smaller(d, d_min_edge[vertex_edges.items[k]]);

@@ -3,6 +3,7 @@
 
 #include "fast/kernels/detect_edge_edge.hpp"
 #include "fast/kernels/detect_vertex_facet.hpp"
+#include "fast/kernels/plane.hpp"
 
 namespace ogc::fast {
 
@@ -12,9 +13,11 @@ struct CollectContacts {
   CollectVertexFacet vertex_facet;
   CollectEdgeEdge edge_edge;
   ListsView lists;
+  const PairPlane* planes = nullptr;  ///< beside the noted pairs, where those beyond r are noted, too
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
+    if (planes != nullptr && !(planes[i].below < edge_edge.contact_radius)) return;
     const NotedPair pair = lists.noted[i];
     const bool certain = pair.second < 0;
     const int second = certain ? ~pair.second : pair.second;

@@ -38,17 +38,21 @@ OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a,
   contact.index[3] = d;
 }
 
-/// Plain vertex numbers as indices, `own` 0.
-OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
+OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord& record) {
   const int v = record.vertex;
   const int* corner = record.corner;
-  ContactIncidence contact = meeting(tables, v, corner[0]);
   if (corner[1] < 0)
     set_slots(contact, ContactKind::point_point, v, v, corner[0], v);
   else if (corner[2] < 0)
     set_slots(contact, ContactKind::point_segment, v, v, corner[0], corner[1]);
   else
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
+}
+
+/// Plain vertex numbers as indices, `own` 0.
+OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
+  ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
+  set_slots(contact, record);
   return contact;
 }
 
@@ -65,19 +69,54 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
-OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
+OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
-  ContactIncidence contact = meeting(tables, p[0], q[0]);
   if (q[1] < 0)
     set_slots(contact, ContactKind::point_point, p[0], p[0], q[0], p[0]);
   else if (p[1] < 0)
     set_slots(contact, ContactKind::point_segment, p[0], p[0], q[0], q[1]);
   else
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
+}
+
+OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
+  ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
+  set_slots(contact, record);
   if (contact.kind == ContactKind::segment_segment) contact.stiffness *= energy_share(tables, record);
   return contact;
 }
+
+/// Whether a vertex is part of an active contact. Of a detection with a margin some are not nearer than r.
+struct ActiveContacts {
+  const int* incidence_offsets;
+  // where there is a margin
+  const Incidence* incidences = nullptr;
+  const VertexFacetRecord* vertex_facet = nullptr;
+  const EdgeEdgeRecord* edge_edge = nullptr;
+  float radius = 0;
+
+  OGC_HD bool touch(int v, const Vec* position) const {
+    const int begin = incidence_offsets[v], end = incidence_offsets[v + 1];
+    if (incidences == nullptr) return end > begin;
+    for (int k = begin; k < end; ++k)
+      if (acts(incidences[k].code, position)) return true;
+    return false;
+  }
+
+ private:
+  OGC_HD bool acts(std::uint32_t code, const Vec* position) const {
+    const std::uint32_t number = (code & 0x7fffffffu) >> 2;
+    ContactIncidence contact;
+    if (code >> 31 != 0)
+      set_slots(contact, edge_edge[number]);
+    else
+      set_slots(contact, vertex_facet[number]);
+    Vec x[4];
+    for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
+    return contact_shape(weighted_sum(contact_weights(contact.kind, x), x), radius).acts;
+  }
+};
 
 /// Bit k: the kind has slot k.
 OGC_HD inline int slots_of(ContactKind kind) {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/kernels/atomic.hpp"
 #include "fast/kernels/qualifiers.hpp"
 #include "fast/kernels/vector.hpp"
@@ -58,13 +58,30 @@ struct StepControl {
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;               ///< [m]
   int cut = 0, cut_last = 0;
+  /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
+  /// one has asked for a detection in this step.
+  int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
+  OGC_HD void count_lag(bool has_advanced) {
+    atomic_add(&lagging, 1);
+    if (has_advanced) atomic_max(&advanced, 1);
+  }
   OGC_HD void count_not_finite() { atomic_add(&not_finite, 1); }
   OGC_HD void count_violation() { atomic_add(&violations, 1); }
 };
+
+/// Whether the vertices that were cut ask for a detection; their counts begin anew. A prescribed vertex behind its
+/// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut.
+OGC_HD inline bool take_request(StepControl& c, int cut_threshold) {
+  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0), asks = c.cut >= cut_threshold;
+  if (lag_asks) c.lag_asked = 1;
+  c.cut_last = c.cut + c.lagging;
+  c.cut = c.lagging = c.advanced = 0;
+  return asks || lag_asks;
+}
 
 /// Ends the step where something went wrong: nothing of it is committed.
 OGC_HD inline void stop_if_failed(StepControl& c) {
@@ -86,6 +103,7 @@ struct BeginStep {
     c.largest_move = c.largest_lag = 0;
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
+    c.lagging = c.advanced = c.lag_asked = 0;
     c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;
   }
 };
@@ -128,9 +146,8 @@ struct EndRound {
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     ++c.rounds;
-    c.guess = c.active != 0 && c.cut >= settings.cut_threshold && c.rounds < settings.guess_rounds ? 1 : 0;
-    c.cut_last = c.cut;
-    c.cut = 0;
+    const bool asked = take_request(c, settings.cut_threshold);
+    c.guess = c.active != 0 && asked && c.rounds < settings.guess_rounds ? 1 : 0;
   }
 };
 
@@ -146,10 +163,9 @@ struct EndIteration {
     if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
+    const bool asked = take_request(c, settings.cut_threshold);
     const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
-    c.detect = c.active != 0 && c.iterations < settings.iterations && (due || c.cut >= settings.cut_threshold) ? 1 : 0;
-    c.cut_last = c.cut;
-    c.cut = 0;
+    c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);
     c.turn = c.detect != 0 ? -1 : c.iterations;
   }

@@ -63,7 +63,7 @@ struct DetectEdgeEdge {
     if (!(gap > limit) && !is_beyond(separation(ends(p), ends(q)), limit)) measure(low, high, gap);
   }
 
- private:
+ protected:
   OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
     const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])),
                 theirs = atomic_load(&d_min_edge[offer.primitive]);

@@ -31,9 +31,11 @@ struct DetectVertexFacet {
 
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
+  /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
-    const Vec x = positions[v];
+    const bool outside = surface.vertex_edges.offsets[v] < surface.vertex_edges.offsets[v + 1];
+    const Vec x = outside ? positions[v] : Vec{0x1p60f, 0x1p60f, 0x1p60f};
     const float margin = skin.search_margin();
     return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
   }
@@ -77,7 +79,7 @@ struct DetectVertexFacet {
     if (!(gap > limit) && !is_beyond(separation(x, t_corners), limit)) measure(v, t, gap);
   }
 
- private:
+ protected:
   OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
     const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])),
                 theirs = atomic_load(&d_min_triangle[offer.primitive]);

@@ -5,9 +5,11 @@
 
 #include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
+#include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/membrane.hpp"
+#include "fast/kernels/tetrahedron.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -71,38 +73,64 @@ struct BeginHinge {
   }
 };
 
+/// for_each over tetrahedra: Gᵗ, for the damping.
+struct BeginTetrahedron {
+  const TetrahedronRest* tetrahedra;
+  const Vec* start;
+  SolidStrain* strain_start;
+
+  OGC_HD void operator()(int t) const {
+    const TetrahedronRest& rest = tetrahedra[t];
+    TetrahedronGradients gradients;
+    for (int k = 0; k < 3; ++k) gradients.other[k] = {rest.gradient[k][0], rest.gradient[k][1], rest.gradient[k][2]};
+    const Vec own = start[rest.corner[0]];
+    strain_start[t] = solid_strain(solid_deformation(gradients, start[rest.corner[1]] - own,
+                                                     start[rest.corner[2]] - own, start[rest.corner[3]] - own));
+  }
+};
+
 /// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored
-/// positions), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of an earlier one, and
-/// certified.
+/// positions, and its half-spaces), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of
+/// an earlier one, and certified.
 struct BeginBounds {
   const Vec* position;
   const float* bound;
   Vec* previous;
   StepControl* control;
+  RegionView regions{};
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && bound_violated(x, previous[v], bound[v])) control->count_violation();
+    if (control->rounds > 0 && is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
     previous[v] = x;
   }
 };
 
 /// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact
-/// stays where it is: each contact of the list is active, as X_prev = x.
+/// stays where it is. A free vertex slides as inertia alone would have it.
 struct GuessVertex {
   const Vec* target;
   const Vec* previous;
   const float* bound;
-  const int* incidence_offsets;
+  ActiveContacts contacts;  ///< X_prev = x
   Vec* position;
   StepControl* control;
+  RegionView regions{};
+  const int* prescribed_number = nullptr;  ///< as in BeginVertex; read where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
-    if (control->rounds > 0 && incidence_offsets[v + 1] > incidence_offsets[v]) return;
-    const Truncated kept = truncate(previous[v], target[v], bound[v]);
+    if (control->rounds > 0 && contacts.touch(v, previous)) return;
+    const Vec stay = previous[v], wanted = target[v];
+    const FeasibleRegion region = regions.region(v, stay, bound[v]);
+    const bool is_prescribed = regions.has_planes() && prescribed_number[v] >= 0;
+    const Truncated kept = is_prescribed ? held_on_path(region, stay, wanted)
+                                         : held(region, stay, wanted, InertiaMetric{});
     position[v] = kept.position;
-    if (kept.exceeded) control->count_cut();
+    if (is_prescribed)
+      count_behind(*control, kept, stay, regions);
+    else if (kept.exceeded)
+      control->count_cut();
   }
 };
 

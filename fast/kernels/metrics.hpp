@@ -13,6 +13,7 @@
 #include "fast/kernels/membrane.hpp"
 #include "fast/kernels/neo_hookean.hpp"
 #include "fast/kernels/spring.hpp"
+#include "fast/kernels/tetrahedron.hpp"
 
 namespace ogc::fast {
 
@@ -26,7 +27,9 @@ enum SumColumn : int {
   sum_bending = 9 /* springs included */,
   sum_vertex_facet = 10,
   sum_edge_edge = 11,  ///< [J]
-  sum_columns = 12
+  sum_solid = 12,      ///< [J]
+  sum_inverted = 13,   ///< tetrahedra with J ≤ 0
+  sum_columns = 14
 };
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
@@ -37,9 +40,11 @@ struct StepRow {
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
   double lost_guess = 0, lost_end = 0;
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
+  int inverted = 0;  ///< tetrahedra with J ≤ 0
 };
 
-/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound.
+/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
+/// smallest distance).
 struct CheckVertex {
   const Vec* position;
   const Vec* previous;
@@ -47,13 +52,15 @@ struct CheckVertex {
   const Vec* target;
   const int* prescribed_number;
   StepControl* control;
+  RegionView regions{};
+  const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
     const Vec x = position[v];
     if (!is_finite(x)) control->count_not_finite();
-    if (bound_violated(x, previous[v], bound[v])) control->count_violation();
-    atomic_min(&control->smallest_bound, bound[v]);
+    if (is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
+    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : bound[v]);
     if (prescribed_number[v] < 0) return;
     const Vec behind = target[v] - x;
     atomic_max(&control->largest_lag, float_bits(square_root(dot(behind, behind))));
@@ -171,6 +178,20 @@ struct SpringTerm {
   }
 };
 
+struct TetrahedronTerm {
+  const TetrahedronRest* tetrahedra;
+  const SolidMaterial* materials;
+  const Vec* position;
+
+  OGC_HD void operator()(int t, double* sum) const {
+    const TetrahedronRest& rest = tetrahedra[t];
+    const Vec own = position[rest.corner[0]], a = position[rest.corner[1]] - own, b = position[rest.corner[2]] - own,
+              c = position[rest.corner[3]] - own;
+    sum[sum_solid] += solid_energy(rest, materials[rest.body], a, b, c);
+    if (!(volume_ratio(rest, a, b, c) > 0)) sum[sum_inverted] += 1;
+  }
+};
+
 /// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖; 0 where nothing was to move.
 OGC_HD inline double momentum_lost(const double* sums) {
   const double lost = sums[sum_lost] * sums[sum_lost] + sums[sum_lost + 1] * sums[sum_lost + 1] +
@@ -207,7 +228,8 @@ struct FinishStep {
     row.lost_end = momentum_lost(sums_end);
     row.kinetic = sums_end[sum_kinetic];
     row.gravity = sums_end[sum_gravity];
-    row.elastic = sums_end[sum_membrane] + sums_end[sum_bending];
+    row.elastic = sums_end[sum_membrane] + sums_end[sum_bending] + sums_end[sum_solid];
+    row.inverted = static_cast<int>(sums_end[sum_inverted]);
     row.contact = sums_end[sum_vertex_facet] + sums_end[sum_edge_edge];
     rows[c.steps_done] = row;
     if (c.active != 0) ++c.steps_done;

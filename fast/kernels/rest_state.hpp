@@ -1,5 +1,5 @@
-// Rest data of one triangle and one hinge, in double: computed once, stored in single, so that what the sweep reads is
-// the correctly rounded value.
+// Rest data of one triangle, one hinge and one tetrahedron, in double: computed once, stored in single, so that what
+// the sweep reads is the correctly rounded value.
 #pragma once
 
 #include <cmath>
@@ -41,6 +41,31 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
   rest.gradient[2][0] = 0;
   rest.gradient[2][1] = 1 / height;
   for (int axis = 0; axis < 2; ++axis) rest.gradient[0][axis] = -(rest.gradient[1][axis] + rest.gradient[2][axis]);
+  return rest;
+}
+
+/// Volume V [m³], the gradients ∇N_k [1/m] of the four linear shape functions, and V ∇N_k·∇N_l [m] of the pairs 01, 02,
+/// 03, 12, 13, 23.
+struct RestTetrahedron {
+  double volume = 0;
+  RestVector gradient[4] = {};
+  double weight[6] = {};
+};
+
+/// The volume must be positive (validate refuses it otherwise). ∇N_k = n_k/(6V) with n_k of twice the area of the face
+/// opposite corner k, inward.
+inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::Vec3& p1, const compare::Vec3& p2,
+                                        const compare::Vec3& p3) {
+  const RestVector a = rest_difference(p1, p0), b = rest_difference(p2, p0), c = rest_difference(p3, p0),
+                   ab = rest_difference(p2, p1), ac = rest_difference(p3, p1);
+  const RestVector inward[4] = {rest_cross(ac, ab), rest_cross(b, c), rest_cross(c, a), rest_cross(a, b)};
+  const double six_volumes = rest_dot(a, inward[1]);
+  RestTetrahedron rest;
+  rest.volume = six_volumes / 6;
+  for (int k = 0, i = 0; k < 4; ++k) {
+    rest.gradient[k] = {inward[k].x / six_volumes, inward[k].y / six_volumes, inward[k].z / six_volumes};
+    for (int l = k + 1; l < 4; ++l, ++i) rest.weight[i] = rest_dot(inward[k], inward[l]) / (6 * six_volumes);
+  }
   return rest;
 }
 

@@ -16,6 +16,7 @@
 #include "fast/kernels/friction_force.hpp"
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/membrane.hpp"
+#include "fast/kernels/plane_lists.hpp"
 #include "fast/kernels/solve3.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/kernels/truncate.hpp"
@@ -65,6 +66,10 @@ struct SpringIncidence;
 struct SpringRow;
 struct IsometricStencil;
 struct SurfaceModels;
+struct TetrahedronIncidence;
+struct TetrahedronRow;
+struct TetrahedronGradients;
+struct SolidMaterial;
 
 /// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
@@ -83,9 +88,10 @@ struct SweepView {
   const Vec* target = nullptr;               ///< y
   const Vec* previous = nullptr;             ///< X_prev
   const float* bound = nullptr;              ///< b_v
-  Place* old = nullptr;                      ///< x before the iteration
-  int to_fresh = 0;                          ///< from a vertex there to the same one in the fresh buffer
-  Vec* position = nullptr;                   ///< as fresh, for all but the sweep, which does not read it
+  RegionView regions;
+  Place* old = nullptr;     ///< x before the iteration
+  int to_fresh = 0;         ///< from a vertex there to the same one in the fresh buffer
+  Vec* position = nullptr;  ///< as fresh, for all but the sweep, which does not read it
   StepControl* control = nullptr;
   const int* turn = nullptr;  ///< null, or: the sweep takes place where this is
   int iteration = 0;          ///< this
@@ -97,6 +103,12 @@ struct SweepView {
   const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
   const SpringIncidence* springs = nullptr;
   ContactActivation activation = ContactActivation::ogc;
+  // Read where there are tetrahedra (sweep_solids.hpp).
+  const TetrahedronRow* tetrahedron_rows = nullptr;  ///< by slot
+  const TetrahedronIncidence* tetrahedra = nullptr;
+  const TetrahedronGradients* gradients = nullptr;  ///< beside `tetrahedra`; null where no body damps
+  const SolidMaterial* solids = nullptr;            ///< by body
+  const Symmetric3* solid_start = nullptr;          ///< Gᵗ by tetrahedron
 
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
   /// The same for the team of a vertex that has been read: on a device whose turn it is comes beside it, and nobody
@@ -277,16 +289,17 @@ struct GatherDefault {
   }
 };
 
-/// Writes a position truncated about X_prev and counts where it was cut. A proposal that is not finite is not written:
-/// the vertex stays and the step fails.
-OGC_HD inline void write_truncated(const SweepView& view, int v, const Vec& proposal, const Vec& stay,
-                                   const Vec& previous, float bound) {
+/// Writes a position of the vertex's region and counts where the proposal was changed. One that is not finite is not
+/// written: the vertex stays and the step fails.
+template <class Metric>
+OGC_HD void write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
+                       const Metric& metric) {
   if (!is_finite(proposal)) {
     view.write(v, stay);
     view.control->count_not_finite();
     return;
   }
-  const Truncated kept = truncate(previous, proposal, bound);
+  const Truncated kept = held(region, stay, proposal, metric);
   view.write(v, kept.position);
   if (kept.exceeded) view.control->count_cut();
 }
@@ -310,7 +323,8 @@ struct UpdateVertex {
     if (!team.leader() || (asks_late && view.is_off())) return;
     add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    write_truncated(view, v, own + change, own, previous, bound);
+    write_held(view, v, own + change, own, view.regions.region(v, previous, bound),
+               BlockMetric{total.block, 1.0f / vertex.inertia});
   }
 };
 
@@ -322,7 +336,15 @@ struct UpdatePrescribed {
   OGC_HD void operator()(int i) const {
     if (view.is_off()) return;
     const int v = prescribed[i];
-    write_truncated(view, v, view.target[v], view.old[v], view.previous[v], view.bound[v]);
+    const Vec target = view.target[v], old = view.old[v], previous = view.previous[v];
+    if (!is_finite(target)) {
+      view.write(v, old);
+      view.control->count_not_finite();
+      return;
+    }
+    const Truncated kept = held_on_path(view.regions.region(v, previous, view.bound[v]), old, target);
+    view.write(v, kept.position);
+    count_behind(*view.control, kept, previous, view.regions);
   }
 };
 

@@ -150,6 +150,33 @@ OGC_HD inline Part<LoadSpring, AddSpring> spring_part(const SweepView& view, int
   return part(row.count, LoadSpring{view.springs + row.begin}, AddSpring{view, models, own});
 }
 
+/// The sum of GatherEveryModel with parts of others between springs and contacts.
+template <class Team, class... Others>
+OGC_HD ForceAndBlock every_model_sum(const SweepView& view, int slot, const SweepVertex& vertex, const OwnVertex& at,
+                                     const Team& team, const Others&... others) {
+  const ContactParts contacts{view, view.contact_rows[slot], view.activation};
+  const SurfaceMaterial material = view.materials[vertex.body];
+  const SurfaceModels models = view.models[vertex.body];
+  prefetch_rows(view, vertex, contacts.row, team);
+  const auto load_hinge = [&](int k) {
+    const int i = vertex.hinge_begin + k;
+    AnyHinge any{view.hinges[i], {}};
+    if (view.isometric != nullptr) any.isometric = view.isometric[i];
+    return any;
+  };
+  return team.template sum<ForceAndBlock>(
+      part(
+          vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
+          [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
+            add_any_membrane(view, membrane, material, models, at, sum);
+          }),
+      part(vertex.hinge_count, load_hinge,
+           [&](const AnyHinge& any, ForceAndBlock& sum) {
+             add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum);
+           }),
+      spring_part(view, slot, models, at), others..., contacts.vertex_facet(), contacts.edge_edge());
+}
+
 /// As GatherDefault, with springs as a fifth part.
 struct GatherEveryModel {
   static constexpr int parts = 5;
@@ -157,28 +184,7 @@ struct GatherEveryModel {
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts contacts{view, view.contact_rows[slot], view.activation};
-    const SurfaceMaterial material = view.materials[vertex.body];
-    const SurfaceModels models = view.models[vertex.body];
-    const OwnVertex at{own, own - view.start[vertex.vertex]};
-    prefetch_rows(view, vertex, contacts.row, team);
-    const auto load_hinge = [&](int k) {
-      const int i = vertex.hinge_begin + k;
-      AnyHinge any{view.hinges[i], {}};
-      if (view.isometric != nullptr) any.isometric = view.isometric[i];
-      return any;
-    };
-    return team.template sum<ForceAndBlock>(
-        part(
-            vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
-            [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
-              add_any_membrane(view, membrane, material, models, at, sum);
-            }),
-        part(vertex.hinge_count, load_hinge,
-             [&](const AnyHinge& any, ForceAndBlock& sum) {
-               add_any_hinge(view, any.hinge, any.isometric, material, models, at, sum);
-             }),
-        spring_part(view, slot, models, at), contacts.vertex_facet(), contacts.edge_edge());
+    return every_model_sum(view, slot, vertex, {own, own - view.start[vertex.vertex]}, team);
   }
 };
 

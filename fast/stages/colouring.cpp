@@ -26,6 +26,7 @@ compare::CompressedRows conflict_graph(const RestState& rest) {
   for (const TriangleRest& triangle : rest.triangles) connect(triangle.corner, 3);
   for (const HingeRest& hinge : rest.hinges) connect(hinge.vertex, 4);
   for (const SpringRest& spring : rest.springs) connect(spring.end, end_count(spring));
+  for (const TetrahedronRest& tetrahedron : rest.tetrahedra) connect(tetrahedron.corner, 4);
   compare::CompressedRows rows;
   for (auto& row : neighbours) {
     std::sort(row.begin(), row.end());

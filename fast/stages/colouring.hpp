@@ -1,7 +1,8 @@
-// Colours of the free vertices: no two vertices of one membrane or bending stencil, or of a spring, share one, so that
-// within a colour only contacts are Jacobi (method.md §7.3). Computed once on the host, deterministic. A colour costs a
-// launch and a dependency chain whatever its size, so the number of colours counts first: DSATUR-like greedy, then
-// greedy again class by class (which never adds a colour and often removes some), then balance.
+// Colours of the free vertices: no two vertices of one membrane or bending stencil, of a spring or of a tetrahedron
+// share one, so that within a colour only contacts are Jacobi (method.md §7.3). Computed once on the host,
+// deterministic. A colour costs a launch and a dependency chain whatever its size, so the number of colours counts
+// first: DSATUR-like greedy, then greedy again class by class (which never adds a colour and often removes some), then
+// balance.
 #pragma once
 
 #include <vector>
@@ -18,8 +19,8 @@ struct Colouring {
   std::vector<int> begin{0};  ///< colour c is order[begin[c] .. begin[c + 1])
 };
 
-/// Free vertices that share a membrane or bending stencil or a spring with v, ascending; rows of other vertices are
-/// empty.
+/// Free vertices that share a membrane or bending stencil, a spring or a tetrahedron with v, ascending; rows of other
+/// vertices are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
 /// Passes in which the number of colours is brought down, where vertices have so many neighbours in all: as many as

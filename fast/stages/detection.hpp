@@ -18,6 +18,7 @@
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
 #include "fast/stages/lists.hpp"
+#include "fast/stages/planes.hpp"
 #include "fast/stages/skin.hpp"
 #include "fast/stages/surface.hpp"
 
@@ -87,14 +88,18 @@ template <class Backend>
 class Detection {
  public:
   /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`:
-  /// largest margin of the list of pairs as a part of r; 0 for none. It changes the time alone.
+  /// largest margin of the list of pairs as a part of r; 0 for none. It changes the time alone. `is_fixed`: by vertex,
+  /// read where `bounds` are planes.
   Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
-            int capacity = 0, float skin = 0)
+            int capacity = 0, float skin = 0, compare::Bounds bounds = compare::Bounds::ball,
+            const std::vector<std::uint8_t>& is_fixed = {})
       : backend_(backend),
         surface_(topology, exclusions),
         bvh_(surface_.view()),
         skin_(surface_.view(), skin),
-        lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count) {
+        lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count),
+        planes_(bounds, is_fixed) {
+    planes_.reserve(lists_.noted_capacity());
     const SurfaceView surface = surface_.view();
     const auto vertices = static_cast<std::size_t>(surface.vertex_count);
     for (auto* by_vertex : {&d_min_vertex_, &bound_}) by_vertex->resize(vertices), by_vertex->fill_zero();
@@ -137,6 +142,14 @@ class Detection {
         surface, places,         bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists,
         skin,    contact_radius, d_vertex,      d_triangle};
     const DetectEdgeEdge edge_edge{surface, places, bvh_.edges(), lists, skin, contact_radius, d_edge};
+    if (planes_.is_used()) {
+      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.edge_count, {edge_edge, query_radius}},
+                      Searches<NearVertexFacet>{bvh_.facets(), surface.vertex_count, {vertex_facet, query_radius}});
+      planes_.make(backend_, surface, places, lists, bound_relaxation, query_radius, bound_.data());
+      lists_.assemble(backend_, places, contact_radius, 0, Decided{}, on_the_way.after_count, on_the_way.after,
+                      on_the_way.resolve, planes_.planes());
+      return;
+    }
     backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
     if (skin_.is_used()) {
       backend_.for_each_counted(&skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
@@ -159,8 +172,13 @@ class Detection {
             lists.incidence_offsets,
             lists.incidences,
             bound_.data(),
-            d_min_vertex_.data()};
+            planes_.is_used() ? planes_.nearest() : d_min_vertex_.data()};
   }
+
+  /// Host only: see Planes::download.
+  compare::VertexPlanes download_planes() const { return planes_.download(); }
+  /// Beside the balls of view().
+  RegionView regions() const { return planes_.regions(); }
 
   /// Incidences in the rows of ContactView::incidence_offsets, in any order within one.
   const LooseIncidence* loose_incidences() { return lists_.view().loose; }
@@ -174,6 +192,7 @@ class Detection {
   bool grow() {
     const bool grown = lists_.grow();
     if (grown) skin_.forget();  // its detection may have ended half way
+    planes_.reserve(lists_.noted_capacity());
     return grown;
   }
   /// Host only: room for the pairs of the skin, where they found none; true where something has moved.
@@ -195,6 +214,7 @@ class Detection {
       throw std::invalid_argument("capacities of other lists");
     lists_.reserve(static_cast<int>(capacities[0]), static_cast<int>(capacities[1]));
     skin_.forget();
+    planes_.reserve(lists_.noted_capacity());
   }
 
   const float* d_min_vertex() const { return d_min_vertex_.data(); }      ///< Eq. 22, rounded down [m]
@@ -209,6 +229,7 @@ class Detection {
   Bvh<Backend> bvh_;
   Skin<Backend> skin_;
   Lists<Backend> lists_;
+  Planes<Backend> planes_;
   typename Backend::template Buffer<Place> places_;  ///< positions of the last detection
   typename Backend::template Buffer<float> d_min_vertex_, d_min_edge_, d_min_triangle_, bound_;
 };

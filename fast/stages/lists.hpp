@@ -66,14 +66,14 @@ class Lists {
   /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other:
   /// beside(i) for 0 ≤ i < beside_count with the first launch, and after(i) for 0 ≤ i < after_count with the last, when
   /// overflow(), the incidences' rows and what stands in each are known, but not the order in them; resolve as in
-  /// RankIncidences.
+  /// RankIncidences. `planes`: see CollectContacts.
   template <class Beside, class After, class Resolve>
   void assemble(Backend& backend, Places positions, float contact_radius, int beside_count, const Beside& beside,
-                int after_count, const After& after, const Resolve& resolve) {
+                int after_count, const After& after, const Resolve& resolve, const PairPlane* planes = nullptr) {
     const ListsView lists = view();
     backend.for_both(
         beside_count, beside, lists.noted_count, noted_capacity_,
-        CollectContacts{{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, lists});
+        CollectContacts{{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, lists, planes});
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
                             {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
     backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists, surface_.vertex_count});

@@ -12,7 +12,7 @@ void append(ContactBatch& batch, const compare::ContactForceCase& contact, const
   batch.materials.push_back({contact.stiffness, friction});
   for (std::size_t k = 0; k < 4; ++k) {
     batch.positions.push_back(contact.vertex[k]);
-    batch.detected.push_back(contact.detected[k]);
+    batch.detected.push_back(contact.previous[k]);
     batch.start.push_back(start[k]);
     batch.body.push_back(i);
   }

@@ -2,11 +2,13 @@
 // functions that the sweep uses.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "compare/stages/bending.hpp"
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
+#include "compare/stages/tetrahedron.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/stages/probe_memory.hpp"
@@ -185,6 +187,65 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   view.old = memory.places(points_of(in.cases, &compare::SpringCase::vertex));
   view.start = {memory.places(points_of(in.cases, &compare::SpringCase::start))};
   backend.for_each(n, ProbeSpring{view, force_arrays(memory, out, in.cases.size())});
+  memory.fetch();
+  return out;
+}
+
+/// Undamped or with damping of strain the way is that of GatherSolids, otherwise that of GatherEverything.
+struct ProbeTetrahedron {
+  SweepView view;
+  ForceArrays out;
+
+  OGC_HD void operator()(int i) const {
+    ForceAndBlock sum;
+    const Vec own = view.old[4 * i];
+    add_any_tetrahedron(view, {view.tetrahedra[i], i}, view.solids[i], view.models[i], {own, own - view.start[4 * i]},
+                        sum);
+    out.store(i, sum);
+  }
+};
+
+/// The case's numbers as a tetrahedron at rest, of which corner 0 is asked about: nobody asks for what it lacks.
+inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int number) {
+  TetrahedronRest rest{
+      {4 * number, 4 * number + 1, 4 * number + 2, 4 * number + 3}, number, {}, c.inverse, {}, c.volume};
+  std::copy_n(c.weight.begin(), 3, rest.weight);
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(c.gradient[k].begin(), 3, rest.gradient[k]);
+  return rest;
+}
+
+template <class Backend>
+compare::ForceOut probe_tetrahedron(Backend& backend, const compare::TetrahedronIn& in) {
+  ProbeMemory<Backend> memory(backend);
+  compare::ForceOut out;
+  const int n = static_cast<int>(in.cases.size());
+  RestState rest;
+  const std::vector<int> colours(4 * in.cases.size(), 0);
+  std::vector<TetrahedronIncidence> incidences;
+  std::vector<TetrahedronGradients> gradients;
+  for (int i = 0; i < n; ++i) {
+    const compare::TetrahedronCase& c = in.cases[static_cast<std::size_t>(i)];
+    rest.tetrahedra.push_back(tetrahedron_rest(c, i));
+    rest.solids.push_back({c.lame_lambda, c.lame_mu, c.damping});
+    rest.models.push_back({compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
+    incidences.push_back(detail::tetrahedron_incidence(rest, i, 0, colours));
+    gradients.push_back(detail::tetrahedron_gradients(rest.tetrahedra.back(), 0));
+  }
+  const std::vector<SolidStrain> no_strain(in.cases.size());
+  typename Backend::template Buffer<SolidStrain> strain_start;
+  strain_start.upload(no_strain.data(), no_strain.size());
+  SweepView view;
+  view.tetrahedra = memory.template in<TetrahedronIncidence>(incidences);
+  view.gradients = memory.template in<TetrahedronGradients>(gradients);
+  view.solids = memory.template in<SolidMaterial>(rest.solids);
+  view.models = memory.template in<SurfaceModels>(rest.models);
+  view.solid_start = strain_start.data();
+  view.old = memory.places(points_of(in.cases, &compare::TetrahedronCase::corner));
+  view.start = {memory.places(points_of(in.cases, &compare::TetrahedronCase::start))};
+  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::TetrahedronCase::start));
+  backend.for_each(n,
+                   BeginTetrahedron{memory.template in<TetrahedronRest>(rest.tetrahedra), start, strain_start.data()});
+  backend.for_each(n, ProbeTetrahedron{view, force_arrays(memory, out, in.cases.size())});
   memory.fetch();
   return out;
 }

@@ -68,7 +68,7 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   const GuessVertex guess{target,
                           memory.template in<Vec>(column(in, &Case::previous)),
                           memory.template in<float>(column(in, &Case::bound)),
-                          memory.template in<int>(offsets),
+                          {memory.template in<int>(offsets)},
                           position,
                           nullptr};
   backend.for_each(static_cast<int>(n),

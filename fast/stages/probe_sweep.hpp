@@ -95,15 +95,22 @@ class ProbeStart {
     angle_.resize(rest.hinges.size());
     backend.for_each(static_cast<int>(rest.triangles.size()), BeginTriangle{triangles_.data(), start, strain_.data()});
     backend.for_each(static_cast<int>(rest.hinges.size()), BeginHinge{hinges_.data(), start, angle_.data()});
+    tetrahedra_.upload(rest.tetrahedra.data(), rest.tetrahedra.size());
+    solid_.resize(rest.tetrahedra.size());
+    backend.for_each(static_cast<int>(rest.tetrahedra.size()),
+                     BeginTetrahedron{tetrahedra_.data(), start, solid_.data()});
   }
   const Symmetric2* strain() const { return strain_.data(); }
   const float* angle() const { return angle_.data(); }
+  const SolidStrain* solid() const { return solid_.data(); }
 
  private:
   typename Backend::template Buffer<TriangleRest> triangles_;
   typename Backend::template Buffer<HingeRest> hinges_;
   typename Backend::template Buffer<Symmetric2> strain_;
   typename Backend::template Buffer<float> angle_;
+  typename Backend::template Buffer<TetrahedronRest> tetrahedra_;
+  typename Backend::template Buffer<SolidStrain> solid_;
 };
 
 template <class Backend>
@@ -135,6 +142,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   const ProbeStart<Backend> start(backend, rest, vectors(in.start));
   view.strain_start = start.strain();
   view.angle_start = start.angle();
+  view.solid_start = start.solid();
   const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
   sweep.reserve_contacts(contacts.incidences());
   sweep.resolve_contacts(contacts.view(), view.previous);

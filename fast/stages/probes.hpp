@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/kernels/activation.hpp"
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/truncate.hpp"
@@ -170,7 +170,7 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   backend.for_each(static_cast<int>(n),
                    ProbeTruncate{memory.template in<Vec>(in.previous), memory.template in<Vec>(in.position),
                                  memory.template in<float>(in.bound), memory.template out<Vec>(out.position, n),
-                                 memory.template out<std::uint8_t>(out.exceeded, n)});
+                                 memory.template out<std::uint8_t>(out.cut, n)});
   memory.fetch();
   return out;
 }
@@ -201,6 +201,7 @@ compare::Contestant probe_contestant(
   contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
   contestant.spring = [backend](const compare::SpringIn& in) { return probe_spring(*backend, in); };
+  contestant.tetrahedron = [backend](const compare::TetrahedronIn& in) { return probe_tetrahedron(*backend, in); };
   contestant.contact_force = [backend](const compare::ContactForceIn& in) { return probe_contact_force(*backend, in); };
   contestant.friction_force = [backend](const compare::FrictionForceIn& in) {
     return probe_friction_force(*backend, in);

@@ -29,6 +29,8 @@ RestState without_shape(const compare::Scene& scene) {
                               static_cast<float>(body.material.membrane_damping / h),
                               static_cast<float>(body.material.bending_damping / h)});
     rest.models.push_back({body.material.membrane, body.material.bending, scene.settings.damping});
+    rest.solids.push_back({static_cast<float>(body.material.solid_lambda), static_cast<float>(body.material.solid_mu),
+                           static_cast<float>(body.material.solid_damping / h)});
   }
   rest.activation = scene.settings.activation;
   for (const compare::Spring& spring : scene.springs) {
@@ -70,16 +72,45 @@ void add_triangles(const compare::Scene& scene, int number, std::vector<double>&
   }
 }
 
+void add_tetrahedra(const compare::Scene& scene, int number, std::vector<double>& mass, RestState& rest) {
+  const compare::Body& body = scene.bodies[at(number)];
+  const auto& p = scene.rest_positions;
+  for (int t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
+    const compare::Tetrahedron& corners = scene.mesh.tetrahedra[at(t)];
+    const RestTetrahedron shape = rest_tetrahedron(p[at(corners[0])], p[at(corners[1])], p[at(corners[2])],
+                                                   p[at(corners[3])]);
+    for (const int corner : corners) mass[at(corner)] += body.material.solid_density * shape.volume / 4;
+    TetrahedronRest tetrahedron;
+    for (int k = 0; k < 4; ++k) tetrahedron.corner[k] = corners[at(k)];
+    tetrahedron.body = number;
+    for (int i = 0; i < 6; ++i) tetrahedron.weight[i] = static_cast<float>(shape.weight[i]);
+    tetrahedron.inverse = static_cast<float>(1 / (6 * shape.volume));
+    tetrahedron.volume = static_cast<float>(shape.volume);
+    for (int k = 0; k < 3; ++k) {
+      const RestVector& gradient = shape.gradient[k + 1];
+      tetrahedron.gradient[k][0] = static_cast<float>(gradient.x);
+      tetrahedron.gradient[k][1] = static_cast<float>(gradient.y);
+      tetrahedron.gradient[k][2] = static_cast<float>(gradient.z);
+    }
+    rest.tetrahedra.push_back(tetrahedron);
+  }
+}
+
 void add_masses(const compare::Scene& scene, RestState& rest) {
   std::vector<double> mass(scene.mesh.positions.size(), 0.0);
   for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
-    if (!scene.bodies[at(b)].fixed) add_triangles(scene, b, mass, rest);
+    const compare::Body& body = scene.bodies[at(b)];
+    if (body.fixed) continue;
+    if (body.is_solid())
+      add_tetrahedra(scene, b, mass, rest);
+    else
+      add_triangles(scene, b, mass, rest);
   }
   for (std::size_t v = 0; v < mass.size(); ++v) {
     rest.mass.push_back(static_cast<float>(mass[v]));
     if (rest.mobility[v] == Mobility::free && !(rest.mass[v] > 0)) {
       throw compare::InputError(compare::ElementNames(scene).vertex(static_cast<compare::Index>(v)) +
-                                " moves but has no mass: give it a triangle and a density above zero, "
+                                " moves but has no mass: give it a triangle or a tetrahedron and a density above zero, "
                                 "or hold it by a motion or a fixed body");
     }
   }
@@ -96,7 +127,7 @@ void add_hinges(const compare::Scene& scene, const compare::Topology& topology, 
     const compare::Edge& edge = topology.edges[at(hinge.edge)];
     const int number = rest.body[at(edge[0])];
     const compare::Body& body = scene.bodies[at(number)];
-    if (body.fixed || body.material.bending == compare::BendingModel::none) continue;
+    if (body.fixed || body.is_solid() || body.material.bending == compare::BendingModel::none) continue;
     const RestHinge shape = rest_hinge(p[at(edge[0])], p[at(edge[1])], p[at(hinge.opposite[0])],
                                        p[at(hinge.opposite[1])]);
     rest.hinges.push_back({{edge[0], edge[1], hinge.opposite[0], hinge.opposite[1]},
@@ -155,6 +186,13 @@ compare::RestStateOut rest_state_out(const compare::RestStateIn& in) {
     for (std::size_t k = 0; k < 3; ++k) out.hinges.back().weight[k] = rest.weights[i].weight[k];
   }
   for (const ContactMaterial& m : rest.contact) out.meetings.push_back({m.stiffness, m.friction});
+  for (const TetrahedronRest& t : rest.tetrahedra) {
+    compare::RestTetrahedron shape{
+        {t.corner[0], t.corner[1], t.corner[2], t.corner[3]}, t.body, t.volume, t.inverse, {}, {}};
+    std::copy_n(t.weight, 6, shape.weight.begin());
+    for (std::size_t k = 0; k < 3; ++k) std::copy_n(t.gradient[k], 3, shape.gradient[k].begin());
+    out.tetrahedra.push_back(shape);
+  }
   return out;
 }
 
@@ -176,6 +214,12 @@ RestState rest_state_of(const compare::RestStateIn& in, const compare::RestState
     if (weighted) rest.weights.push_back({{h.weight[0], h.weight[1], h.weight[2]}});
   }
   for (const compare::MeetingMaterial& m : out.meetings) rest.contact.push_back({m.stiffness, m.friction});
+  for (const compare::RestTetrahedron& t : out.tetrahedra) {
+    TetrahedronRest shape{{t.corner[0], t.corner[1], t.corner[2], t.corner[3]}, t.body, {}, t.inverse, {}, t.volume};
+    std::copy_n(t.weight.begin(), 6, shape.weight);
+    for (std::size_t k = 0; k < 3; ++k) std::copy_n(t.gradient[k].begin(), 3, shape.gradient[k]);
+    rest.tetrahedra.push_back(shape);
+  }
   return rest;
 }
 

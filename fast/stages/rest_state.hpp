@@ -12,6 +12,7 @@
 #include "fast/kernels/isometric.hpp"
 #include "fast/kernels/membrane.hpp"
 #include "fast/kernels/spring.hpp"
+#include "fast/kernels/tetrahedron.hpp"
 
 namespace ogc::fast {
 
@@ -19,16 +20,19 @@ namespace ogc::fast {
 enum class Mobility : std::uint8_t { free, prescribed, fixed };
 
 struct RestState {
-  std::vector<float> mass;  ///< m_v [kg]: a third of each incident triangle's; 0 on fixed bodies
+  /// m_v [kg]: a third of each incident triangle's, a quarter of each incident tetrahedron's; 0 on fixed bodies
+  std::vector<float> mass;
   std::vector<Mobility> mobility;
   std::vector<int> body;  ///< of each vertex
   std::vector<TriangleRest> triangles;
   std::vector<HingeRest> hinges;
   std::vector<HingeWeights> weights;  ///< by hinge; empty where no body bends isometrically
   std::vector<SpringRest> springs;
+  std::vector<TetrahedronRest> tetrahedra;
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<SurfaceMaterial> materials;  ///< by body
   std::vector<SurfaceModels> models;       ///< by body
+  std::vector<SolidMaterial> solids;       ///< by body
   ContactActivation activation = ContactActivation::ogc;
   std::vector<ContactMaterial> contact;  ///< of bodies a and b, at a · bodies + b
 };

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/trace.hpp"
 
@@ -30,11 +30,10 @@ class ResidentSimulation : public compare::Simulation {
         rest_(build_rest_state(scene_, topology_)),
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
-        detection_(backend_, topology_, exclusions_, list_capacity),
+        detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
-        moving_(static_cast<std::size_t>(std::count_if(rest_.mobility.begin(), rest_.mobility.end(),
-                                                       [](Mobility m) { return m != Mobility::fixed; }))),
+        moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
         step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies),
               static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
@@ -88,6 +87,7 @@ class ResidentSimulation : public compare::Simulation {
     result.bounds = last_bounds();
     result.query_radius = query_radius_;
     result.capacities = detection_.capacities();
+    result.planes = detection_.download_planes();
     return result;
   }
 
@@ -133,6 +133,12 @@ class ResidentSimulation : public compare::Simulation {
     buffer.download(reinterpret_cast<Vec*>(to.data()), to.size());
   }
 
+  std::vector<std::uint8_t> fixed_vertices() const {
+    std::vector<std::uint8_t> fixed;
+    for (const Mobility m : rest_.mobility) fixed.push_back(m == Mobility::fixed ? 1 : 0);
+    return fixed;
+  }
+
   void fill_state() {
     StepState<Backend>& s = state_;
     const std::size_t n = rest_.mass.size();
@@ -140,6 +146,8 @@ class ResidentSimulation : public compare::Simulation {
     s.triangle_count = static_cast<int>(rest_.triangles.size());
     s.hinge_count = static_cast<int>(rest_.hinges.size());
     s.spring_count = static_cast<int>(rest_.springs.size());
+    s.tetrahedron_count = static_cast<int>(rest_.tetrahedra.size());
+    s.solids_damped = std::any_of(rest_.solids.begin(), rest_.solids.end(), damps);
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
@@ -147,6 +155,7 @@ class ResidentSimulation : public compare::Simulation {
     s.places.resize(2 * n);
     s.strain_start.resize(rest_.triangles.size());
     s.angle_start.resize(rest_.hinges.size());
+    s.solid_start.resize(rest_.tetrahedra.size());
     s.sums_guess.resize(sum_columns);
     s.sums_end.resize(sum_columns);
     s.control.resize(1);
@@ -156,6 +165,7 @@ class ResidentSimulation : public compare::Simulation {
     upload(s.hinges, rest_.hinges);
     upload(s.weights, rest_.weights);
     upload(s.springs, rest_.springs);
+    upload(s.tetrahedra, rest_.tetrahedra);
     std::vector<int> number(n);
     for (std::size_t v = 0; v < n; ++v) number[v] = rest_.mobility[v] == Mobility::fixed ? -2 : -1;
     for (const compare::PrescribedMotion& motion : scene_.motions) {
@@ -258,7 +268,10 @@ class ResidentSimulation : public compare::Simulation {
     result.elastic_energy = energies_ ? row.elastic : not_asked;
     result.contact_energy = energies_ ? row.contact : not_asked;
     result.gravity_energy = energies_ ? row.gravity : not_asked;
-    result.smallest_distance = row.smallest_bound / scene_.settings.bound_relaxation;
+    result.inverted_tetrahedra = row.inverted;
+    result.smallest_distance = scene_.settings.bounds == compare::Bounds::planes
+                                   ? row.smallest_bound
+                                   : row.smallest_bound / scene_.settings.bound_relaxation;
     result.status = static_cast<std::uint32_t>(row.status);
     return result;
   }

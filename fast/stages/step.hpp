@@ -33,6 +33,7 @@ namespace ogc::fast {
 /// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
 struct StepSettings {
   float step, contact_radius, friction_limit, bound_relaxation;  ///< h [s], r [m], ε_v h [m], γ_p
+  float detection_radius;                                        ///< r and the margin of contacts [m]
   Vec acceleration;                                              ///< [m/s²]
   int iterations;
   bool energies;
@@ -49,20 +50,22 @@ inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, in
   return 4 * redetections < steps * iterations ? 5 : 1;
 }
 
-/// `moving`: K, the number of free and prescribed vertices.
+/// `moving`: K, as compare::bounded_count.
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
   StepSettings to{};
   to.step = static_cast<float>(from.time_step);
   to.contact_radius = static_cast<float>(from.contact_radius);
+  to.detection_radius = static_cast<float>((1 + from.contact_margin) * from.contact_radius);
   to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
   to.bound_relaxation = static_cast<float>(from.bound_relaxation);
   to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
                      static_cast<float>(scene.gravity.z)};
   to.iterations = static_cast<int>(from.iterations);
   to.energies = energies;
-  to.control.contact_radius = to.contact_radius;
-  to.control.largest_query_radius = static_cast<float>(from.query_radius_cap * from.contact_radius);
+  to.control.contact_radius = to.detection_radius;
+  to.control.largest_query_radius = std::max(static_cast<float>(from.query_radius_cap * from.contact_radius),
+                                             to.detection_radius);
   to.control.cut_threshold = std::max(
       1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
   to.control.redetect_every = static_cast<int>(from.redetect_every);
@@ -80,7 +83,8 @@ struct StepState {
   using Buffer = typename Backend::template Buffer<T>;
 
   int vertex_count = 0, triangle_count = 0, hinge_count = 0, spring_count = 0, prescribed_count = 0;
-  bool damped = false;
+  int tetrahedron_count = 0;
+  bool damped = false, solids_damped = false;
   Buffer<Vec> start, velocity, target, previous, position;
   Buffer<Place> start_places, places;
   Buffer<float> mass;
@@ -90,7 +94,9 @@ struct StepState {
   Buffer<HingeRest> hinges;
   Buffer<HingeWeights> weights;
   Buffer<SpringRest> springs;
+  Buffer<TetrahedronRest> tetrahedra;
   Buffer<Symmetric2> strain_start;
+  Buffer<SolidStrain> solid_start;
   Buffer<float> angle_start;
   Buffer<StepControl> control;
   Buffer<StepRow> rows;
@@ -159,25 +165,32 @@ class Step {
       backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
       backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
     }
+    if (s.solids_damped)
+      backend_.for_each(s.tetrahedron_count,
+                        BeginTetrahedron{s.tetrahedra.data(), s.start.data(), s.solid_start.data()});
   }
 
   /// Bounds that end here are certified, then X_prev ← x and everything is found anew, the stream of contacts included.
   void detect() {
     const Vec* position = state_.position.data();
     const ContactView view = detection_.view();
-    const BeginBounds before{position, view.bound, state_.previous.data(), control()};
+    const BeginBounds before{position, view.bound, state_.previous.data(), control(), detection_.regions()};
     const Both after{EndDetection{control(), detection_.overflow()}, 1,
                      sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), detection_.overflow()),
                      sweep_.slots()};
     detection_.detect(
-        position, settings_.contact_radius, &control()->query_radius, settings_.bound_relaxation,
+        position, settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
         OnTheWay{before, std::max(1, sweep_.slots()), after, sweep_.resolve_contact(view, state_.previous.data())});
   }
 
   void guess() {
     const ContactView view = detection_.view();
+    ActiveContacts contacts{view.incidence_offsets};
+    if (settings_.detection_radius > settings_.contact_radius)
+      contacts = {view.incidence_offsets, view.incidences, view.vertex_facet, view.edge_edge, settings_.contact_radius};
     backend_.for_each(state_.vertex_count, GuessVertex{state_.target.data(), state_.previous.data(), view.bound,
-                                                       view.incidence_offsets, state_.position.data(), control()});
+                                                       contacts, state_.position.data(), control(),
+                                                       detection_.regions(), state_.prescribed_number.data()});
   }
 
   void guess_loop() {
@@ -249,10 +262,12 @@ class Step {
     sweep_.complete(view);
     view.strain_start = s.strain_start.data();
     view.angle_start = s.angle_start.data();
+    view.solid_start = s.solid_start.data();
     view.start = {s.start_places.data()};
     view.target = s.target.data();
     view.previous = s.previous.data();
     view.bound = detection_.view().bound;
+    view.regions = detection_.regions();
     const bool swapped = iteration % 2 != 0;
     view.old = s.places.data() + (swapped ? s.vertex_count : 0);
     view.to_fresh = swapped ? -s.vertex_count : s.vertex_count;
@@ -268,13 +283,15 @@ class Step {
   void finish() {
     StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
-    backend_.for_each(s.vertex_count, CheckVertex{position, s.previous.data(), detection_.view().bound, s.target.data(),
-                                                  s.prescribed_number.data(), control()});
+    const ContactView view = detection_.view();
+    backend_.for_each(s.vertex_count,
+                      CheckVertex{position, s.previous.data(), view.bound, s.target.data(), s.prescribed_number.data(),
+                                  control(), detection_.regions(), view.d_min_vertex});
     backend_.for_each(1, EndCheck{control()});
     if (settings_.energies)
       reduction_.sum(s.sums_end.data(), vertices(energies()));
     else
-      reduction_.sum(s.sums_end.data(), vertices());
+      reduction_.sum(s.sums_end.data(), vertices(tetrahedra()));
     backend_.for_each(s.vertex_count,
                       CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
     backend_.for_each(1,
@@ -292,6 +309,12 @@ class Step {
                  rest);
   }
 
+  template <class Rest = NoItems>
+  auto tetrahedra(const Rest& rest = {}) {
+    const StepState<Backend>& s = state_;
+    return items(s.tetrahedron_count, TetrahedronTerm{s.tetrahedra.data(), sweep_.solids(), s.position.data()}, rest);
+  }
+
   auto energies() {
     const StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
@@ -302,7 +325,7 @@ class Step {
     const auto contacts = items(view.vertex_facet_count,
                                 VertexFacetTerm{view, tables, position, sweep_.activation(), settings_.contact_radius},
                                 edge_edge);
-    const auto springs = items(s.spring_count, SpringTerm{s.springs.data(), position}, contacts);
+    const auto springs = items(s.spring_count, SpringTerm{s.springs.data(), position}, tetrahedra(contacts));
     const auto hinges = items(s.hinge_count, HingeTerm{s.hinges.data(), s.weights.data(), sweep_.models(), position},
                               springs);
     return items(s.triangle_count, TriangleTerm{s.triangles.data(), sweep_.materials(), sweep_.models(), position},

@@ -10,6 +10,7 @@
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/kernels/sweep_models.hpp"
+#include "fast/kernels/sweep_solids.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -18,7 +19,7 @@ namespace ogc::fast {
 
 /// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes
 /// cannot fill a device otherwise.
-inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : (vertices <= 100000 ? 8 : 4); }
+inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : (vertices <= 300000 ? 8 : 4); }
 
 /// The streams on the host, slot by slot in the order of the colouring.
 struct SweepStreams {
@@ -28,6 +29,9 @@ struct SweepStreams {
   std::vector<IsometricStencil> isometric;  ///< beside `hinges`; empty where no body bends isometrically
   std::vector<SpringIncidence> springs;
   std::vector<SpringRow> spring_rows;  ///< by slot; empty where there is no spring
+  std::vector<TetrahedronIncidence> tetrahedra;
+  std::vector<TetrahedronGradients> gradients;   ///< beside `tetrahedra`; empty where no body damps
+  std::vector<TetrahedronRow> tetrahedron_rows;  ///< by slot; empty where there is no tetrahedron
 };
 
 namespace detail {
@@ -84,6 +88,42 @@ inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const
       spring};
 }
 
+/// The other corners as each corner lists them: those of the opposite face, in the order of a positive volume.
+inline constexpr int tetrahedron_others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+/// The place of a pair of corners among the weights.
+inline constexpr int tetrahedron_pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+
+inline TetrahedronIncidence tetrahedron_incidence(const RestState& rest, int tetrahedron, int corner,
+                                                  const std::vector<int>& colour) {
+  const TetrahedronRest& shape = rest.tetrahedra[static_cast<std::size_t>(tetrahedron)];
+  const int own = colour[static_cast<std::size_t>(shape.corner[corner])];
+  TetrahedronIncidence incidence;
+  for (int k = 0; k < 3; ++k) {
+    const int other = tetrahedron_others[corner][k];
+    incidence.index[k] = encoded(shape.corner[other], colour, own);
+    incidence.stencil.weight[k] = shape.weight[tetrahedron_pair[corner][other]];
+  }
+  incidence.stencil.inverse = shape.inverse;
+  incidence.tetrahedron = tetrahedron;
+  return incidence;
+}
+
+/// ∇N₀ is made of the stored ones and rounded once.
+inline TetrahedronGradients tetrahedron_gradients(const TetrahedronRest& shape, int corner) {
+  const auto gradient = [&](int k, int axis) {
+    if (k > 0) return shape.gradient[k - 1][axis];
+    return static_cast<float>(-static_cast<double>(shape.gradient[0][axis]) - shape.gradient[1][axis] -
+                              shape.gradient[2][axis]);
+  };
+  TetrahedronGradients seen;
+  for (int k = 0; k < 3; ++k) {
+    const int other = tetrahedron_others[corner][k];
+    seen.other[k] = {gradient(other, 0), gradient(other, 1), gradient(other, 2)};
+  }
+  seen.volume = shape.volume;
+  return seen;
+}
+
 /// (element, role) of each vertex, by element; −1 for a vertex: nobody has that role.
 template <class Element, class Vertices>
 std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_count, const std::vector<Element>& elements,
@@ -100,6 +140,27 @@ std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_coun
 
 }  // namespace detail
 
+/// Whether a body's tetrahedra damp.
+inline bool damps(const SolidMaterial& material) { return material.damping > 0; }
+
+/// The tetrahedra of all slots, where there are any.
+inline void add_tetrahedra(const RestState& rest, const Colouring& colouring, SweepStreams& streams) {
+  if (rest.tetrahedra.empty()) return;
+  const auto around = detail::incidences(
+      rest.mass.size(), rest.tetrahedra, [](const TetrahedronRest& t) { return t.corner; }, 4);
+  const bool damped = std::any_of(rest.solids.begin(), rest.solids.end(), damps);
+  for (const int v : colouring.order) {
+    const auto& own = around[static_cast<std::size_t>(v)];
+    streams.tetrahedron_rows.push_back({static_cast<int>(streams.tetrahedra.size()), static_cast<int>(own.size())});
+    for (const auto& [tetrahedron, corner] : own) {
+      streams.tetrahedra.push_back(detail::tetrahedron_incidence(rest, tetrahedron, corner, colouring.colour));
+      if (damped)
+        streams.gradients.push_back(
+            detail::tetrahedron_gradients(rest.tetrahedra[static_cast<std::size_t>(tetrahedron)], corner));
+    }
+  }
+}
+
 /// `step` is h [s].
 inline SweepStreams build_streams(const RestState& rest, const Colouring& colouring, double step) {
   const auto triangles = detail::incidences(
@@ -111,6 +172,7 @@ inline SweepStreams build_streams(const RestState& rest, const Colouring& colour
   };
   const auto springs = detail::incidences(rest.mass.size(), rest.springs, with_roles, 3);
   SweepStreams streams;
+  add_tetrahedra(rest, colouring, streams);
   for (const int v : colouring.order) {
     const auto i = static_cast<std::size_t>(v);
     SweepVertex vertex;
@@ -147,10 +209,16 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
   return squared;
 }
 
-/// Whether a scene needs GatherEveryModel: something that GatherDefault leaves out.
-inline bool needs_every_model(const RestState& rest) {
-  if (rest.activation != ContactActivation::ogc || !rest.springs.empty()) return true;
-  return !std::all_of(rest.models.begin(), rest.models.end(), are_default);
+/// Which sum over the stencils of a vertex a scene needs, by what the sum has and others lack: GatherDefault,
+/// GatherEveryModel, GatherSolids, GatherEverything.
+enum class SweepSum { surfaces, every_model, solids, everything };
+
+inline SweepSum needed_sum(const RestState& rest) {
+  const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
+                           !std::all_of(rest.models.begin(), rest.models.end(), are_default);
+  if (rest.tetrahedra.empty()) return every_model ? SweepSum::every_model : SweepSum::surfaces;
+  const bool alone = rest.triangles.empty() && rest.hinges.empty();
+  return every_model || !alone ? SweepSum::everything : SweepSum::solids;
 }
 
 /// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each
@@ -168,7 +236,7 @@ class Sweep {
         colours_(colouring.count),
         vertex_count_(static_cast<int>(rest.mass.size())),
         lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes) : default_lanes(rest.mass.size())),
-        every_model_(needs_every_model(rest)),
+        sum_(needed_sum(rest)),
         activation_(rest.activation) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
     upload(vertices_, streams.vertices);
@@ -181,6 +249,10 @@ class Sweep {
     upload(isometric_, streams.isometric);
     upload(springs_, streams.springs);
     upload(spring_rows_, streams.spring_rows);
+    upload(solids_, rest.solids);
+    upload(tetrahedra_, streams.tetrahedra);
+    upload(gradients_, streams.gradients);
+    upload(tetrahedron_rows_, streams.tetrahedron_rows);
     upload(contact_materials_, rest.contact);
     upload(rest_squared_, rest_squared_with_triangles(topology, rest));
     contact_rows_.resize(streams.vertices.size());
@@ -197,6 +269,7 @@ class Sweep {
   int lanes() const { return lanes_; }
   const SurfaceMaterial* materials() const { return materials_.data(); }
   const SurfaceModels* models() const { return models_.data(); }
+  const SolidMaterial* solids() const { return solids_.data(); }
   ContactActivation activation() const { return activation_; }
 
   /// What a record does not say itself; `detected`: the positions of the last detection.
@@ -241,6 +314,10 @@ class Sweep {
     view.springs = springs_.data();
     view.spring_rows = spring_rows_.data();
     view.activation = activation_;
+    view.tetrahedron_rows = tetrahedron_rows_.data();
+    view.tetrahedra = tetrahedra_.data();
+    view.gradients = gradients_.data();
+    view.solids = solids_.data();
   }
 
   /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each
@@ -254,10 +331,15 @@ class Sweep {
       const int count = colour_begin_[k + 1] - colour_begin_[k];
       const bool is_first = c == 0 && prescribed == 0, asks_late = is_first && start == Start::overlapping;
       const Start own_start = is_first ? start : Start::overlapping;
-      if (every_model_)
-        update(count, UpdateVertex<GatherEveryModel>{view, colour_begin_[k], asks_late}, own_start);
-      else
-        update(count, UpdateVertex<GatherDefault>{view, colour_begin_[k], asks_late}, own_start);
+      const auto with = [&](auto gather) {
+        update(count, UpdateVertex<decltype(gather)>{view, colour_begin_[k], asks_late}, own_start);
+      };
+      switch (sum_) {
+        case SweepSum::surfaces: with(GatherDefault{}); break;
+        case SweepSum::every_model: with(GatherEveryModel{}); break;
+        case SweepSum::solids: with(GatherSolids{}); break;
+        case SweepSum::everything: with(GatherEverything{}); break;
+      }
     }
   }
 
@@ -282,7 +364,7 @@ class Sweep {
   Backend& backend_;
   std::vector<int> colour_begin_, prescribed_host_;
   int colours_, vertex_count_, lanes_;
-  bool every_model_;
+  SweepSum sum_;
   ContactActivation activation_;
   Buffer<SweepVertex> vertices_;
   Buffer<MembraneIncidence> membrane_;
@@ -295,6 +377,10 @@ class Sweep {
   Buffer<IsometricStencil> isometric_;
   Buffer<SpringIncidence> springs_;
   Buffer<SpringRow> spring_rows_;
+  Buffer<TetrahedronIncidence> tetrahedra_;
+  Buffer<TetrahedronGradients> gradients_;
+  Buffer<TetrahedronRow> tetrahedron_rows_;
+  Buffer<SolidMaterial> solids_;
   Buffer<ContactMaterial> contact_materials_;
   Buffer<float> rest_squared_;
   ContactTables tables_;

@@ -32,7 +32,8 @@ std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, floa
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bounds.size(), 256),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t v = range.begin(); v < range.end(); ++v)
-                        above[v] = is_above(bounds[v], limits[v], bound_relaxation);
+                        above[v] = in.topology->on_surface(static_cast<compare::Index>(v)) &&
+                                   is_above(bounds[v], limits[v], bound_relaxation);
                     });
   std::vector<compare::Index> result;
   for (std::size_t v = 0; v < above.size(); ++v) {

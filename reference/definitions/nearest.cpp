@@ -86,6 +86,7 @@ class Search {
     NearestOfEach of_vertex(points.size(), in_.query_radius), of_triangle(triangles.size(), in_.query_radius);
     for_near(points, triangles, [&](Index v, Index t) {
       const compare::Triangle& c = mesh_.triangle(t);
+      if (!in_.topology->on_surface(v)) return;
       if (std::find(c.begin(), c.end(), v) != c.end() || is_excluded(in_.exclusions, {&v, 1}, c)) return;
       const Corners corners{mesh_.at(c[0]), mesh_.at(c[1]), mesh_.at(c[2])};
       const Margin gap = feature_gap(corners, closest_feature(corners, mesh_.at(v)), mesh_.at(v));

@@ -162,7 +162,7 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
 /// vanishes.
 Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
-  const Triple<Input> e = own.vector(q.detected[1], q.detected[0]), f = own.vector(q.detected[3], q.detected[2]);
+  const Triple<Input> e = own.vector(q.previous[1], q.previous[0]), f = own.vector(q.previous[3], q.previous[2]);
   const Mollifier<Input> mollifier(e, f, own.number(q.rest_squared[0]), own.number(q.rest_squared[1]));
   if (!mollifier.acts()) return one;
   const Input result = mollifier.value();
@@ -173,7 +173,7 @@ Input mollified(const ContactForceCase& q, Inputs& inputs) {
 /// e_k where it is constant.
 Input shared(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
-  const auto& x = q.detected;
+  const auto& x = q.previous;
   const Triple<Input> first = own.vector(x[1], x[0]), start = own.vector(x[2], x[0]), end = own.vector(x[3], x[0]);
   const Input result = overlap_share(first, end - start, start);
   return inputs.number(result.value, own.condition({&result, 1}));
@@ -184,7 +184,7 @@ std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   if (q.sides != ContactSides::edge_edge) return {one};
   if (q.rest_squared[0] > 0 && q.rest_squared[1] > 0) return {mollified(q, inputs)};
   if (q.rest_squared[0] != 0 || q.rest_squared[1] != 0) return {one};
-  const Membership rule = are_nearly_parallel({{q.detected[0], q.detected[1]}, {q.detected[2], q.detected[3]}});
+  const Membership rule = are_nearly_parallel({{q.previous[0], q.previous[1]}, {q.previous[2], q.previous[3]}});
   if (!rule.possible) return {one};
   const Input share = shared(q, inputs);
   if (rule.certain) return {share};

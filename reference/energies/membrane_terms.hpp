@@ -154,13 +154,10 @@ void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, cons
 template <class Number>
 void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const Triple<Number>& normal,
                      VertexSystemOf<Number>& sum) {
-  add_force(1.0, energy.slope, sum);
+  add_exactly(energy, sum);
   Triple<Number> along_normal{};
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k) {
-      Triple<Number> a{}, b{};
-      a[i] = b[j] = Number(1.0);
-      add_outer((i == j ? 1.0 : 2.0) * energy.bend(k), a, b, sum.block);
       along_normal[i] += energy.bend(k) * normal[j];
       if (i != j) along_normal[j] += energy.bend(k) * normal[i];
     }

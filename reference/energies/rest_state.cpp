@@ -92,6 +92,30 @@ struct Fold {
   }
 };
 
+/// A tetrahedron by what its coordinates give before any quotient: normals of the faces opposite its corners, inward,
+/// of twice the area, and 6V. ∇N_k = n_k/(6V).
+template <class T>
+struct SolidShape {
+  Point<T> normal[4];
+  T six_volumes;
+
+  SolidShape(const Point<T>& a, const Point<T>& b, const Point<T>& c)
+      : normal{cross(c - a, b - a), cross(b, c), cross(c, a), cross(a, b)}, six_volumes(dot(a, normal[1])) {}
+
+  /// V ∇N_k·∇N_l.
+  auto weight(std::size_t k, std::size_t l) const {
+    const auto sixth = number(six_volumes);
+    return number(dot(normal[k], normal[l])) / (decltype(sixth)(6.0) * sixth);
+  }
+  auto gradient(std::size_t k) const {
+    const auto sixth = number(six_volumes);
+    return std::array{decltype(sixth)(number(normal[k].x) / sixth), decltype(sixth)(number(normal[k].y) / sixth),
+                      decltype(sixth)(number(normal[k].z) / sixth)};
+  }
+};
+
+constexpr std::array<std::array<std::size_t, 2>, 6> corner_pairs{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condition({&answer, 1}); }
 
 /// Fills the answer stencil by stencil.
@@ -108,6 +132,9 @@ class Builder {
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const compare::Body& body = scene_.bodies[b];
       if (body.fixed) continue;
+      for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t)
+        add_tetrahedron(t, static_cast<Index>(b));
+      if (body.is_solid()) continue;
       for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
         add_triangle(t, static_cast<Index>(b));
     }
@@ -162,11 +189,73 @@ class Builder {
     truth_.gradient_scale.push_back(scales);
   }
 
+  void add_tetrahedron(Index t, Index number_of_body) {
+    const compare::Tetrahedron& corners = scene_.mesh.tetrahedra[static_cast<std::size_t>(t)];
+    const compare::Vec3& from = at(corners[0]);
+    const Point<Exact> origin = exact(from);
+    const SolidShape<Exact> shape(exact(at(corners[1])) - origin, exact(at(corners[2])) - origin,
+                                  exact(at(corners[3])) - origin);
+    Inputs inputs;
+    const SolidShape<Input> reacting(input(inputs, at(corners[1]), from), input(inputs, at(corners[2]), from),
+                                     input(inputs, at(corners[3]), from));
+    const long double six_volumes = number(shape.six_volumes), volume = six_volumes / 6;
+    const double volume_scale = unit_of(inputs, Input(1.0 / 6) * reacting.six_volumes);
+    const double density = body(number_of_body).material.solid_density;
+    for (const Index corner : corners) {
+      const auto v = static_cast<std::size_t>(corner);
+      mass_[v] += density * volume / 4;
+      mass_scale_[v] += density * (volume_scale + static_cast<double>(volume)) / 4;
+    }
+    compare::RestTetrahedron rest{
+        corners, number_of_body, static_cast<float>(volume), static_cast<float>(1 / six_volumes), {}, {}};
+    truth_.volume.push_back(static_cast<double>(volume));
+    truth_.volume_scale.push_back(volume_scale);
+    truth_.inverse.push_back(static_cast<double>(1 / six_volumes));
+    truth_.inverse_scale.push_back(unit_of(inputs, Input(1.0) / reacting.six_volumes));
+    add_weights(shape, reacting, inputs, rest);
+    add_gradients(shape, reacting, inputs, rest);
+    truth_.exact.tetrahedra.push_back(rest);
+  }
+
+  void add_weights(const SolidShape<Exact>& shape, const SolidShape<Input>& reacting, const Inputs& inputs,
+                   compare::RestTetrahedron& rest) {
+    std::array<double, 6> weights{};
+    std::vector<Input> all;
+    for (std::size_t i = 0; i < corner_pairs.size(); ++i) {
+      const auto [k, l] = corner_pairs[i];
+      const long double weight = shape.weight(k, l);
+      rest.weight[i] = static_cast<float>(weight);
+      weights[i] = static_cast<double>(weight);
+      all.push_back(reacting.weight(k, l));
+    }
+    truth_.tetrahedron_weight.push_back(weights);
+    truth_.tetrahedron_weight_scale.push_back(inputs.condition(all));
+  }
+
+  void add_gradients(const SolidShape<Exact>& shape, const SolidShape<Input>& reacting, const Inputs& inputs,
+                     compare::RestTetrahedron& rest) {
+    std::array<std::array<double, 3>, 3> gradients{};
+    std::vector<Input> all;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<long double, 3> gradient = shape.gradient(k + 1);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        rest.gradient[k][axis] = static_cast<float>(gradient[axis]);
+        gradients[k][axis] = static_cast<double>(gradient[axis]);
+      }
+      const std::array<Input, 3> reaction = reacting.gradient(k + 1);
+      all.insert(all.end(), reaction.begin(), reaction.end());
+    }
+    truth_.tetrahedron_gradient.push_back(gradients);
+    truth_.tetrahedron_gradient_scale.push_back(inputs.condition(all));
+  }
+
   void add_hinge(const compare::Hinge& hinge) {
     const compare::Edge& edge = topology_.edges[static_cast<std::size_t>(hinge.edge)];
     const Index number_of_body = body_[static_cast<std::size_t>(edge[0])];
     const compare::Material& material = body(number_of_body).material;
-    if (body(number_of_body).fixed || material.bending == compare::BendingModel::none) return;
+    if (body(number_of_body).fixed || body(number_of_body).is_solid() ||
+        material.bending == compare::BendingModel::none)
+      return;
     const std::array<Index, 4> vertex{edge[0], edge[1], hinge.opposite[0], hinge.opposite[1]};
     const compare::Vec3& from = at(vertex[0]);
     const Fold<Exact> fold(exact(from), exact(at(vertex[1])), exact(at(vertex[2])), exact(at(vertex[3])));

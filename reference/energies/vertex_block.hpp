@@ -82,4 +82,16 @@ void add_identity(const std::type_identity_t<Number>& weight, BlockOf<Number>& b
   for (const std::size_t k : {0u, 3u, 5u}) block[k] += weight;
 }
 
+/// An energy of the vertex: its slope, and its second derivative as it is.
+template <class Number>
+void add_exactly(const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
+  add_force(1.0, energy.slope, sum);
+  for (std::size_t i = 0, k = 0; i < 3; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++k) {
+      Triple<Number> a{}, b{};
+      a[i] = b[j] = Number(1.0);
+      add_outer((i == j ? 1.0 : 2.0) * energy.bend(k), a, b, sum.block);
+    }
+}
+
 }  // namespace ogc::reference

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ogc::reference {
-namespace {
 
 float product_below(float a, float b) {
   const double exact = static_cast<double>(a) * b;
@@ -13,12 +13,14 @@ float product_below(float a, float b) {
   return static_cast<double>(f) > exact ? std::nextafter(f, 0.0f) : f;
 }
 
-}  // namespace
-
 compare::BoundTruth bound(const compare::BoundIn& in) {
   compare::BoundTruth truth;
   truth.exact.bound.reserve(in.d_min_vertex.size());
   for (std::size_t v = 0; v < in.d_min_vertex.size(); ++v) {
+    if (!in.topology->on_surface(static_cast<compare::Index>(v))) {
+      truth.exact.bound.push_back(std::numeric_limits<float>::max());
+      continue;
+    }
     float smallest = in.d_min_vertex[v];
     for (const compare::Index e : in.topology->vertex_edges[v]) smallest = std::min(smallest, in.d_min_edge[e]);
     for (const compare::Index t : in.topology->vertex_triangles[v]) smallest = std::min(smallest, in.d_min_triangle[t]);

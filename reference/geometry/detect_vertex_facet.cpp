@@ -211,6 +211,7 @@ bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of
 
 VertexAnswer query_vertex(const compare::DetectIn& in, DetectionExtent extent, const BoxTree& tree, Index v,
                           Smallest& of_vertex, Smallest& of_triangle) {
+  if (!in.topology->on_surface(v)) return {};
   VertexQuery query(in, v);
   Box box;
   include(box, in.positions[static_cast<std::size_t>(v)]);

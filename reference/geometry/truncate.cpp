@@ -26,7 +26,7 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
     const Margin gap = gap_points(from, to, in.bound[i]);
     const MarginAnswer margin = examine(gap);
     const bool cut = margin.sign > 0;
-    truth.exceeded.push_back(cut);
+    truth.cut.push_back(cut);
     truth.grey.push_back(margin.grey);
     truth.near.push_back(margin.near);
     truth.position.push_back(cut ? scaled_back(from, to, in.bound[i]) : compare::Vec3{to.x, to.y, to.z});

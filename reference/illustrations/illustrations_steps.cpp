@@ -34,7 +34,7 @@ struct Cut {
 };
 Cut cut_to_ball(const Vec3f& previous, const Vec3f& target, float bound) {
   const compare::TruncateTruth truth = truncate({{previous}, {target}, {bound}});
-  return {stored_within(truth.position[0], previous, bound), truth.exceeded[0] != 0};
+  return {stored_within(truth.position[0], previous, bound), truth.cut[0] != 0};
 }
 
 template <class Points>

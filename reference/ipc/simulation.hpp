@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::reference {
 

@@ -25,7 +25,7 @@
 #include <memory>
 #include <optional>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/ipc/forces.hpp"
 #include "reference/ipc/settings.hpp"
 #include "reference/ipc/step_bound.hpp"

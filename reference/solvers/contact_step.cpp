@@ -33,6 +33,7 @@ ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& t
       exclusions_(exclusions(scene)),
       potential_(scene, topology),
       stage_ms_(stages, 0) {
+  bounded_ = static_cast<std::size_t>(compare::bounded_count(topology, exclusions_.groups));
   for (std::size_t v = 0; v < exclusions_.groups.size(); ++v)
     if (potential_.mobility()[v] != Mobility::fixed) movable_.push_back(v);
 }
@@ -50,8 +51,11 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
                              static_cast<double>(number) * settings_.time_step);
   double largest = 0;
   for (const std::size_t v : movable_) largest = std::max(largest, length(target_[v] - start_[v]));
-  const double r = settings_.contact_radius;
-  query_radius_ = static_cast<float>(std::min(r + largest, settings_.query_radius_cap * r));
+  const double listed = detection_radius(settings_);
+  query_radius_ = static_cast<float>(
+      std::min(listed + largest, std::max(listed, settings_.query_radius_cap * settings_.contact_radius)));
+  lagging_ = 0;
+  advanced_ = lag_asked_ = false;
   potential_.begin_step(start_, target_);
 }
 
@@ -59,11 +63,12 @@ void ContactStep::detect_here() {
   detected_ = timed(detection_stage, [&] {
     std::vector<Vec3f> here = rounded(x_);
     const float query_radius = sufficient_query_radius(topology_, exclusions_, movable_, here,
-                                                       static_cast<float>(settings_.contact_radius), query_radius_);
+                                                       static_cast<float>(detection_radius(settings_)), query_radius_);
     return detect(scene_, topology_, exclusions_, std::move(here), query_radius);
   });
-  balls_ = Balls(detected_);
-  for (const std::size_t v : movable_) x_[v] = balls_.inside(v, x_[v]).x;
+  regions_ = FeasibleRegions(detected_, settings_.bounds);
+  const State centre = widened(detected_.previous);
+  for (const std::size_t v : movable_) x_[v] = regions_.inside(v, centre[v], x_[v]).x;
   potential_.set_contacts(detected_.sets, widened(detected_.previous));
   ++metrics_.broad_phases;
   ++metrics_.discrete_detections;
@@ -73,11 +78,19 @@ void ContactStep::detect_here() {
 }
 
 bool ContactStep::many(std::size_t cut) const {
-  return cut > 0 && static_cast<double>(cut) >= settings_.redetect_fraction * static_cast<double>(movable_.size());
+  return cut > 0 && static_cast<double>(cut) >= settings_.redetect_fraction * static_cast<double>(bounded_);
 }
 
-bool ContactStep::detection_due(std::size_t cut) const {
-  return many(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
+bool ContactStep::asks(std::size_t cut) {
+  const bool lag_asks = lagging_ > 0 && (advanced_ || !lag_asked_), many_are_cut = many(cut - lagging_);
+  lag_asked_ = lag_asked_ || lag_asks;
+  lagging_ = 0;
+  advanced_ = false;
+  return many_are_cut || lag_asks;
+}
+
+bool ContactStep::detection_due(std::size_t cut) {
+  return asks(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
 }
 
 bool ContactStep::in_contact() const {
@@ -93,13 +106,10 @@ void ContactStep::guess(GuessEnd end) {
     std::size_t cut = 0;
     for (const std::size_t v : movable_) {
       if (touched[v]) continue;
-      const Balls::Inside inside = balls_.inside(v, target_[v]);
-      fresh_ = fresh_ && x_[v] == inside.x;
-      x_[v] = inside.x;
-      cut += inside.cut;
+      move_towards_target(v, cut);
     }
     metrics_.guess_rounds = round;
-    if (!many(cut) || round >= settings_.guess_rounds) break;
+    if (!asks(cut) || round >= settings_.guess_rounds) break;
     detect_here();
   }
   detect_next_ = !fresh_;
@@ -116,14 +126,24 @@ bool ContactStep::nothing_near() const {
   return detected_.smallest_distance - 2 * largest > settings_.contact_radius;
 }
 
+void ContactStep::move_towards_target(std::size_t vertex, std::size_t& cut) {
+  const bool is_prescribed = potential_.mobility()[vertex] == Mobility::prescribed;
+  const FeasibleRegions::Inside inside = is_prescribed ? regions_.inside_on_path(vertex, x_[vertex], target_[vertex])
+                                                       : regions_.inside(vertex, x_[vertex], target_[vertex]);
+  fresh_ = fresh_ && x_[vertex] == inside.x;
+  x_[vertex] = inside.x;
+  cut += inside.cut;
+  if (!inside.cut || !is_prescribed || settings_.bounds != compare::Bounds::planes) return;
+  const Vec3f& p = detected_.previous[vertex];
+  ++lagging_;
+  advanced_ = advanced_ || inside.x != Triple<double>{p.x, p.y, p.z};
+}
+
 std::size_t ContactStep::move_prescribed() {
   std::size_t cut = 0;
   for (const std::size_t v : movable_) {
     if (potential_.mobility()[v] != Mobility::prescribed) continue;
-    const Balls::Inside inside = balls_.inside(v, target_[v]);
-    fresh_ = fresh_ && x_[v] == inside.x;
-    x_[v] = inside.x;
-    cut += inside.cut;
+    move_towards_target(v, cut);
   }
   return cut;
 }
@@ -154,7 +174,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.vertex_facet_contacts = static_cast<std::int64_t>(detected_.sets.vertex_facet.size());
   metrics_.edge_edge_contacts = static_cast<std::int64_t>(detected_.sets.edge_edge.size());
   metrics_.vertices_cut = static_cast<std::int64_t>(cut_);
-  metrics_.share_cut = movable_.empty() ? 0 : static_cast<double>(cut_) / static_cast<double>(movable_.size());
+  metrics_.share_cut = bounded_ == 0 ? 0 : static_cast<double>(cut_) / static_cast<double>(bounded_);
   metrics_.query_radius = double{query_radius_};
   metrics_.residual = residual_;
   metrics_.smallest_distance = detected_.smallest_distance;
@@ -163,7 +183,8 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential_);
   metrics_.largest_lag = largest_lag(x_, target_, potential_.mobility());
   measure_energies(metrics_, {x_, start_, target_}, potential_, scene_, options_.energies);
-  if (metrics_.status == compare::step_clean && !keeps_bounds(result.position, detected_))
+  if (metrics_.status == compare::step_clean && settings_.bounds != compare::Bounds::off &&
+      !keeps_bounds(result.position, detected_))
     metrics_.status = compare::step_bound_violated;
   metrics_.iteration_rows = std::move(rows_);
   result.metrics = std::move(metrics_);

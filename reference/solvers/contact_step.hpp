@@ -1,14 +1,14 @@
-// What Newton's method and VBD share of a step (Algorithm 3, method.md §5.2): targets, detections with their balls, the
-// guess loop, prescribed vertices, the row at the end. How the free vertices move between two detections, each solver
-// decides.
+// What Newton's method and VBD share of a step (Algorithm 3, method.md §5.2): targets, detections with their regions,
+// the guess loop, prescribed vertices, the row at the end. How the free vertices move between two detections, each
+// solver decides.
 //
-//   begin ── guess: detect, x ← y inside the balls, again while many are cut ──┐
+//   begin ── guess: detect, x ← y inside the regions, again while many are cut ──┐
 //     ┌────────────────────────────────────────────────────────────────────────┘
 //     the solver's iterations, with detect_here where detect_next_ says so ── finish
 #pragma once
 
-#include "compare/problem/contestant.hpp"
-#include "reference/solvers/detection.hpp"
+#include "compare/contestant.hpp"
+#include "reference/solvers/feasible_regions.hpp"
 
 namespace ogc::reference {
 
@@ -59,11 +59,13 @@ class ContactStep {
   /// Friction is lagged to xᵗ in it, where contact forces are those of a converged step.
   void guess(GuessEnd end);
   bool in_contact() const;  ///< at the last detection
-  bool many(std::size_t cut) const;
+  /// Whether vertices that were cut ask for a detection: many of them; with planes many free ones, or a prescribed one
+  /// behind its target, alone if the last detection let it advance, otherwise once a step.
+  bool asks(std::size_t cut);
   bool nothing_near() const;  ///< the contacts at x are none, without asking
   std::size_t move_prescribed();
   /// Where `settings` ask for a detection after an iteration that cut so many vertices.
-  bool detection_due(std::size_t cut) const;
+  bool detection_due(std::size_t cut);
   void set_residual(double mean_force);  ///< Eq. 29; the first one of a step is f*
   compare::IterationMetrics new_row(bool detects) const;
   StepResult finish(std::uint32_t status);
@@ -85,11 +87,12 @@ class ContactStep {
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   Potential potential_;
-  std::vector<std::size_t> movable_;  ///< free and prescribed vertices: K of them
+  std::vector<std::size_t> movable_;  ///< free and prescribed vertices
+  std::size_t bounded_ = 0;           ///< K, those of them that have a bound
 
   State start_, target_, x_;
   Detected detected_;
-  Balls balls_;
+  FeasibleRegions regions_;
   float query_radius_ = 0;
   bool detect_next_ = false, fresh_ = false;  ///< contacts must be detected; they were detected at this very x
   std::size_t cut_ = 0;                       ///< in the last iteration, prescribed vertices included
@@ -102,6 +105,13 @@ class ContactStep {
  private:
   static double now_ms();
 
+  bool many(std::size_t cut) const;
+  void move_towards_target(std::size_t vertex, std::size_t& cut);
+
+  /// Prescribed vertices behind their targets, since the last question; whether one has moved since the last
+  /// detection; whether one has asked in this step.
+  std::size_t lagging_ = 0;
+  bool advanced_ = false, lag_asked_ = false;
   double started_ms_ = 0;
   std::vector<double> stage_ms_;
 };

@@ -17,7 +17,7 @@ compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::ve
   for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(stencil.sides)); ++k) {
     const auto v = static_cast<std::size_t>(stencil.vertex[k]);
     contact.vertex[k] = x[stencil.vertex[k]];
-    contact.detected[k] = in.previous[v];
+    contact.previous[k] = in.previous[v];
     question.start[k] = in.start[v];
     if (in.colour[v] == in.colour[static_cast<std::size_t>(stencil.vertex[own])])
       contact.together |= static_cast<std::uint8_t>(1u << k);

@@ -7,6 +7,7 @@
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/pair_planes.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -18,6 +19,13 @@ double distance_to_segment(const Triple<double>& x, const Triple<double>& a, con
   const double length = dot(along, along), share = length > 0 ? std::clamp(dot(away, along) / length, 0.0, 1.0) : 0;
   const Triple<double> gap = away - share * along;
   return std::hypot(gap[0], gap[1], gap[2]);
+}
+
+/// By vertex; group 0 is that of all fixed ones.
+std::vector<std::uint8_t> fixed_vertices(std::span<const compare::Index> groups) {
+  std::vector<std::uint8_t> fixed;
+  for (const compare::Index group : groups) fixed.push_back(group == 0 ? 1 : 0);
+  return fixed;
 }
 
 }  // namespace
@@ -57,9 +65,13 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
   return std::min(most, static_cast<float>(query_radius * (1 + 0x1p-20)));
 }
 
+double detection_radius(const compare::Settings& settings) {
+  return (1 + settings.contact_margin) * settings.contact_radius;
+}
+
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius) {
-  const auto contact_radius = static_cast<float>(scene.settings.contact_radius);
+  const auto contact_radius = static_cast<float>(detection_radius(scene.settings));
   const compare::DetectIn in{&topology, exclusions, positions, contact_radius, query_radius};
   compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
   compare::DetectEdgeEdgeOut edges = exact_edge_edge(in);
@@ -67,6 +79,12 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   Detected result;
   result.bound =
       bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
+  if (scene.settings.bounds == compare::Bounds::planes) {
+    const std::vector<std::uint8_t> is_fixed = fixed_vertices(exclusions.groups);
+    compare::PlaneOut held = pair_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
+    result.bound = std::move(held.bound);
+    result.planes = std::move(held.planes);
+  }
   float smallest = query_radius;
   for (const auto* distances : {&facets.d_min_vertex, &facets.d_min_triangle, &edges.d_min_edge})
     for (const float d : *distances) smallest = std::min(smallest, d);
@@ -74,35 +92,6 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   result.sets = {std::move(facets.contacts), std::move(edges.contacts)};
   result.previous = std::move(positions);
   return result;
-}
-
-/// Rounding moves each coordinate, at most ‖X_prev‖_∞ + b_v, by 2⁻²⁴ of itself, so the point by √3 times that, or by as
-/// many of the smallest numbers. A projection in double rounds each coordinate and the step to it a few times more:
-/// 2⁻⁵⁰ of either.
-Balls::Balls(const Detected& detected) : centre_(widened(detected.previous)) {
-  for (std::size_t v = 0; v < centre_.size(); ++v) {
-    const Triple<double>& p = centre_[v];
-    const double bound = double{detected.bound[v]},
-                 size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) + bound;
-    const double rounding = std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149);
-    radius_.push_back(std::max(0.0, (bound - rounding) * (1 - 0x1p-50)));
-  }
-}
-
-Balls::Inside Balls::inside(std::size_t vertex, const Triple<double>& x) const {
-  const Triple<double> away = x - centre_[vertex];
-  const double length = std::hypot(away[0], away[1], away[2]);
-  if (!(length > radius_[vertex])) return {x, false};
-  return {centre_[vertex] + (radius_[vertex] / length) * away, true};
-}
-
-double Balls::share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const {
-  if (!inside(vertex, x + step).cut) return 1;
-  // ‖a + s b‖ = R with ‖a‖ ≤ R has one root s ≥ 0.
-  const Triple<double> away = x - centre_[vertex];
-  const double bb = dot(step, step), ab = dot(away, step), room = radius_[vertex] * radius_[vertex] - dot(away, away);
-  if (room <= 0) return 0;
-  return std::clamp((std::sqrt(ab * ab + bb * room) - ab) / bb * (1 - 0x1p-40), 0.0, 1.0);
 }
 
 }  // namespace ogc::reference

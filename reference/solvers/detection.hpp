@@ -1,11 +1,10 @@
-// Contact detection for solvers in double, and the balls that keep their positions free of penetration. A detection
-// reads single-precision positions, so X_prev is x rounded, and each ball is smaller than its bound by what rounding
-// can move a point: x and its rounding both lie within the bound (Eq. 27), and the way from X_prev over x to the next
-// X_prev stays inside.
+// Contact detection at the positions of solvers in double: it is asked about single-precision ones, so X_prev is x
+// rounded.
 #pragma once
 
 #include <vector>
 
+#include "compare/stages/plane.hpp"
 #include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
@@ -15,6 +14,7 @@ struct Detected {
   ContactSets sets;
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
   std::vector<float> bound;              ///< b_v [m]
+  compare::VertexPlanes planes;          ///< where bounds are planes
   double smallest_distance = 0;          ///< smallest d_min, at most r_q [m]
 };
 
@@ -29,28 +29,11 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);
 
-/// Stages detect_vertex_facet, detect_edge_edge and bound at `positions`.
+/// r and the margin by which contacts are listed before they act [m].
+double detection_radius(const compare::Settings& settings);
+
+/// Stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`.
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius);
-
-/// Balls about X_prev.
-class Balls {
- public:
-  Balls() = default;
-  explicit Balls(const Detected& detected);
-  /// x, or the point of the vertex's ball closest to it; `cut` says which.
-  struct Inside {
-    Triple<double> x;
-    bool cut = false;
-  };
-  /// Where the ball lets this vertex go.
-  Inside inside(std::size_t vertex, const Triple<double>& x) const;
-  /// The largest share in [0, 1] of `step` that stays in the ball.
-  double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
-
- private:
-  State centre_;
-  std::vector<double> radius_;
-};
 
 }  // namespace ogc::reference

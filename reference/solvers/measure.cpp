@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/geometry/plane.hpp"
+
 namespace ogc::reference {
 namespace {
 
@@ -59,6 +61,7 @@ double largest_lag(const State& x, const State& target, const std::vector<Mobili
 
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted) {
+  metrics.inverted_tetrahedra = potential.inverted_tetrahedra(states.x);
   if (!wanted) {
     metrics.kinetic_energy = metrics.elastic_energy = metrics.contact_energy = metrics.gravity_energy =
         std::numeric_limits<double>::quiet_NaN();
@@ -80,7 +83,7 @@ bool keeps_bounds(const std::vector<Vec3f>& position, const Detected& detected) 
     const Triple<double> moved = wide(position[v]) - wide(detected.previous[v]);
     if (!(dot(moved, moved) <= double{detected.bound[v]} * detected.bound[v])) return false;
   }
-  return true;
+  return broken_planes(detected.planes, position) == 0;
 }
 
 }  // namespace ogc::reference

@@ -2,7 +2,7 @@
 // an iteration.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "reference/solvers/detection.hpp"
 
 namespace ogc::reference {
@@ -29,7 +29,7 @@ double largest_lag(const State& x, const State& target, const std::vector<Mobili
 /// Fills the energies, or not-a-number where they are not wanted.
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted);
-/// ‖x − x_prev‖ ≤ b_v for all vertices, in double (method.md §5.5).
+/// ‖x − x_prev‖ ≤ b_v for all vertices, in double, and every half-space, exactly (method.md §5.5, §5.6).
 bool keeps_bounds(const std::vector<compare::Vec3f>& position, const Detected& detected);
 
 }  // namespace ogc::reference

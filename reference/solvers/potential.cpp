@@ -84,6 +84,22 @@ SpringTerm spring_term(const compare::Scene& scene, const compare::Spring& sprin
           spring.damping / scene.settings.time_step};
 }
 
+TetrahedronTerm tetrahedron_term(const compare::Scene& scene, const compare::RestTetrahedron& rest) {
+  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
+  TetrahedronTerm term;
+  term.vertex = rest.corner;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 0; k < 3; ++k) {
+      term.gradient[k + 1][axis] = double{rest.gradient[k][axis]};
+      term.gradient[0][axis] -= term.gradient[k + 1][axis];
+    }
+  term.volume = double{rest.volume};
+  term.lambda = material.solid_lambda;
+  term.mu = material.solid_mu;
+  term.damping = material.solid_damping / scene.settings.time_step;
+  return term;
+}
+
 double angle_at(const Hinge<double>& x) {
   const Fold<double> fold(x);
   return fold.collapsed() ? 0 : fold.angle();
@@ -132,6 +148,7 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
   for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
   for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
   for (const compare::Spring& spring : scene.springs) springs_.push_back(spring_term(scene, spring));
+  for (const compare::RestTetrahedron& rest : rest_.tetrahedra) tetrahedra_.push_back(tetrahedron_term(scene, rest));
 }
 
 void Potential::begin_step(const State& start, const State& target) {
@@ -145,6 +162,8 @@ void Potential::begin_step(const State& start, const State& target) {
   for (SpringTerm& term : springs_) {
     term.start = norm(separation(term.weight, spring_corners(term, start)));
   }
+  for (TetrahedronTerm& term : tetrahedra_)
+    term.start = solid_strain(solid_deformation<double>(gathered<4>(term.vertex, start), term.gradient));
 }
 
 void Potential::set_contacts(const ContactSets& sets, const State& previous) {
@@ -200,6 +219,8 @@ std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
   stencil -= hinges_.size();
   if (stencil < springs_.size()) return springs_[stencil].vertex;
   stencil -= springs_.size();
+  if (stencil < tetrahedra_.size()) return tetrahedra_[stencil].vertex;
+  stencil -= tetrahedra_.size();
   return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
 }
 
@@ -223,6 +244,8 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   stencil -= hinges_.size();
   if (stencil < springs_.size()) return springs_[stencil].energy(spring_corners(springs_[stencil], x));
   stencil -= springs_.size();
+  if (stencil < tetrahedra_.size()) return tetrahedra_[stencil].energy(gathered<4>(tetrahedra_[stencil].vertex, x));
+  stencil -= tetrahedra_.size();
   if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
   const FrictionTerm& term = frictions_[stencil - contacts_.size()];
   return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
@@ -270,6 +293,7 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   add(membranes_);
   add(hinges_);
   add(springs_);
+  add(tetrahedra_);
   add(contacts_);
   add(frictions_);
   sum_gradient(x, result);
@@ -325,7 +349,15 @@ double Potential::elastic_energy(const State& x) const {
   for (const MembraneTerm& term : membranes_) sum += term.elastic(gathered<3>(term.vertex, x));
   for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
   for (const SpringTerm& term : springs_) sum += term.elastic(spring_corners(term, x));
+  for (const TetrahedronTerm& term : tetrahedra_) sum += term.elastic(gathered<4>(term.vertex, x));
   return sum;
+}
+
+std::int64_t Potential::inverted_tetrahedra(const State& x) const {
+  return std::count_if(tetrahedra_.begin(), tetrahedra_.end(), [&](const TetrahedronTerm& term) {
+    const SolidDeformation<double> f = solid_deformation<double>(gathered<4>(term.vertex, x), term.gradient);
+    return !(dot(f[0], cross(f[1], f[2])) > 0);
+  });
 }
 
 double Potential::contact_energy(const State& x) const {

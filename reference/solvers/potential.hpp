@@ -64,13 +64,16 @@ class Potential {
   /// Of all kinds.
   std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
   /// the first stencils: those that never change
-  std::size_t elastic_count() const { return membranes_.size() + hinges_.size() + springs_.size(); }
+  std::size_t elastic_count() const {
+    return membranes_.size() + hinges_.size() + springs_.size() + tetrahedra_.size();
+  }
   /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
 
-  double elastic_energy(const State& x) const;  ///< without damping [J]
-  double contact_energy(const State& x) const;  ///< normal energies [J]
+  double elastic_energy(const State& x) const;             ///< without damping [J]
+  double contact_energy(const State& x) const;             ///< normal energies [J]
+  std::int64_t inverted_tetrahedra(const State& x) const;  ///< those with J ≤ 0
   /// By vertex [kg].
   const std::vector<double>& mass() const { return mass_; }
   /// By vertex.
@@ -81,6 +84,7 @@ class Potential {
   const std::vector<MembraneTerm>& membranes() const { return membranes_; }
   const std::vector<HingeTerm>& hinges() const { return hinges_; }
   const std::vector<SpringTerm>& springs() const { return springs_; }
+  const std::vector<TetrahedronTerm>& tetrahedra() const { return tetrahedra_; }
   const std::vector<ContactTerm>& contacts() const { return contacts_; }
   /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none);
   /// empty where there is none.
@@ -108,6 +112,7 @@ class Potential {
   std::vector<MembraneTerm> membranes_;
   std::vector<HingeTerm> hinges_;
   std::vector<SpringTerm> springs_;
+  std::vector<TetrahedronTerm> tetrahedra_;
   std::vector<ContactTerm> contacts_;
   std::vector<FrictionTerm> frictions_;
   State start_, target_;

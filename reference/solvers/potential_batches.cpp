@@ -109,6 +109,11 @@ void differentiate(std::span<const SpringTerm> terms, const State& x, HessianPro
   in_order<4>(terms, x, projection, stencil_kernels().springs, to, finished);
 }
 
+void differentiate(std::span<const TetrahedronTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
+  in_order<4>(terms, x, projection, stencil_kernels().tetrahedra, to, finished);
+}
+
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished) {
   std::vector<Prepared> contacts(terms.size());

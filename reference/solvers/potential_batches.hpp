@@ -31,6 +31,8 @@ void differentiate(std::span<const HingeTerm> terms, const State& x, HessianProj
                    StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const SpringTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const TetrahedronTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,

@@ -38,8 +38,7 @@ class ReferenceStep {
     out_.colour = colours_of(*in_.scene, out_.rest, exclusions_.groups);
     set_targets();
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
-    StepOrder order(settings_, static_cast<Index>(std::count_if(exclusions_.groups.begin(), exclusions_.groups.end(),
-                                                                [](Index group) { return group != 0; })));
+    StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups));
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;
@@ -98,7 +97,7 @@ class ReferenceStep {
   /// Where v goes on its way to its target; counts a cut.
   Vec3f truncated(std::size_t v, Index& cut) const {
     const compare::TruncateTruth truth = truncate({{previous_[v]}, {out_.target[v]}, {bound_[v]}});
-    if (truth.exceeded[0] == 0) return out_.target[v];
+    if (truth.cut[0] == 0) return out_.target[v];
     ++cut;
     return stored_within(truth.position[0], previous_[v], bound_[v]);
   }

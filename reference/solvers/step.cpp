@@ -39,8 +39,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   }
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
                                                            settings.query_radius_cap * settings.contact_radius);
-  StepOrder order(settings, static_cast<Index>(
-                                std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; })));
+  StepOrder order(settings, compare::bounded_count(*in.topology, groups));
   for (auto kind = order.next(); kind; kind = order.next()) {
     const std::size_t i = truth.events.size();
     truth.events.push_back(*kind);

@@ -9,8 +9,7 @@
 
 namespace ogc::reference {
 
-/// Says what comes next, given how many vertices each event cut. K, the number of free and prescribed vertices, is
-/// `moving`.
+/// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving)

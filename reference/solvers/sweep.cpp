@@ -25,7 +25,7 @@ VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& an
 /// y, truncated: the very question of the stage truncate.
 VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
   const compare::TruncateTruth truth = truncate({{in.previous[i]}, {in.target[i]}, {in.bound[i]}});
-  const bool cut = truth.exceeded[0] != 0, grey = truth.grey[0] != 0;
+  const bool cut = truth.cut[0] != 0, grey = truth.grey[0] != 0;
   const compare::Vec3f& p = in.previous[i];
   const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + in.bound[i];
   const double accepted = cut || grey ? compare::truncate_position_tolerance * compare::unit_roundoff * size : 0;

@@ -16,11 +16,11 @@ namespace {
 using compare::Index;
 using compare::Vec3f;
 
-/// H⁻¹ f. Inertia alone makes H positive definite.
-Triple<double> solved(const VertexSystem& system) {
+/// H⁻¹ a. Inertia alone makes H positive definite.
+Triple<double> solved(const VertexSystem& system, const Triple<double>& a) {
   const auto& b = system.block;
   const Eigen::Matrix3d h{{b[0], b[1], b[2]}, {b[1], b[3], b[4]}, {b[2], b[4], b[5]}};
-  const Eigen::Vector3d x = h.llt().solve(Eigen::Vector3d(system.force[0], system.force[1], system.force[2]));
+  const Eigen::Vector3d x = h.llt().solve(Eigen::Vector3d(a[0], a[1], a[2]));
   return {x[0], x[1], x[2]};
 }
 
@@ -81,10 +81,12 @@ std::size_t VbdSolver::sweep() {
   std::size_t cut = move_prescribed();
   const SweepView view{old, x_, colour_};
   for (const std::vector<Index>& members : classes_) {
-    std::vector<Balls::Inside> moved(members.size());
+    std::vector<FeasibleRegions::Inside> moved(members.size());
     tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
       const auto v = static_cast<std::size_t>(members[k]);
-      moved[k] = balls_.inside(v, old[v] + solved(systems_.at(members[k], view)));
+      const VertexSystem system = systems_.at(members[k], view);
+      const auto metric = [&](const Triple<double>& n) { return solved(system, n); };
+      moved[k] = regions_.inside(v, old[v], old[v] + metric(system.force), metric);
     });
     for (std::size_t k = 0; k < members.size(); ++k) {
       x_[static_cast<std::size_t>(members[k])] = moved[k].x;

@@ -39,6 +39,13 @@ void add_spring(const SpringTerm& term, std::size_t place, const std::array<Trip
   add_spring(term, term.weight[place], separation(term.weight, with_own<ByOwn<double>>(ends, place)), sum);
 }
 
+void add_tetrahedron(const TetrahedronTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners,
+                     VertexSystem& sum) {
+  const TetrahedronCorner<double> at(term, place, corners);
+  add_exactly(term.elastic_of(at.f), sum);
+  add_damping(term, at, sum);
+}
+
 /// Of a contact's vertices those that are updated at the same time, the own one among them.
 using Updated = std::array<bool, 4>;
 
@@ -94,6 +101,7 @@ VertexSystems::VertexSystems(const Potential& potential) : potential_(potential)
   list(potential.membranes(), membranes_);
   list(potential.hinges(), hinges_);
   list(potential.springs(), springs_);
+  list(potential.tetrahedra(), tetrahedra_);
 }
 
 void VertexSystems::read_contacts() { list(potential_.contacts(), contacts_); }
@@ -116,6 +124,10 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   for (const Incidence& incidence : springs_[v]) {
     const SpringTerm& term = potential_.springs()[incidence.stencil];
     add_spring(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  for (const Incidence& incidence : tetrahedra_[v]) {
+    const TetrahedronTerm& term = potential_.tetrahedra()[incidence.stencil];
+    add_tetrahedron(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
   for (const Incidence& incidence : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[incidence.stencil];

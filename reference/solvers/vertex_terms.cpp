@@ -6,6 +6,7 @@
 #include "reference/energies/bending.hpp"
 #include "reference/energies/membrane.hpp"
 #include "reference/energies/spring.hpp"
+#include "reference/energies/tetrahedron.hpp"
 #include "reference/solvers/contacts.hpp"
 #include "reference/solvers/symmetric3.hpp"
 
@@ -88,11 +89,53 @@ compare::SpringCase spring_question(const compare::SweepIn& in, const compare::S
   return question;
 }
 
+/// The other corners in the order in which a corner sees a positive volume at rest: those of the face opposite to it.
+constexpr std::array<std::array<std::size_t, 3>, 4> seen_from{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// Of two corners, the place of V ∇N_k·∇N_l among the weights.
+std::size_t place_of_pair(std::size_t k, std::size_t l) {
+  const auto [low, high] = std::minmax(k, l);
+  return low == 0 ? high - 1 : low + high;
+}
+
+/// ∇N₀ is not stored and is rounded here.
+std::array<float, 3> gradient_of(const compare::RestTetrahedron& rest, std::size_t corner) {
+  if (corner > 0) return rest.gradient[corner - 1];
+  std::array<float, 3> own;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    own[axis] = rounded(-double{rest.gradient[0][axis]} - double{rest.gradient[1][axis]} -
+                        double{rest.gradient[2][axis]});
+  return own;
+}
+
+compare::TetrahedronCase tetrahedron_question(const compare::SweepIn& in, const compare::RestTetrahedron& rest,
+                                              std::size_t corner, const SweepPositions& x) {
+  const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(rest.body)].material;
+  compare::TetrahedronCase question;
+  question.corner[0] = x[rest.corner[corner]];
+  question.start[0] = in.start[static_cast<std::size_t>(rest.corner[corner])];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t other = seen_from[corner][k];
+    question.corner[k + 1] = x[rest.corner[other]];
+    question.start[k + 1] = in.start[static_cast<std::size_t>(rest.corner[other])];
+    question.weight[k] = rest.weight[place_of_pair(corner, other)];
+    question.gradient[k] = gradient_of(rest, other);
+  }
+  question.inverse = rest.inverse;
+  question.volume = rest.volume;
+  question.lame_lambda = rounded(material.solid_lambda);
+  question.lame_mu = rounded(material.solid_mu);
+  question.damping = rounded(material.solid_damping / in.scene->settings.time_step);
+  question.damping_form = in.scene->settings.damping;
+  return question;
+}
+
 }  // namespace
 
 SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
   const std::size_t count = in.old.size();
-  for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &vertex_facet, &edge_edge}) rows->resize(count);
+  for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &tetrahedra, &vertex_facet, &edge_edge})
+    rows->resize(count);
   for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
   for (std::size_t i = 0; i < in.scene->springs.size(); ++i) {
@@ -102,6 +145,8 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
     else
       add_element(springs, i, std::array{spring.first, spring.second});
   }
+  for (std::size_t i = 0; i < in.rest->tetrahedra.size(); ++i)
+    add_element(tetrahedra, i, in.rest->tetrahedra[i].corner);
   for (std::size_t i = 0; i < in.vertex_facet.size(); ++i)
     add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i)
@@ -150,6 +195,11 @@ VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& ste
     const auto question = spring_question(in, in.scene->springs[spring], place, positions);
     sum.terms.push_back(term_of({reference::spring(question)}, compare::spring_force_tolerance + inputs,
                                 compare::spring_block_tolerance + inputs));
+  }
+  for (const auto& [tetrahedron, corner] : stencils.tetrahedra[v]) {
+    const auto question = tetrahedron_question(in, in.rest->tetrahedra[tetrahedron], corner, positions);
+    sum.terms.push_back(term_of({reference::tetrahedron(question)}, compare::tetrahedron_force_tolerance + inputs,
+                                compare::tetrahedron_block_tolerance + inputs));
   }
   add_contact_terms(in, stencils, positions, vertex, sum);
   return sum;

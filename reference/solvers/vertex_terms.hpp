@@ -32,7 +32,7 @@ using ElementsOfVertex = std::vector<std::vector<std::pair<std::size_t, std::siz
 
 /// Which elements meet at which vertex.
 struct SweepStencils {
-  ElementsOfVertex triangles, hinges, springs, vertex_facet, edge_edge;
+  ElementsOfVertex triangles, hinges, springs, tetrahedra, vertex_facet, edge_edge;
   std::vector<compare::Index> body;  ///< by vertex
   explicit SweepStencils(const compare::SweepIn& in);
 };

@@ -8,14 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/judge/corpus.hpp"
-#include "compare/judge/explain/explanation.hpp"
-#include "compare/judge/judge.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/corpus.hpp"
+#include "compare/judge/report/explanation.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/judge/engine/loose_problems.hpp"
 #include "tests/compare/judge/faults.hpp"
-#include "tests/compare/judge/loose_problems.hpp"
 #include "tests/experiments/program.hpp"
 
 using namespace ogc;
@@ -253,7 +253,7 @@ TEST_CASE("ogc compare --problem prints the case by name and unit, and the whole
                                    "your answer, and the exact one\n", "  d_min_vertex [m]"}));
   const auto told = nlohmann::json::parse(whole.out).at("explained").at(0);
   const TestCase test = generate(parse_problem("stage=detect_vertex_facet gen=cloth seed=7 index=2"));
-  const auto& mesh = std::get<MeshCase>(test.data);
+  const auto& mesh = case_of<MeshCase>(test.data);
   for (const auto& input : told.at("inputs")) {
     if (input.at("name") == "contact_radius") CHECK(input.at("value").get<float>() == mesh.contact_radius);
     if (input.at("name") != "positions") continue;

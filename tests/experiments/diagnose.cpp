@@ -3,9 +3,9 @@
 #include <map>
 #include <set>
 
-#include "compare/judge/explain/diagnose.hpp"
-#include "compare/judge/generators.hpp"
-#include "compare/judge/judge.hpp"
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/diagnose.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/judge/faults.hpp"
@@ -54,7 +54,7 @@ TEST_CASE("whoever answers as a wrong form says fits it in every case, and is wr
   const Authority authority = reference::authority();
   std::size_t forms = 0;
   for (const Stage stage : all_stages) {
-    if (stage == Stage::sweep || stage == Stage::step)
+    if (stage_info(stage).kind == CaseKind::followed)
       continue;  // the exact contestant sweeps by itself, and a step has no forms
     const std::uint64_t each = is_mesh_stage(stage) ? 4 : 40;
     const std::vector<Evidence> right = evidence_of(stage, tests::exact_contestant(authority), each);
@@ -171,7 +171,7 @@ TEST_CASE("a form that fits too few of the failing cases is not named", "[agreem
   // Wrong in one case alone, and there as a form says.
   Contestant once = tests::exact_contestant(authority);
   const TestCase test = generate({Stage::activation, "ladder.switch", 1, 7, "", {}});
-  const auto& c = std::get<ActivationCase>(test.data);
+  const auto& c = case_of<ActivationCase>(test.data);
   once.activation = [right, c](const ActivationIn& in) {
     ActivationIn other = in;
     for (std::size_t i = 0; i < in.distance.size(); ++i)

@@ -93,7 +93,7 @@ std::vector<Fault> contact_force_faults() {
                     [](ContactForceCase& c) {
                       if (c.rest_squared == std::array<float, 2>{}) c.rest_squared = {-1, -1};
                     }),
-      contact_asked("mollifier of the present edges", [](ContactForceCase& c) { c.detected = c.vertex; }),
+      contact_asked("mollifier of the present edges", [](ContactForceCase& c) { c.previous = c.vertex; }),
       contact_asked("edges in the wrong order, so that the middle of the overlap is taken on the other one",
                     [](ContactForceCase& c) {
                       if (c.sides != ContactSides::edge_edge) return;
@@ -138,6 +138,11 @@ std::vector<Fault> friction_force_faults() {
 }
 
 }  // namespace
+
+void add_right_contacts(Contestant& exact, const Authority& authority) {
+  exact.contact_force = [authority](const ContactForceIn& in) { return rounded(authority.contact_force(in)); };
+  exact.friction_force = [authority](const FrictionForceIn& in) { return rounded(authority.friction_force(in)); };
+}
 
 std::vector<Fault> contact_faults() {
   std::vector<Fault> all = contact_force_faults();

@@ -1,4 +1,4 @@
-// Faults of membrane, bending and spring.
+// Faults of membrane, bending, spring and tetrahedron.
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {
@@ -44,7 +44,16 @@ bool is_closed_by_rounding(const SpringCase& c) {
 
 }  // namespace
 
-std::vector<Fault> force_faults() {
+void add_right_forces(Contestant& exact, const Authority& authority) {
+  exact.membrane = [authority](const MembraneIn& in) { return rounded(authority.membrane(in)); };
+  exact.bending = [authority](const BendingIn& in) { return rounded(authority.bending(in)); };
+  exact.spring = [authority](const SpringIn& in) { return rounded(authority.spring(in)); };
+  exact.tetrahedron = [authority](const TetrahedronIn& in) { return rounded(authority.tetrahedron(in)); };
+}
+
+namespace {
+
+std::vector<Fault> surface_faults() {
   return {
       asked_wrongly<MembraneIn>("membrane: damping forgotten", Stage::membrane, &Contestant::membrane,
                                 [](MembraneCase& c) { c.damping = 0; }),
@@ -106,6 +115,57 @@ std::vector<Fault> force_faults() {
                           if (c.rest_length > 0 && is_closed_by_rounding(c)) block = {};
                         }),
   };
+}
+
+std::vector<Fault> tetrahedron_faults() {
+  constexpr auto which = &Contestant::tetrahedron;
+  const auto asked = [](const char* name, auto change) {
+    return asked_wrongly<TetrahedronIn>(std::string("tetrahedron: ") + name, Stage::tetrahedron, which, change);
+  };
+  return {
+      asked("gradients transposed",
+            [](TetrahedronCase& c) {
+              for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t axis = 0; axis < k; ++axis) std::swap(c.gradient[k][axis], c.gradient[axis][k]);
+            }),
+      asked("λ for λ + μ", [](TetrahedronCase& c) { c.lame_lambda = std::max(0.0f, c.lame_lambda - c.lame_mu); }),
+      asked("six times the volume",
+            [](TetrahedronCase& c) {
+              for (float& w : c.weight) w *= 6;
+              c.inverse /= 6;
+              c.volume *= 6;
+            }),
+      spoiled<TetrahedronIn>("tetrahedron: the other sign of g", Stage::tetrahedron, which,
+                             [](const TetrahedronCase& c, Vec3f& force, std::array<float, 6>&) {
+                               // the part along n, turned round: what is left of the force is that of ‖F‖²
+                               Vec3f stretch{};
+                               for (std::size_t k = 0; k < 3; ++k) {
+                                 stretch.x -= c.lame_mu * c.weight[k] * (c.corner[k + 1].x - c.corner[0].x);
+                                 stretch.y -= c.lame_mu * c.weight[k] * (c.corner[k + 1].y - c.corner[0].y);
+                                 stretch.z -= c.lame_mu * c.weight[k] * (c.corner[k + 1].z - c.corner[0].z);
+                               }
+                               force = {2 * stretch.x - force.x, 2 * stretch.y - force.y, 2 * stretch.z - force.z};
+                             }),
+      asked("damping on displacements", [](TetrahedronCase& c) { c.damping_form = DampingForm::per_vertex; }),
+      asked("two corners exchanged", [](TetrahedronCase& c) { std::swap(c.corner[1], c.corner[2]); }),
+      asked("J without the volume at rest", [](TetrahedronCase& c) { c.inverse = 1; }),
+      asked("damping forgotten", [](TetrahedronCase& c) { c.damping = 0; }),
+      asked("weights of two corners exchanged", [](TetrahedronCase& c) { std::swap(c.weight[0], c.weight[1]); }),
+      spoiled<TetrahedronIn>(
+          "tetrahedron: the block clamped to its diagonal", Stage::tetrahedron, which,
+          [](const TetrahedronCase&, Vec3f&, std::array<float, 6>& block) { block[1] = block[2] = block[4] = 0; }),
+      spoiled<TetrahedronIn>("tetrahedron: force 0.1 % too small", Stage::tetrahedron, which,
+                             [](const TetrahedronCase&, Vec3f& force, std::array<float, 6>&) { shorten(force); }),
+  };
+}
+
+}  // namespace
+
+std::vector<Fault> force_faults() {
+  std::vector<Fault> all = surface_faults();
+  const std::vector<Fault> of_solids = tetrahedron_faults();
+  all.insert(all.end(), of_solids.begin(), of_solids.end());
+  return all;
 }
 
 }  // namespace ogc::tests

@@ -55,6 +55,11 @@ TriangleFeature without_small_weights(const std::array<float, 3>& w, TriangleFea
 
 }  // namespace
 
+void add_right_pairs(Contestant& exact, const Authority& authority) {
+  exact.closest_face = [authority](const ClosestFaceIn& in) { return authority.closest_face(in).exact; };
+  exact.closest_points = [authority](const ClosestPointsIn& in) { return authority.closest_points(in).exact; };
+}
+
 std::vector<Fault> pair_faults() {
   return {
       face_fault(

@@ -1,6 +1,7 @@
 // Faults of rest_state, block and initial_guess.
 #include <algorithm>
 
+#include "compare/judge/stages/verdict.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {
@@ -205,6 +206,35 @@ std::vector<Fault> initial_guess_faults() {
 }
 
 }  // namespace
+
+namespace {
+
+/// The exact targets rounded; position and cut are those of the rounded ones.
+InitialGuessOut exact_guess(const InitialGuessIn& in, const InitialGuessTruth& truth,
+                            const std::function<TruncateOut(const TruncateIn&)>& truncate) {
+  InitialGuessOut out;
+  for (const Vec3& y : truth.target)
+    out.target.push_back({static_cast<float>(y.x), static_cast<float>(y.y), static_cast<float>(y.z)});
+  TruncateOut cut = truncate(cut_question(in, out));
+  for (std::size_t i = 0; i < in.cases.size(); ++i) {
+    if (!in.cases[i].held) continue;
+    cut.position[i] = in.cases[i].previous;
+    cut.cut[i] = 0;
+  }
+  out.position = std::move(cut.position);
+  out.cut = std::move(cut.cut);
+  return out;
+}
+
+}  // namespace
+
+void add_right_rest(Contestant& exact, const Authority& authority) {
+  exact.rest_state = [authority](const RestStateIn& in) { return authority.rest_state(in).exact; };
+  exact.block = [authority](const BlockIn& in) { return BlockOut{authority.block(in).inside}; };
+  exact.initial_guess = [authority, truncate = exact.truncate](const InitialGuessIn& in) {
+    return exact_guess(in, authority.initial_guess(in), truncate);
+  };
+}
 
 std::vector<Fault> rest_faults() {
   std::vector<Fault> all = rest_state_faults();

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/judge/engine/exact_sum.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {
@@ -63,6 +64,46 @@ float outwards(float x, float from) { return x == from ? x : std::nextafter(x, x
 
 }  // namespace
 
+namespace {
+
+bool obeys(const Vec3f& x, const Vec3f& p, float b) {
+  ExactSum margin;
+  for (const auto [a, c] : {std::array{x.x, p.x}, std::array{x.y, p.y}, std::array{x.z, p.z}}) {
+    margin.add_product(a, a);
+    margin.add_product(-2.0 * a, c);
+    margin.add_product(c, c);
+  }
+  margin.add_product(-double{b}, b);
+  return margin.sign() <= 0;
+}
+
+/// The exact position rounded, then stepped towards the previous one until the bound holds.
+Vec3f stored(const Vec3& exact, const Vec3f& previous, float bound) {
+  Vec3f x{static_cast<float>(exact.x), static_cast<float>(exact.y), static_cast<float>(exact.z)};
+  while (!obeys(x, previous, bound))
+    x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
+  return x;
+}
+
+std::vector<float> rounded(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+}  // namespace
+
+void add_right_scalars(Contestant& exact, const Authority& authority) {
+  exact.bound = [authority](const BoundIn& in) { return authority.bound(in).exact; };
+  exact.activation = [authority](const ActivationIn& in) {
+    const ActivationTruth truth = authority.activation(in);
+    return ActivationOut{rounded(truth.energy), rounded(truth.slope), rounded(truth.curvature)};
+  };
+  exact.truncate = [authority](const TruncateIn& in) {
+    const TruncateTruth truth = authority.truncate(in);
+    TruncateOut out{in.position, truth.cut};
+    for (std::size_t i = 0; i < in.position.size(); ++i)
+      if (truth.cut[i]) out.position[i] = stored(truth.position[i], in.previous[i], in.bound[i]);
+    return out;
+  };
+}
+
 std::vector<Fault> scalar_faults() {
   return {
       bound_fault("bound: 1 % too large", [](float b) { return 1.01f * b; }),
@@ -95,23 +136,23 @@ std::vector<Fault> scalar_faults() {
                          if (d < r / 2) out.energy[i] = -k * r * r / 4 * std::log(d);
                        }),
       truncate_fault("truncate: flag inverted",
-                     [](const auto&, std::size_t i, TruncateOut& out) { out.exceeded[i] = !out.exceeded[i]; }),
+                     [](const auto&, std::size_t i, TruncateOut& out) { out.cut[i] = !out.cut[i]; }),
       truncate_fault("truncate: one ulp too far",
                      [](const auto& in, std::size_t i, TruncateOut& out) {
                        Vec3f& x = out.position[i];
                        const Vec3f& p = in.previous[i];
-                       if (out.exceeded[i]) x = {outwards(x.x, p.x), outwards(x.y, p.y), outwards(x.z, p.z)};
+                       if (out.cut[i]) x = {outwards(x.x, p.x), outwards(x.y, p.y), outwards(x.z, p.z)};
                      }),
       truncate_fault("truncate: not truncated",
                      [](const auto& in, std::size_t i, TruncateOut& out) { out.position[i] = in.position[i]; }),
       truncate_fault("truncate: stale position copied",
                      [](const auto& in, std::size_t i, TruncateOut& out) {
-                       if (out.exceeded[i]) out.position[i] = in.previous[i];
+                       if (out.cut[i]) out.position[i] = in.previous[i];
                      }),
       truncate_fault("truncate: untouched positions recomputed",
                      [](const auto& in, std::size_t i, TruncateOut& out) {
                        Vec3f& x = out.position[i];
-                       if (!out.exceeded[i]) x.x = in.previous[i].x + (x.x - in.previous[i].x);
+                       if (!out.cut[i]) x.x = in.previous[i].x + (x.x - in.previous[i].x);
                      }),
   };
 }

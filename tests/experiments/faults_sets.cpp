@@ -331,6 +331,11 @@ std::vector<Fault> edge_faults() {
 
 }  // namespace
 
+void add_right_sets(Contestant& exact, const Authority& authority) {
+  exact.detect_vertex_facet = [authority](const DetectIn& in) { return authority.detect_vertex_facet(in).exact; };
+  exact.detect_edge_edge = [authority](const DetectIn& in) { return authority.detect_edge_edge(in).exact; };
+}
+
 std::vector<Fault> set_faults() {
   std::vector<Fault> all = facet_faults();
   for (Fault& fault : edge_faults()) all.push_back(std::move(fault));

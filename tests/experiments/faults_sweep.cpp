@@ -124,6 +124,10 @@ void forget_last_triangle(reference::SweepStencils& stencils) {
 
 }  // namespace
 
+void add_right_sweep(Contestant& exact, const Authority&) {
+  exact.sweep = [](const SweepIn& in) { return reference::reference_sweep(in, reference::SweepStencils(in)); };
+}
+
 std::vector<Fault> sweep_faults() {
   return {
       asked_wrongly("one contact dropped",

@@ -1,4 +1,5 @@
-"""experiments/seeds: other days ask other cases, what fails is printed and written as a batch file that fails again, what passes leaves nothing.
+"""experiments/seeds: other days ask other cases, what fails is printed and written as a batch file that fails again,
+what passes leaves nothing.
 
 Usage: seeds.py SOURCE_DIR OGC
 """
@@ -16,8 +17,10 @@ import json, sys
 seed = int(sys.argv[sys.argv.index("--seed") + 1])
 if seed % 100 == 2:
     sys.exit("out of memory")
-listed = [{"problem": f"stage=truncate gen=bits seed={seed} index=7", "message": "position: off"}] if seed % 100 == 1 else []
-stage = {"stage": "truncate", "verdict": "mismatch" if listed else "passed", "mismatches": len(listed), "cases": 10, "listed": listed}
+found = {"problem": f"stage=truncate gen=bits seed={seed} index=7", "message": "position: off"}
+listed = [found] if seed % 100 == 1 else []
+verdict = "mismatch" if listed else "passed"
+stage = {"stage": "truncate", "verdict": verdict, "mismatches": len(listed), "cases": 10, "listed": listed}
 print(json.dumps({"stages": [stage]}))
 sys.exit(1 if listed else 0)
 """
@@ -48,13 +51,15 @@ def test_failures(folder):
     assert (out / "problems.txt").read_text() == f"# position: off\n{problem}\n"
     assert "out of memory" in (out / "s2020022902/said.txt").read_text() and not (out / "s2020022903").exists()
     # The batch file is one that ogc takes; today's kernels pass it.
-    again = subprocess.run([OGC, "compare", "--batch", out / "problems.txt"], capture_output=True, text=True, check=False)
+    again = subprocess.run([OGC, "compare", "--batch", out / "problems.txt"], capture_output=True, text=True,
+                           check=False)
     assert again.returncode == 0, again.stderr
 
 
 with tempfile.TemporaryDirectory() as name:
     test_passes(Path(name))
     test_failures(Path(name))
-    for wrong, said in ((["nowhere"], "nowhere"), ([OGC, "no_stage", "--out", f"{name}/out"], "no_stage"), ([OGC, "--seeds", "0"], "--seeds")):
+    for wrong, said in ((["nowhere"], "nowhere"), ([OGC, "no_stage", "--out", f"{name}/out"], "no_stage"),
+                        ([OGC, "--seeds", "0"], "--seeds")):
         refused = subprocess.run([SCRIPT, *wrong], capture_output=True, text=True, check=False)
         assert refused.returncode == 2 and said in refused.stderr, refused.stderr

@@ -1,8 +1,8 @@
 // Shrinking with both sides at hand: planted faults leave cases of two primitives.
 #include <algorithm>
 
-#include "compare/judge/judge.hpp"
-#include "compare/judge/shrink.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/engine/shrink.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/judge/faults.hpp"
@@ -26,11 +26,11 @@ TEST_CASE("failing cases of planted faults in the detections shrink to two primi
     const Mismatch& mismatch = report.tally.mismatches[0];
     const TestCase small = shrink_failure(generate(mismatch.name), mismatch.message, wrong, authority,
                                           {.tries = 1000, .seconds = 2});
-    INFO(fault.name << ": " << primitive_count(small.data));
+    INFO(fault.name << ": " << primitive_count(small));
     const auto again = judge_cases({&small, 1}, wrong, authority);
     // a stale answer depends on what was asked before
     if (fault.name.find("stale") == std::string::npos) CHECK(again[0].tally.mismatched > 0);
-    counts.push_back(primitive_count(small.data));
+    counts.push_back(primitive_count(small));
   }
   REQUIRE(counts.size() > 10);
   std::sort(counts.begin(), counts.end());

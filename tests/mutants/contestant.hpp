@@ -1,7 +1,7 @@
 // The contestant whose mutants tests/mutants/judge.cpp judges.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::tests {
 

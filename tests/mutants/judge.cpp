@@ -29,8 +29,8 @@
 #include <thread>
 #include <vector>
 
-#include "compare/judge/corpus.hpp"
-#include "compare/judge/judge.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/corpus.hpp"
 #include "reference/contestant.hpp"
 #include "tests/mutants/apart.hpp"
 #include "tests/mutants/contestant.hpp"
@@ -84,6 +84,7 @@ Authority remembering(const Authority& a, std::size_t parts) {
   r.membrane = remembered(a.membrane, parts);
   r.bending = remembered(a.bending, parts);
   r.spring = remembered(a.spring, parts);
+  r.tetrahedron = remembered(a.tetrahedron, parts);
   r.contact_force = remembered(a.contact_force, parts);
   r.friction_force = remembered(a.friction_force, parts);
   r.block = remembered(a.block, parts);

@@ -1,6 +1,8 @@
-"""Draws the figure and the movie of a finished run through the figure script, and checks that it refuses in words what it can't draw.
+"""Draws the figure and the movie of a finished run through the figure script, and checks that it refuses in words what
+it can't draw.
 
-Usage: draw_figure.py SOURCE_DIR RUN_FOLDER SCENE_MODULE. Exit status 77: skipped, a Python package is missing (the reason is printed).
+Usage: draw_figure.py SOURCE_DIR RUN_FOLDER SCENE_MODULE. Exit status 77: skipped, a Python package is missing (the
+reason is printed).
 """
 
 import json
@@ -20,7 +22,7 @@ except ImportError as error:
 
 
 def run_script(source, module, folder, out, option="--out"):
-    command = [sys.executable, "-m", f"paper_figures.{module}", str(folder), option, str(out)]
+    command = [sys.executable, "-m", f"paper_figures.figures.{module}", str(folder), option, str(out)]
     return subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)
 
 
@@ -65,14 +67,17 @@ def check_refused(source, module, folder, scratch):
     copy, out = scratch / "copy", scratch / "none.png"
     shutil.copytree(folder, copy)
     good, rows = json.loads((copy / "run.json").read_text()), (copy / "steps.csv").read_text()
-    faults = [({"status": "running"}, rows, "not finished"), ({"guarantee_kept": False}, rows, "the audit failed"), ({"scene": {**good["scene"], "name": "knot"}}, rows, "is a run of 'knot'"),
-              ({}, rows.replace("edge_edge_contacts", "pairs", 1), "has no column 'edge_edge_contacts'; it has: step"), ({}, rows.splitlines()[0] + "\n", "holds no step yet"), ({}, None, "steps.csv is missing")]
+    faults = [({"status": "running"}, rows, "not finished"), ({"guarantee_kept": False}, rows, "the audit failed"),
+              ({"scene": {**good["scene"], "name": "knot"}}, rows, "is a run of 'knot'"),
+              ({}, rows.replace("edge_edge_contacts", "pairs", 1), "has no column 'edge_edge_contacts'; it has: step"),
+              ({}, rows.splitlines()[0] + "\n", "holds no step yet"), ({}, None, "steps.csv is missing")]
     for changes, table, words in faults:
         (copy / "run.json").write_text(json.dumps({**good, **changes}))
         (copy / "steps.csv").write_text(table) if table else (copy / "steps.csv").unlink()
         check_words(said(source, module, copy, "--out", out), words, out)
     check_former_columns(source, copy / "steps.csv", rows)
-    check_words(said(source, module, scratch / "nowhere", "--out", out), "is no run folder: it has no run.json. Make one with: ogc run", out)
+    check_words(said(source, module, scratch / "nowhere", "--out", out),
+                "is no run folder: it has no run.json. Make one with: ogc run", out)
 
 
 def check_former_columns(source, path, rows):
@@ -92,11 +97,12 @@ def check_former_columns(source, path, rows):
 
 
 def said(source, module, *words):
-    """The sentence that a script ends with, run in this process because starting Python takes longer than refusing; another exception than a sentence is not caught."""
+    """The sentence that a script ends with, run in this process because starting Python takes longer than refusing;
+    another exception than a sentence is not caught."""
     sys.path.insert(0, str(source))
     before, sys.argv = sys.argv, [module, *map(str, words)]
     try:
-        runpy.run_path(f"{source}/paper_figures/{module}.py", run_name="__main__")
+        runpy.run_path(f"{source}/paper_figures/figures/{module}.py", run_name="__main__")
     except SystemExit as end:
         return end.code
     finally:
@@ -115,7 +121,8 @@ def check_mixture(source, folder):
     from plots.run_folder import Run, commits_in_words
 
     first, second = Run(folder), Run(folder)
-    assert commits_in_words([first, second]) == f"commit {first.manifest['commit'][:10]}" + (" (dirty)" if first.manifest.get("dirty") else "")
+    dirty = " (dirty)" if first.manifest.get("dirty") else ""
+    assert commits_in_words([first, second]) == f"commit {first.manifest['commit'][:10]}{dirty}"
     second.manifest["commit"] = "0" * 40
     said = commits_in_words([first, second])
     assert said.startswith("MIXED, not one program's runs: ") and "of commit 0000000000" in said, said

@@ -1,6 +1,8 @@
-"""Computes every illustration, draws it, and checks that the pictures show something and that the numbers behind them hold.
+"""Computes every illustration, draws it, and checks that the pictures show something and that the numbers behind them
+hold.
 
-Usage: draw_illustrations.py SOURCE_DIR OGC. Exit status 77: skipped, a Python package is missing (the reason is printed).
+Usage: draw_illustrations.py SOURCE_DIR OGC. Exit status 77: skipped, a Python package is missing (the reason is
+printed).
 """
 
 import json
@@ -66,7 +68,7 @@ def main(source, program):
         folder = Path(name)
         run(program, "illustrate", "--out", folder)
         assert {path.stem for path in folder.glob("*.json")} == FIGURES
-        drawn = run(sys.executable, "-m", "paper_figures.illustrations", folder, cwd=source).split()
+        drawn = run(sys.executable, "-m", "paper_figures.figures.illustrations", folder, cwd=source).split()
         assert {Path(path).stem for path in drawn} == FIGURES, drawn
         for path in drawn:
             check_picture(Path(path))

@@ -14,7 +14,7 @@ class InputFile {
  public:
   /// Throws InputError that names the file: missing, no regular file, unreadable.
   explicit InputFile(const std::filesystem::path& path);
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return name_; }     ///< as messages name it
   std::uint64_t size() const { return size_; }          ///< [bytes], when it was opened
   std::uint64_t position() const { return position_; }  ///< of the next byte
   /// Fills `bytes` from the position on. Throws InputError that names `what` and the byte where the file ends before.

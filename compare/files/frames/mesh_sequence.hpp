@@ -14,7 +14,7 @@ namespace ogc::compare {
 class MeshSequence {
  public:
   virtual ~MeshSequence() = default;
-  virtual std::size_t size() const = 0;
+  virtual std::size_t size() const = 0;  ///< number of frames
   /// Of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
   virtual std::string name(std::size_t i) const = 0;
   /// The next frame; the first call reads frame 0, at most size() calls are allowed. Every index names a vertex, every

@@ -13,9 +13,9 @@ namespace ogc::compare {
 
 /// What the header of a .npy file says.
 struct NpyHeader {
-  ScalarType type = ScalarType::float64;
-  std::endian order = std::endian::little;
-  std::vector<std::uint64_t> shape;
+  ScalarType type = ScalarType::float64;    ///< of the elements
+  std::endian order = std::endian::little;  ///< of their bytes
+  std::vector<std::uint64_t> shape;         ///< entries by dimension, the slowest first
 };
 
 /// Fills a span with the next bytes, or throws InputError; the text says what for.

@@ -17,7 +17,7 @@ class ZipFile {
   ~ZipFile();
   ZipFile(const ZipFile&) = delete;
   ZipFile& operator=(const ZipFile&) = delete;
-  const std::vector<std::string>& members() const { return members_; }
+  const std::vector<std::string>& members() const { return members_; }  ///< their names, in the archive's order
   /// Goes to the beginning of a member; bytes of another one can't be read until it is opened again. Throws InputError.
   void open(const std::string& member);
   /// Fills `bytes` from the open member. Throws InputError that names the archive, the member, `what` and the byte: it

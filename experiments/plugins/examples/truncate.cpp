@@ -16,7 +16,7 @@ int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out) {
     const float dx = x.x - p.x, dy = x.y - p.y, dz = x.z - p.z;
     const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
     out->position[i] = x;
-    out->exceeded[i] = length > in->bound[i];
+    out->cut[i] = length > in->bound[i];
     if (length <= in->bound[i]) continue;
     const float scale = in->bound[i] / length;
     out->position[i] = {p.x + scale * dx, p.y + scale * dy, p.z + scale * dz};

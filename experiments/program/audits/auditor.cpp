@@ -46,7 +46,10 @@ StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& 
       exclusions_(compare::exclusions(scene)),
       names_(scene, sources),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
-      bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)) {}
+      bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)),
+      bounds_(scene.settings.bounds) {
+  for (const compare::Index group : compare::rigid_groups(scene)) is_fixed_.push_back(group == 0 ? 1 : 0);
+}
 
 compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions, std::size_t limit) const {
   return compare::audit(topology_, compare::to_double(positions), exclusions_, {.limit = limit});
@@ -56,17 +59,29 @@ compare::SmallestDistances StateJudge::smallest_distances(const std::vector<comp
   return compare::smallest_distances(topology_, compare::to_double(positions), exclusions_);
 }
 
-std::vector<float> StateJudge::exact_bounds(const compare::Snapshot& snapshot) const {
-  const compare::DetectIn in{&topology_, exclusions_, snapshot.previous, contact_radius_, snapshot.query_radius};
-  return reference::exact_bounds(in, bound_relaxation_);
-}
-
 Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
   Verdict verdict;
   verdict.step = snapshot.step;
   verdict.intersections = audit(snapshot.positions);
+  if (bounds_ == compare::Bounds::off) return verdict;
   verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
-  const std::vector<float> exact = exact_bounds(snapshot);
+  if (bounds_ == compare::Bounds::planes)
+    judge_planes(snapshot, verdict);
+  else
+    judge_balls(snapshot, verdict);
+  return verdict;
+}
+
+void StateJudge::judge_planes(const compare::Snapshot& snapshot, Verdict& verdict) const {
+  const compare::PlaneIn in{&topology_, exclusions_,           snapshot.previous,
+                            is_fixed_,  snapshot.query_radius, bound_relaxation_};
+  verdict.planes = reference::plane(in, {snapshot.planes, snapshot.bounds});
+  verdict.broken_planes = reference::broken_planes(snapshot.planes, snapshot.positions);
+}
+
+void StateJudge::judge_balls(const compare::Snapshot& snapshot, Verdict& verdict) const {
+  const compare::DetectIn in{&topology_, exclusions_, snapshot.previous, contact_radius_, snapshot.query_radius};
+  const std::vector<float> exact = reference::exact_bounds(in, bound_relaxation_);
   double worst = 1;
   for (std::size_t v = 0; v < exact.size(); ++v) {
     const double bound = snapshot.bounds[v], limit = exact[v];
@@ -78,7 +93,14 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
     verdict.worst_bound = bound;
     verdict.exact_bound = limit;
   }
-  return verdict;
+}
+
+std::string StateJudge::name_of(const compare::PrimitivePair& pair) const {
+  if (pair.kind == compare::PrimitivePair::Kind::vertex_triangle)
+    return names_.vertex(pair.first) + " and " +
+           names_.triangle(pair.second, topology_.triangles[static_cast<std::size_t>(pair.second)]);
+  return names_.edge(topology_.edges[static_cast<std::size_t>(pair.first)]) + " and " +
+         names_.edge(topology_.edges[static_cast<std::size_t>(pair.second)]);
 }
 
 std::string StateJudge::describe(const compare::AuditResult& result) const {
@@ -96,6 +118,14 @@ std::string StateJudge::describe(const Verdict& verdict) const {
     text += counted(verdict.unsafe_bounds, "bound") +
             " larger than the exact one; the worst: " + names_.vertex(verdict.worst_vertex) + ", " +
             number(verdict.worst_bound, 9) + " m instead of " + number(verdict.exact_bound, 9) + " m\n";
+  const compare::PlaneTruth& planes = verdict.planes;
+  if (planes.uncovered > 0)
+    text += counted(planes.uncovered, "pair") +
+            " that neither a plane nor balls hold apart; the first: " + name_of(planes.worst) + "\n";
+  if (planes.too_large > 0) text += counted(planes.too_large, "ball") + " larger than the query radius allows\n";
+  if (planes.broken + verdict.broken_planes > 0)
+    text += counted(planes.broken, "half-space") + " not kept at the detection, " +
+            counted(verdict.broken_planes, "half-space") + " not kept now\n";
   return text;
 }
 

@@ -1,6 +1,7 @@
 // Judges the states of a run while it goes on: exact intersections by the oracle, and the motion certificate against
-// exact bounds of the reference (method.md §5.5). On a device that computes elsewhere it works beside the simulation;
-// on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured by.
+// exact bounds or planes of the reference (method.md §5.5, §5.6). On a device that computes elsewhere it works beside
+// the simulation; on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured
+// by.
 #pragma once
 
 #include <condition_variable>
@@ -12,10 +13,10 @@
 #include <thread>
 #include <vector>
 
+#include "compare/contestant.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/certificate.hpp"
 #include "compare/oracle/smallest_distances.hpp"
-#include "compare/problem/contestant.hpp"
 #include "compare/problem/element_names.hpp"
 
 namespace ogc::experiments {
@@ -38,8 +39,12 @@ struct Verdict {
   std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
   compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
   double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
+  compare::PlaneTruth planes;               ///< with planes, in place of the exact bounds
+  std::size_t broken_planes = 0;            ///< half-spaces that the state does not keep
   /// Whether the state keeps the guarantee.
-  bool kept() const { return intersections.count == 0 && motion.kept() && unsafe_bounds == 0; }
+  bool kept() const {
+    return intersections.count == 0 && motion.kept() && unsafe_bounds == 0 && planes.kept() && broken_planes == 0;
+  }
 };
 
 /// Judges states of one scene.
@@ -60,11 +65,15 @@ class StateJudge {
   const compare::ElementNames& names() const { return names_; }
 
  private:
-  std::vector<float> exact_bounds(const compare::Snapshot& snapshot) const;
+  void judge_balls(const compare::Snapshot& snapshot, Verdict& verdict) const;
+  void judge_planes(const compare::Snapshot& snapshot, Verdict& verdict) const;
+  std::string name_of(const compare::PrimitivePair& pair) const;
   compare::Topology topology_;
   compare::Exclusions exclusions_;
   compare::ElementNames names_;
   float contact_radius_, bound_relaxation_;
+  compare::Bounds bounds_;
+  std::vector<std::uint8_t> is_fixed_;  ///< by vertex
 };
 
 /// Verdicts in the order of submission.

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
-#include "compare/judge/corpus.hpp"
-#include "compare/judge/judge.hpp"
-#include "compare/judge/page.hpp"
-#include "compare/judge/report.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/corpus.hpp"
+#include "compare/judge/report/page.hpp"
+#include "compare/judge/report/report.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/plugins/contestant.hpp"
 #include "experiments/plugins/report.hpp"

@@ -42,8 +42,9 @@ void add_export_command(CLI::App& app, CommandContext& context) {
   command->add_option("RUN", options->folder, "A run folder, finished or not")->required();
   command
       ->add_option("--format", options->format,
-                   "obj, ply, or vtp (with velocity, bound, body and a .pvd index for ParaView)")
-      ->check(CLI::IsMember({"obj", "ply", "vtp"}))
+                   "obj, ply, vtp (with velocity, bound, body and a .pvd index for ParaView), or vtu (the same with "
+                   "tetrahedra and their J, volume over volume at rest)")
+      ->check(CLI::IsMember({"obj", "ply", "vtp", "vtu"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the files (default: RUN/FORMAT)");
   command->add_flag("--json", context.json, "Print the names of the files as JSON on standard output");

@@ -1,4 +1,5 @@
-// `ogc illustrate`: the data of the paper's drawings as JSON, one file each, for paper_figures/illustrations.py.
+// `ogc illustrate`: the data of the paper's drawings as JSON, one file each, for
+// paper_figures/figures/illustrations.py.
 #include <filesystem>
 #include <memory>
 
@@ -60,11 +61,11 @@ void add_illustrate_command(CLI::App& app, CommandContext& context) {
                                          "truncated steps (Fig. 2c to e, 3 to 9, 22)");
   command->add_option("FIGURE", options->figures,
                       "fig02_models fig03 fig04 fig05 fig06 fig07 fig08 fig09 fig22 (default: all of these) fig21d "
-                      "(for paper_figures/fig21_activation_drop.py)");
+                      "(for paper_figures/figures/fig21_activation_drop.py)");
   command->add_option("--out", options->folder, "Folder to write to, made where it is missing")->capture_default_str();
   command->footer(
       "Everything is computed by the exact reference; nothing is drawn by hand. The pictures:\n"
-      "  python3 -m paper_figures.illustrations FOLDER\n\n"
+      "  python3 -m paper_figures.figures.illustrations FOLDER\n\n"
       "Example:\n"
       "  ogc illustrate fig07 fig08 --out runs/illustrations");
   command->callback([options, &context] { run(*options, context); });

@@ -2,7 +2,7 @@
 // beside the run and outside its times.
 #pragma once
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::experiments {
 

@@ -171,6 +171,7 @@ void RunSession::open_folder() {
   summary_.device = simulation_->device();
   summary_.folder = request_.folder.string();
   summary_.left_out_of_audits = left_out_of_audits(request_.scene);
+  summary_.is_unbounded = settings_.bounds == compare::Bounds::off;
   summary_.first_step = summary_.last_step = step_;
   summary_.smallest_distance = std::numeric_limits<double>::infinity();
   auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/program/audits/auditor.hpp"
 #include "experiments/program/output.hpp"
@@ -61,6 +61,7 @@ struct RunSummary {
   std::string left_out_of_audits;     ///< in words; empty where nothing is
   std::string failure;                ///< what went wrong, naming primitives; empty where nothing did
   bool was_interrupted = false;
+  bool is_unbounded = false;                   ///< bounds=off: nothing is guaranteed
   std::int64_t first_step = 0, last_step = 0;  ///< states: from, to
   double median_ms = 0, worst_ms = 0;
   std::int64_t worst_step = 0;

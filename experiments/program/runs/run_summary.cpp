@@ -14,6 +14,8 @@ std::string integer(std::int64_t value) { return std::to_string(value); }
 std::string guarantee(const RunSummary& summary) {
   if (!summary.guarantee_kept) return "not checked (audit off)";
   if (!*summary.guarantee_kept) return "NO";
+  if (summary.is_unbounded)
+    return "no guarantee (bounds=off); " + counted(summary.audited_states, "state") + " audited";
   return "yes (" + counted(summary.audited_states, "state") + " audited exactly)";
 }
 

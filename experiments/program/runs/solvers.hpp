@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::experiments {
 

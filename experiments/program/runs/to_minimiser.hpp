@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::experiments {
 

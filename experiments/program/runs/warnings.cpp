@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/program/output.hpp"
+#include "experiments/program/runs/thin_solids.hpp"
 
 namespace ogc::experiments {
 
@@ -12,6 +13,12 @@ namespace {
 using compare::Vec3;
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+std::string bounds_warning(const compare::Scene& scene) {
+  if (scene.settings.bounds != compare::Bounds::off) return "";
+  return "bounds=off: nothing keeps surfaces from passing through each other, and this run guarantees nothing; take "
+         "bounds=ball or bounds=planes";
+}
 
 std::string box_warning(const compare::Scene& scene) {
   if (scene.mesh.positions.empty()) return "";
@@ -60,7 +67,7 @@ std::string radius_warning(const compare::Scene& scene) {
 
 Warnings::Warnings(const compare::Scene& scene)
     : radius_(scene.settings.contact_radius), guess_rounds_(scene.settings.guess_rounds) {
-  for (std::string text : {box_warning(scene), radius_warning(scene)})
+  for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene)})
     if (!text.empty()) of_scene_.push_back(std::move(text));
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -21,8 +21,8 @@ inline constexpr double most_momentum_lost = 0.5;
 /// What is said of a run at most once.
 class Warnings {
  public:
-  /// Looks at the scene, which must be valid, as it starts: its box, and r against the edges of each body with
-  /// triangles.
+  /// Looks at the scene, which must be valid, as it starts: its box, r against the edges of each body with triangles,
+  /// and against the thickness of each solid at rest.
   explicit Warnings(const compare::Scene& scene);
   /// Looks at a step: momentum that the guess loop lost though it did all its rounds, and the lag of prescribed
   /// vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.

@@ -68,7 +68,8 @@ struct StencilKernels {
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
   Function<MembraneTerm, 3> membranes;
   Function<HingeTerm, 4> hinges;
-  Function<SpringTerm, 4> springs;           ///< by Σ wᵢ xᵢ, as weighted contacts
+  Function<SpringTerm, 4> springs;  ///< by Σ wᵢ xᵢ, as weighted contacts
+  Function<TetrahedronTerm, 4> tetrahedra;
   Function<PlacedContact, 2> contacts_of_2;  ///< by the vertices of their forms
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;

@@ -183,7 +183,7 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   for (std::size_t i = 0; i < free.size(); ++i) {
     const std::size_t v = free[i];
     direction.delta[v] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
-    const Balls::Inside inside = balls_.inside(v, x_[v] + direction.delta[v]);
+    const auto inside = regions_.inside(v, x_[v], x_[v] + direction.delta[v]);
     direction.truncated[v] = inside.cut ? inside.x - x_[v] : direction.delta[v];
     direction.cut += inside.cut;
     const double change = length(direction.delta[v]);
@@ -245,7 +245,7 @@ Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms
   if (direction.cut > 0) {
     double room = 1;
     for (const std::size_t v : matrix_.free_vertices())
-      room = std::min(room, balls_.share_inside(v, x_[v], direction.delta[v]));
+      room = std::min(room, regions_.share_inside(v, x_[v], direction.delta[v]));
     Accepted scaled = backtracked(potential_, x_, direction.delta, room, before, noise);
     if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
   }

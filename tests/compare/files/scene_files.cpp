@@ -359,9 +359,9 @@ TEST_CASE("the schema describes every key that the writer writes, with the defau
 
 TEST_CASE("a newer format is refused by name, before anything else is said about the file", "[unit]") {
   Edited edited;
-  edited.content["format_version"] = 2;
+  edited.content["format_version"] = 3;
   edited.content["novelty"] = true;
-  CHECK_THAT(edited.error(), Contains("small.json: /format_version: scene format 2 is newer than 1, the newest that "
+  CHECK_THAT(edited.error(), Contains("small.json: /format_version: scene format 3 is newer than 2, the newest that "
                                       "this ogc reads; use a newer ogc"));
   CHECK_THAT(edited.error(), !Contains("novelty"));
   edited.content["format_version"] = 0;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/judge/stage.hpp"
-#include "compare/problem/contestant.hpp"
+#include "compare/contestant.hpp"
+#include "compare/judge/cases/stage.hpp"
 
 namespace ogc::tests {
 
@@ -25,15 +25,26 @@ struct Fault {
 /// All of them, at least one a stage.
 std::vector<Fault> faults();
 
-/// By file: faults_pairs.cpp, faults_sets.cpp, faults_scalars.cpp, faults_contacts.cpp, faults_forces.cpp,
-/// faults_rest.cpp, faults_step.cpp, faults_sweep.cpp.
+/// The exact force and block of each case, rounded.
+compare::ForceOut rounded(const compare::ForceTruth& truth);
+
+/// By file, faults_pairs.cpp, faults_sets.cpp, …: the faults of its stages, and their right answers, put into a
+/// contestant.
 std::vector<Fault> pair_faults();
+void add_right_pairs(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> set_faults();
+void add_right_sets(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> scalar_faults();
+void add_right_scalars(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> contact_faults();
+void add_right_contacts(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> force_faults();
+void add_right_forces(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> rest_faults();
+void add_right_rest(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> step_faults();
+void add_right_step(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> sweep_faults();
+void add_right_sweep(compare::Contestant& exact, const compare::Authority& authority);
 
 }  // namespace ogc::tests

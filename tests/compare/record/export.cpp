@@ -1,6 +1,7 @@
 #include "compare/record/export.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -8,6 +9,7 @@
 #include "compare/files/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/problem/solid_scene.hpp"
 #include "tests/compare/record/small_run.hpp"
 
 using namespace ogc::compare;
@@ -75,10 +77,35 @@ TEST_CASE("a VTP sequence holds the arrays bit for bit, and its index the times"
   CHECK(appended_array<Index>(polygons, "offsets") == std::vector<Index>{3, 6, 9});
 }
 
+TEST_CASE("a VTU sequence holds tetrahedra with J, and the triangles of sheets beside them", "[unit]") {
+  const Scratch folder;
+  Scene scene = solid_scene();
+  append_body(scene, {.name = "sheet", .material = {}}, {{{9, 0, 0}, {10, 0, 0}, {9, 0, 1}}, {{0, 1, 2}}, {}});
+  round_to_single(scene);
+  Frame frame;
+  frame.positions = to_single(scene.mesh.positions);
+  for (Vec3f& x : frame.positions) x.y *= x.x > 5 ? 1 : -2;
+  frame.velocities.resize(frame.positions.size());
+  frame.bounds.resize(frame.positions.size());
+  RunWriter run(folder / "run", scene, recorded_provenance(), {});
+  run.add_frame(frame);
+  run.finish("finished");
+  const auto files = export_run(folder / "run", parse_export_format("vtu"), folder / "out");
+  REQUIRE(files.size() == 2);
+  const std::string vtu = text_of(files[0]);
+  const std::vector<float> growth = appended_array<float>(vtu, "J");
+  REQUIRE(growth.size() == 49);
+  CHECK(std::all_of(growth.begin(), growth.end() - 1, [](float j) { return std::abs(j + 2) < 1e-5f; }));
+  CHECK(std::isnan(growth.back()));
+  CHECK(appended_array<std::uint8_t>(vtu, "types")[47] == 10);
+  CHECK(appended_array<std::uint8_t>(vtu, "types")[48] == 5);
+  CHECK(appended_array<Index>(vtu, "offsets").back() == 4 * 48 + 3);
+}
+
 TEST_CASE("what can't be exported is said: unknown formats, runs without a frame, no run, a folder that can't be made",
           "[unit]") {
   const Scratch folder;
-  CHECK_THROWS_WITH(parse_export_format("vtk"), ContainsSubstring("'vtk'") && ContainsSubstring("obj, ply, vtp"));
+  CHECK_THROWS_WITH(parse_export_format("vtk"), ContainsSubstring("'vtk'") && ContainsSubstring("obj, ply, vtp, vtu"));
   { RunWriter run(folder / "empty", recorded_scene(), recorded_provenance(), {}); }
   CHECK_THROWS_AS(export_run(folder / "empty", ExportFormat::obj, folder / "out"), InputError);
   CHECK_THROWS_AS(export_run(folder / "nowhere", ExportFormat::obj, folder / "out"), InputError);

@@ -1,4 +1,5 @@
-"""Reads trajectory.vtkhdf of a run back with VTK's own reader and compares it, bit for bit, with the frames it was assembled from.
+"""Reads trajectory.vtkhdf of a run back with VTK's own reader and compares it, bit for bit, with the frames it was
+assembled from.
 
     python3 read_trajectory.py RUN_FOLDER
 
@@ -32,7 +33,8 @@ def expect(what, found, expected):
     """Same shape and same bits; not-a-number equals itself."""
     found, expected = np.asarray(found), np.asarray(expected)
     if found.shape != expected.shape or not np.array_equal(found, expected, equal_nan=found.dtype.kind == "f"):
-        failures.append(f"{what}: found {found.ravel()[:6]} … {found.shape}, expected {expected.ravel()[:6]} … {expected.shape}")
+        failures.append(f"{what}: found {found.ravel()[:6]} … {found.shape}, expected {expected.ravel()[:6]} … "
+                        f"{expected.shape}")
 
 
 def cells(array):
@@ -50,7 +52,8 @@ def check_step(step, data, path, scene):
             expect(f"{path.name}: {name}", vtk_to_numpy(data.GetPointData().GetArray(name)), frame[dataset][:])
         expect(f"{path.name}: time", step, frame.attrs["time"])
     expect(f"{path.name}: body", vtk_to_numpy(data.GetPointData().GetArray("body")), body_numbers(scene["bodies"]))
-    expect(f"{path.name}: cells", [data.GetNumberOfVerts(), data.GetNumberOfLines(), data.GetNumberOfPolys(), data.GetNumberOfStrips()],
+    expect(f"{path.name}: cells", [data.GetNumberOfVerts(), data.GetNumberOfLines(), data.GetNumberOfPolys(),
+                                   data.GetNumberOfStrips()],
            [0, scene["loose_edges"], scene["triangles"], 0])
 
 
@@ -81,7 +84,8 @@ def check(folder):
         check_step(steps[i], reader.GetOutputAsDataSet(), frames[i], scene)
     if steps:
         check_triangles(reader.GetOutputAsDataSet(), folder, scene)
-    print(f"{folder}: {len(steps)} steps, {scene['vertices']} points, {scene['triangles']} triangles, VTK {vtkVersion.GetVTKVersion()}: "
+    print(f"{folder}: {len(steps)} steps, {scene['vertices']} points, {scene['triangles']} triangles, VTK "
+          f"{vtkVersion.GetVTKVersion()}: "
           f"{'equal' if not failures else f'{len(failures)} differences'}")
 
 

@@ -1,4 +1,5 @@
-/* A plug-in in C that is right, and breaks as the environment variable OGC_BROKEN says where it meets a case with d = r (or, of a mesh, always). */
+/* A plug-in in C that is right, and breaks as the environment variable OGC_BROKEN says where it meets a case with d = r
+   (or, of a mesh, always). */
 #define _GNU_SOURCE
 #include <math.h>
 #include <signal.h>
@@ -113,10 +114,14 @@ static void activate(int64_t kind, double d, double r, double k, double g[3]) {
   const double tau = r / 2, depth = r - d, share = depth / d, log = log1p(share);
   const double inner = kind == OGC_ACTIVATION_OGC_AS_PRINTED ? tau * k * tau * tau : tau * k * tau;
   const int two_stages = kind == OGC_ACTIVATION_OGC || kind == OGC_ACTIVATION_OGC_AS_PRINTED;
-  if (two_stages && d < tau) g[0] = k / 2 * tau * tau + inner * (log - log1p(1)), g[1] = -inner / d, g[2] = inner / d / d;
-  else if (two_stages || kind == OGC_ACTIVATION_QUADRATIC) g[0] = k / 2 * depth * depth, g[1] = -k * depth, g[2] = k;
-  else if (kind == OGC_ACTIVATION_CUBIC) g[0] = 2 * k / (3 * r) * depth * depth * depth, g[1] = -2 * k / r * depth * depth, g[2] = 4 * k / r * depth;
-  else g[0] = k * depth * depth * log, g[1] = -k * depth * (2 * log + share), g[2] = k * (2 * log + share * (4 + share));
+  if (two_stages && d < tau)
+    g[0] = k / 2 * tau * tau + inner * (log - log1p(1)), g[1] = -inner / d, g[2] = inner / d / d;
+  else if (two_stages || kind == OGC_ACTIVATION_QUADRATIC)
+    g[0] = k / 2 * depth * depth, g[1] = -k * depth, g[2] = k;
+  else if (kind == OGC_ACTIVATION_CUBIC)
+    g[0] = 2 * k / (3 * r) * depth * depth * depth, g[1] = -2 * k / r * depth * depth, g[2] = 4 * k / r * depth;
+  else
+    g[0] = k * depth * depth * log, g[1] = -k * depth * (2 * log + share), g[2] = k * (2 * log + share * (4 + share));
 }
 
 int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the library into a scratch folder, builds the example plug-ins and both files of experiments/plugins/README.md outside this tree, as a newcomer would, and
-# checks their verdicts. Usage: build_plugins.sh BUILD_DIR SOURCE_DIR
+# Installs the library into a scratch folder, builds the example plug-ins and both files of
+# experiments/plugins/README.md outside this tree, as a newcomer would, and checks their verdicts. Usage:
+# build_plugins.sh BUILD_DIR SOURCE_DIR
 set -euo pipefail
 build=$(cd "$1" && pwd) source=$(cd "$2" && pwd)
 scratch=$(mktemp -d)
@@ -9,10 +10,14 @@ cmake --install "$build" --prefix "$scratch/prefix" --component library > /dev/n
 cd "$scratch"
 cp "$source"/experiments/plugins/examples/*.cpp .
 # The page's code blocks that are marked as mine.cpp: the first is wrong, the second is right.
-awk '/^<!-- mine.cpp -->/ { n++; wanted = 1 } /^```$/ { writing = 0 } writing { print > ("page" n ".cpp") } /^```cpp$/ && wanted { writing = 1; wanted = 0 }' \
+awk '/^<!-- mine.cpp -->/ { n++; wanted = 1 }
+     /^```$/ { writing = 0 }
+     writing { print > ("page" n ".cpp") }
+     /^```cpp$/ && wanted { writing = 1; wanted = 0 }' \
   "$source/experiments/plugins/README.md"
 
-# verdict NAME STAGE EXIT_STATUS TEXT: the plug-in must build without warnings and end so, and TEXT must stand in what is printed.
+# verdict NAME STAGE EXIT_STATUS TEXT: the plug-in must build without warnings and end so, and TEXT must stand in what
+# is printed.
 verdict() {
   g++ -O2 -Wall -Wextra -Werror -shared -fPIC -I "$scratch/prefix/include/ogc" "$1.cpp" -o "$1.so"
   local status=0

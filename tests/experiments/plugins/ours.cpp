@@ -251,16 +251,16 @@ class Step {
   }
 
   Index guess(bool holds_contacts) {
-    const TruncateOut cut = ours().truncate({x_, target, detected_.bound});
+    const TruncateOut kept = ours().truncate({x_, target, detected_.bound});
     const std::vector<bool> held = holds_contacts ? touched() : std::vector<bool>(count_);
-    Index exceeded = 0;
+    Index cut = 0;
     for (std::size_t v = 0; v < count_; ++v) {
       if (held[v]) continue;
-      x_[v] = cut.position[v];
-      exceeded += cut.exceeded[v];
+      x_[v] = kept.position[v];
+      cut += kept.cut[v];
     }
-    events.push_back({StepEventKind::guess, x_, exceeded, {}, {}, {}});
-    return exceeded;
+    events.push_back({StepEventKind::guess, x_, cut, {}, {}, {}});
+    return cut;
   }
 
   Index sweep() {

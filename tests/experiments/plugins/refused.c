@@ -6,6 +6,11 @@ const ogc_plugin_info* ogc_plugin(void) {
   static const ogc_plugin_info info = {OGC_PLUGIN_VERSION + 1, OGC_HOST_MEMORY, "newer"};
   return &info;
 }
+#elif defined(OGC_TEST_OLDER)
+const ogc_plugin_info* ogc_plugin(void) {
+  static const ogc_plugin_info info = {OGC_PLUGIN_OLDEST_VERSION - 1, OGC_HOST_MEMORY, "older"};
+  return &info;
+}
 #elif defined(OGC_TEST_EMPTY)
 OGC_PLUGIN("empty", OGC_HOST_MEMORY)
 #elif defined(OGC_TEST_MEMORY)

@@ -138,6 +138,29 @@ TEST_CASE("twist turns its two end columns against each other, a relative turn i
   CHECK(at_vertex(scene, scene.motions[1], 0, 4).z == Approx(0.5));
 }
 
+TEST_CASE("mat_twist has the size of Fig. 19, and all of its vertices are on the surface", "[unit]") {
+  const Scene scene = make_scene("mat_twist", Scale::paper);
+  REQUIRE(scene.bodies.size() == 1);
+  CHECK(scene.mesh.positions.size() == 15312);
+  CHECK(scene.mesh.tetrahedra.size() == 44892);
+  CHECK(scene.mesh.triangles.size() == 30620);
+  const Topology topology = build_topology(scene);
+  for (Index v = 0; v < topology.vertex_count; ++v) CHECK(topology.on_surface(v));
+  CHECK(scene.bodies[0].material.solid_mu == Approx(7142.857));
+  CHECK(scene.bodies[0].material.solid_lambda == Approx(28571.43));
+  CHECK(scene.settings.contact_radius == static_cast<double>(2e-3f));
+  CHECK(scene.settings.steps == 3840);
+  REQUIRE(scene.motions.size() == 2);
+  for (const PrescribedMotion& motion : scene.motions) {
+    CHECK(motion.vertices.size() == 174);
+    for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
+  }
+  CHECK(scene.motions[0].angular_velocity == -scene.motions[1].angular_velocity);
+  // After 1 s the ends have turned by a quarter, in opposite directions.
+  CHECK(at_vertex(scene, scene.motions[0], 0, 1).y == Approx(0.5).epsilon(1e-6));
+  CHECK(at_vertex(scene, scene.motions[1], 0, 1).y == Approx(-0.5).epsilon(1e-6));
+}
+
 TEST_CASE("large_radius_twist has the paper's numbers, and a radius of one edge at every scale", "[unit]") {
   const Scene scene = make_scene("large_radius_twist", Scale::paper);
   CHECK(scene.bodies[0].vertex_count == 40000);

@@ -1,10 +1,10 @@
 // What runs contain is legal: frames of each scene give every stage questions that its contract allows, and both sides
 // agree about them.
-#include "compare/judge/states.hpp"
+#include "compare/judge/cases/states.hpp"
 
-#include "compare/judge/generators.hpp"
-#include "compare/judge/judge.hpp"
-#include "compare/judge/legal.hpp"
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/cases/legal.hpp"
+#include "compare/judge/engine/judge.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
@@ -43,7 +43,7 @@ TEST_CASE("every question that frames of any scene lead to is legal, and the CPU
         for (const std::string generator : {"states", "mutated"}) {
           const CaseName name{stage, generator, 1, i, states.folder(), {}};
           INFO(print_problem(name));
-          CHECK(problem_of(generate(name, &states).data) == "");
+          CHECK(problem_of(generate(name, &states)) == "");
         }
       if (whole) continue;
       JudgeOptions options;

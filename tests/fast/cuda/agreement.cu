@@ -1,9 +1,9 @@
 // The device against the reference: the same judge, the same cases as on the CPU.
 #include "tests/catch.hpp"
 
-#include "compare/judge/judge.hpp"
-#include "compare/judge/report.hpp"
-#include "compare/judge/stage_table.hpp"
+#include "compare/judge/cases/stage_traits.hpp"
+#include "compare/judge/engine/judge.hpp"
+#include "compare/judge/report/report.hpp"
 #include "experiments/program/stage_list.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"

@@ -8,7 +8,7 @@
 
 #include "tests/catch.hpp"
 
-#include "compare/judge/random.hpp"
+#include "compare/judge/cases/random.hpp"
 #include "fast/cuda/backend.cuh"
 
 using namespace ogc::fast;

@@ -62,6 +62,28 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
   CHECK(c.iterations == 4);
 }
 
+TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once a step where it does not", "[unit]") {
+  ControlSettings settings;
+  settings.cut_threshold = 5;
+  StepControl c = running();
+  const int overflow = 0;
+  const auto iterate = [&](bool advances) {
+    c.count_lag(advances);
+    EndIteration{&c, settings}(0);
+    const int asked = c.detect;
+    if (asked != 0) EndDetection{&c, &overflow}(0);
+    return asked;
+  };
+  CHECK(iterate(true) == 1);
+  CHECK(c.cut_last == 1);
+  CHECK(iterate(true) == 1);
+  CHECK(iterate(false) == 0);  // it has asked
+  c = running();
+  CHECK(iterate(false) == 1);
+  CHECK(iterate(false) == 0);
+  CHECK(iterate(true) == 1);
+}
+
 TEST_CASE("iterations take turns, none while a detection is due, and after the last no detection is", "[unit]") {
   ControlSettings settings;
   settings.cut_threshold = 5;

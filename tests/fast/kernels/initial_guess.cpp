@@ -18,7 +18,7 @@ struct Line {
   void guess(bool hold) {
     control.active = 1;
     control.rounds = hold ? 1 : 0;
-    for (int v = 0; v < 3; ++v) GuessVertex{target, previous, bound, offsets, position, &control}(v);
+    for (int v = 0; v < 3; ++v) GuessVertex{target, previous, bound, {offsets}, position, &control}(v);
   }
 };
 
@@ -43,7 +43,7 @@ TEST_CASE("from round 2 on a vertex in a contact stays and does not count", "[un
 
 TEST_CASE("in a frame that stopped no vertex moves and none is counted", "[unit]") {
   Line line;
-  GuessVertex{line.target, line.previous, line.bound, line.offsets, line.position, &line.control}(1);
+  GuessVertex{line.target, line.previous, line.bound, {line.offsets}, line.position, &line.control}(1);
   CHECK(line.position[1].x == 0);
   CHECK(line.control.cut == 0);
 }

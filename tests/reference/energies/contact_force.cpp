@@ -17,7 +17,7 @@ ContactForceCase above(float height, float r = 0.5f, float k = 8) {
   ContactForceCase c;
   c.sides = ContactSides::point_triangle;
   c.vertex = {{{2.5f, 5, height}, {0, 0, 0}, {10, 0, 0}, {0, 10, 0}}};
-  c.detected = c.vertex;
+  c.previous = c.vertex;
   c.contact_radius = r;
   c.stiffness = k;
   return c;
@@ -151,7 +151,7 @@ TEST_CASE("the mollifier is that of the last detection, for two edges of meshes 
   c.contact_radius = 1;
   c.stiffness = 2;
   const auto at = [&](double sine) {
-    c.detected = {{{-1, 0, 0},
+    c.previous = {{{-1, 0, 0},
                    {1, 0, 0},
                    {0, 0, 0},
                    {static_cast<float>(2 * std::sqrt(1 - sine * sine)), static_cast<float>(2 * sine), 0}}};
@@ -172,7 +172,7 @@ TEST_CASE("two edges without triangles share the energy by their overlap where t
   c.contact_radius = 1;
   c.stiffness = 2;
   const auto at = [&](float begin, float end, float slope) {
-    c.detected = {{{0, 0, 0}, {4, 0, 0}, {begin, 0, 1}, {end, slope * (end - begin), 1}}};
+    c.previous = {{{0, 0, 0}, {4, 0, 0}, {begin, 0, 1}, {end, slope * (end - begin), 1}}};
     return exact(c).force.z;
   };
   for (const float slope : {0.0f, 1e-12f, 5e-4f}) {
@@ -192,7 +192,7 @@ TEST_CASE("nearly parallel edges meet in the middle of their overlap", "[unit]")
   ContactForceCase c;
   c.sides = ContactSides::edge_edge;
   c.vertex = {{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0.25f}, {2.5f, 0, 0.25f}}};
-  c.detected = c.vertex;
+  c.previous = c.vertex;
   c.rest_squared = {1, 0};
   c.contact_radius = 1;
   c.stiffness = 2;

@@ -91,7 +91,7 @@ inline ContactForceCase random_contact(Draw& draw, ContactSides sides) {
     const float lift = k < first ? 0.1f : 1;
     c.vertex[k] = {base.x + jitter.x, base.y + jitter.y, base.z + lift * jitter.z};
   }
-  c.detected = c.vertex;
+  c.previous = c.vertex;
   c.contact_radius = 0.7f;
   c.stiffness = draw.single(1, 10);
   return c;

@@ -62,7 +62,7 @@ FrictionForceCase above(float slip, float lift) {
   FrictionForceCase c;
   c.contact.sides = ContactSides::point_triangle;
   c.contact.vertex = {{{2.5f, 5, 0.25f}, {0, 0, 0}, {10, 0, 0}, {0, 10, 0}}};
-  c.contact.detected = c.contact.vertex;
+  c.contact.previous = c.contact.vertex;
   c.contact.contact_radius = 0.5f;
   c.contact.stiffness = 8;
   c.start = c.contact.vertex;

@@ -2,7 +2,7 @@
 // formulas themselves.
 #include "reference/geometry/margin.hpp"
 
-#include "compare/judge/random.hpp"
+#include "compare/judge/cases/random.hpp"
 #include "reference/geometry/formulas.hpp"
 #include "reference/geometry/sensitivity.hpp"
 #include "tests/catch.hpp"

@@ -16,7 +16,7 @@ TEST_CASE("truncate: a 3-4-5 displacement against bounds at, below and above its
   in.position[4] = {1, 2, 7};
   in.bound = {5, std::nextafter(5.0f, 0.0f), 2.5f, 0, 0};
   const auto truth = reference::truncate(in);
-  CHECK(truth.exceeded == std::vector<std::uint8_t>{0, 1, 1, 1, 0});
+  CHECK(truth.cut == std::vector<std::uint8_t>{0, 1, 1, 1, 0});
   CHECK(truth.grey == std::vector<std::uint8_t>{1, 1, 0, 0, 0});
   CHECK(truth.position[0] == compare::Vec3{4, 6, 7});
   CHECK(truth.position[2] == compare::Vec3{2.5, 4, 7});
@@ -36,16 +36,16 @@ TEST_CASE("truncate: truncated positions keep direction and have the bound's len
     in.bound.push_back(scale * 0.4f);
   }
   const auto truth = reference::truncate(in);
-  int exceeded = 0;
+  int cut = 0;
   for (std::size_t i = 0; i < in.bound.size(); ++i) {
     const Vec3f &p = in.previous[i], &x = in.position[i];
     const double dx = truth.position[i].x - p.x, dy = truth.position[i].y - p.y, length = std::hypot(dx, dy);
-    exceeded += truth.exceeded[i];
-    if (truth.exceeded[i]) CHECK(length == Approx(in.bound[i]).margin(1e-15));
-    if (!truth.exceeded[i]) CHECK(length <= in.bound[i]);
+    cut += truth.cut[i];
+    if (truth.cut[i]) CHECK(length == Approx(in.bound[i]).margin(1e-15));
+    if (!truth.cut[i]) CHECK(length <= in.bound[i]);
     const double turned = dx * (static_cast<double>(x.y) - p.y) - dy * (static_cast<double>(x.x) - p.x);
     const double rounding = 0x1p-52 * (std::abs(truth.position[i].x) + std::abs(truth.position[i].y));
     CHECK(std::abs(turned) <= rounding * std::hypot(x.x - p.x, x.y - p.y));
   }
-  CHECK((exceeded > 500 && exceeded < 1950));
+  CHECK((cut > 500 && cut < 1950));
 }

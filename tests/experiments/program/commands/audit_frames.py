@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Frames as other programs write them, by NumPy and VTK themselves: `ogc audit` must find the one that intersects, and nothing in the others.
+"""Frames as other programs write them, by NumPy and VTK themselves: `ogc audit` must find the one that intersects, and
+nothing in the others.
 
     tests/experiments/program/commands/audit_frames.py PROGRAM      exit status 77 where NumPy or VTK are missing
 """
@@ -41,7 +42,8 @@ def audit(*arguments, status):
 
 
 def check(verdict, name, distances):
-    """All frames were audited, the first bad one is named, and the distances are those of the numbers that were stored."""
+    """All frames were audited, the first bad one is named, and the distances are those of the numbers that were
+    stored."""
     assert len(verdict["states"]) == FRAMES and verdict["complete"]
     assert [state["count"] > 0 for state in verdict["states"]] == [k >= FIRST_BAD for k in range(FRAMES)]
     assert verdict["first_intersecting"].endswith(name), verdict["first_intersecting"]
@@ -64,13 +66,15 @@ def save_archives(folder, frames):
 
 def save_point_cache(file, frames):
     samples = frames.astype("<f4")
-    file.write_bytes(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, samples.shape[1], 0.0, 1.0, len(samples)) + samples.tobytes())
+    file.write_bytes(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, samples.shape[1], 0.0, 1.0,
+                                 len(samples)) + samples.tobytes())
 
 
 def poly_data(points):
     data, corners, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
     corners.SetData(numpy_to_vtk(points, deep=True))
-    cells.SetData(numpy_to_vtkIdTypeArray(numpy.array([0, 3, 6]), deep=True), numpy_to_vtkIdTypeArray(TRIANGLES.ravel(), deep=True))
+    cells.SetData(numpy_to_vtkIdTypeArray(numpy.array([0, 3, 6]), deep=True),
+                  numpy_to_vtkIdTypeArray(TRIANGLES.ravel(), deep=True))
     data.SetPoints(corners)
     data.SetPolys(cells)
     return data
@@ -112,7 +116,8 @@ def check_arrays(folder):
 
 def check_vtp(folder):
     frames = positions()
-    for number, options in enumerate(itertools.product(("ascii", "binary", "appended"), (False, True), (32, 64), (0, 1), (0, 1))):
+    for number, options in enumerate(itertools.product(("ascii", "binary", "appended"), (False, True), (32, 64), (0, 1),
+                                                       (0, 1))):
         here = folder / f"vtp_{number}"
         here.mkdir()
         for k, points in enumerate(frames if number == 0 else frames[[0, FRAMES - 1]]):

@@ -1,4 +1,5 @@
-"""Holds the output of `ogc contacts --json` against the schema that `ogc contacts --schema` prints, and the schema against the output: every key of it appears.
+"""Holds the output of `ogc contacts --json` against the schema that `ogc contacts --schema` prints, and the schema
+against the output: every key of it appears.
 
 Usage: contacts_schema.py OGC SOURCE_DIR. Exit status 77: skipped, jsonschema is missing (the reason is printed).
 """
@@ -15,7 +16,8 @@ except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
 
-# Two sheets that cross above each other, a third page on one edge, a thread: each kind of edge but a closed surface's, and of contact.
+# Two sheets that cross above each other, a third page on one edge, a thread: each kind of edge but a closed surface's,
+# and of contact.
 MESH = """
 v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nv 0.5 0.4 -0.6
 v 0.1 0.2 0.05\nv 1.1 0.3 0.06\nv 0.3 1.2 0.04
@@ -57,7 +59,8 @@ def check(program, folder):
     validator = jsonschema.Draft202012Validator(schema)
     exact = ogc(program, "contacts", mesh, "--radius", 0.25, "--ipc", "--sdf", "--squares", "--json")
     for document in (exact, ogc(program, "contacts", mesh, "--engine", "cpu", "--json")):
-        errors = [f"{'/'.join(map(str, error.absolute_path))}: {error.message}" for error in validator.iter_errors(document)]
+        errors = [f"{'/'.join(map(str, error.absolute_path))}: {error.message}"
+                  for error in validator.iter_errors(document)]
         assert not errors, errors[:5]
     assert keys_of(exact) == keys_of_schema(schema), keys_of(exact) ^ keys_of_schema(schema)
     assert set(exact["vertex_place"]) == {"boundary", "non_manifold", "loose"}, exact["vertex_place"]
@@ -71,4 +74,5 @@ DEFINITIONS = {}
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         document = check(sys.argv[1], Path(name))
-    print(f"{len(document['vertex_facet'])} vertex-facet and {len(document['edge_edge'])} edge-edge contacts as the schema says")
+    print(f"{len(document['vertex_facet'])} vertex-facet and {len(document['edge_edge'])} edge-edge contacts as the "
+          "schema says")

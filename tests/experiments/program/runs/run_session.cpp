@@ -36,7 +36,7 @@ compare::Scene two_bodies() {
   return scene;
 }
 
-enum class Fault { none, crossing, beyond_bound, unsafe_bound, not_finite, bound_status };
+enum class Fault { none, crossing, beyond_bound, unsafe_bound, uncovered, half_space, not_finite, bound_status };
 
 /// Everything stays where it is, until the fault.
 class FakeSimulation : public compare::Simulation {
@@ -71,6 +71,8 @@ class FakeSimulation : public compare::Simulation {
       case Fault::crossing: state_.positions[3] = state_.previous[3] = {0.25f, 0.25f, -0.25f}; break;
       case Fault::beyond_bound: state_.positions[4].z += 0.0011f; break;
       case Fault::unsafe_bound: state_.bounds[5] = 0.0091f; break;
+      case Fault::uncovered: state_.query_radius = 0.3f, state_.bounds[3] = 0.12f; break;
+      case Fault::half_space: state_.planes = {{0, 0, 0, 0, 1, 1, 1}, {{{}, {0, 0, 1}, 0.2}}}; break;
       case Fault::not_finite: return compare::step_not_finite;
       case Fault::bound_status: return compare::step_bound_violated;
       case Fault::none: break;
@@ -82,9 +84,10 @@ class FakeSimulation : public compare::Simulation {
 };
 
 experiments::RunSummary run(Fault fault, const tests::TemporaryFolder& folder, experiments::AuditMode audit,
-                            bool beside = false) {
+                            bool beside = false, compare::Bounds bounds = compare::Bounds::ball) {
   experiments::RunRequest request;
   request.scene = two_bodies();
+  request.scene.settings.bounds = bounds;
   request.audit = audit;
   request.audit_beside = beside;
   request.folder = folder / "run";
@@ -139,6 +142,32 @@ TEST_CASE("the audit catches each planted fault, names it, and keeps the last go
   CHECK(std::filesystem::exists(folder / "run/failed_step_7.ply"));
   CHECK(compare::RunReader(folder / "run").provenance().status.starts_with("failed: "));
   CHECK(summary.failed_states == 1);
+}
+
+// The sheets are 0.25 m apart: γ_p of that is 0.1125 m.
+TEST_CASE("with planes the audit lists pairs that nothing holds apart, and half-spaces that are not kept",
+          "[property]") {
+  const auto [fault, words] = GENERATE(table<Fault, std::string>(
+      {{Fault::crossing, "upper"},
+       {Fault::beyond_bound, "vertex 1 of body 'upper' (4 in the scene)"},
+       {Fault::uncovered, "pairs that neither a plane nor balls hold apart; the first: vertex 0 of body 'lower'"},
+       {Fault::half_space, "1 half-space not kept at the detection, 1 half-space not kept now"}}));
+  const tests::TemporaryFolder folder;
+  const experiments::RunSummary summary = run(fault, folder, experiments::AuditMode::every, false,
+                                              compare::Bounds::planes);
+  INFO(summary.failure);
+  CHECK(summary.guarantee_kept == false);
+  CHECK(summary.last_step == fault_step - 1);
+  CHECK(tests::contains(summary.failure, {words}));
+}
+
+TEST_CASE("with bounds off only intersections are found, and nothing is guaranteed", "[unit]") {
+  const tests::TemporaryFolder folder, other;
+  const auto off = compare::Bounds::off;
+  const experiments::RunSummary kept = run(Fault::unsafe_bound, folder, experiments::AuditMode::every, false, off);
+  CHECK(kept.last_step == 12);
+  CHECK(tests::contains(describe(kept), {"no guarantee (bounds=off)"}));
+  CHECK(run(Fault::crossing, other, experiments::AuditMode::every, false, off).last_step == fault_step - 1);
 }
 
 TEST_CASE("where only frames are audited a fault is found at the next frame", "[unit]") {

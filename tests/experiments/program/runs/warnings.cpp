@@ -8,6 +8,7 @@
 #include "compare/files/scene_files.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "experiments/scenes/shapes.hpp"
+#include "experiments/scenes/solid_box.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"
 
@@ -82,6 +83,14 @@ TEST_CASE("a step that loses more than half of its momentum to truncation is war
   CHECK(resting.list().empty());
 }
 
+TEST_CASE("a run without bounds says at its first and last line that nothing is guaranteed", "[unit]") {
+  compare::Scene scene = sheet();
+  scene.settings.bounds = compare::Bounds::off;
+  const std::vector<std::string> warnings = warnings_of(scene);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
+}
+
 // γ_p r_q = 0.45 · 40 mm a round, 16 rounds: 0.29 m a step at most; in h = 10 ms, 29 m/s. In free flight nothing but
 // truncation takes momentum.
 TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
@@ -136,4 +145,19 @@ TEST_CASE("no built-in scene begins with a warning", "[unit]") {
       INFO(info.name);
       CHECK(Warnings(make_scene(std::string(info.name), scale)).list() == std::vector<std::string>{});
     }
+}
+
+TEST_CASE("a solid that is thinner than r at rest is reported with its pairs and its thickness, and not refused",
+          "[unit]") {
+  compare::Scene scene;
+  scene.name = "slab";
+  append_body(scene, {.name = "slab", .material = {}}, solid_box({4, 2, 4}, {}, {0.3, 0.008, 0.3}));
+  scene.settings.contact_radius = 0.01;
+  const std::vector<std::string> texts = Warnings(scene).list();
+  REQUIRE(texts.size() == 1);
+  CHECK_THAT(texts[0], Contains("body 'slab' is thinner than contact_radius (0.01 m) at rest") &&
+                           Contains("pairs of a vertex and a face of its own") &&
+                           Contains("the thinnest place is 0.008 m"));
+  scene.settings.contact_radius = 0.005;
+  CHECK(Warnings(scene).list().empty());
 }

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "reference/solvers/detection.hpp"
+#include "reference/solvers/feasible_regions.hpp"
 #include "reference/solvers/newton/condition.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
@@ -196,15 +196,15 @@ TEST_CASE("what lies in a ball is within its bound after rounding, too", "[prope
         {static_cast<float>(draw(engine)), static_cast<float>(draw(engine)), static_cast<float>(100 * draw(engine))});
     detected.bound.push_back(static_cast<float>(std::pow(10, -8 + 6 * std::abs(draw(engine)))));
   }
-  const Balls balls(detected);
+  const FeasibleRegions regions(detected, compare::Bounds::ball);
   State x, scaled;
   for (std::size_t v = 0; v < detected.bound.size(); ++v) {
     const Triple<double> centre{detected.previous[v].x, detected.previous[v].y, detected.previous[v].z};
     const Triple<double> step = 2 * double{detected.bound[v]} *
                                 Triple<double>{draw(engine), draw(engine), draw(engine)};
-    const Balls::Inside inside = balls.inside(v, centre + step);
+    const FeasibleRegions::Inside inside = regions.inside(v, centre, centre + step);
     x.push_back(inside.x);
-    scaled.push_back(centre + balls.share_inside(v, centre, step) * step);
+    scaled.push_back(centre + regions.share_inside(v, centre, step) * step);
   }
   for (const std::vector<compare::Vec3f>& stored : {rounded(x), rounded(scaled)})
     for (std::size_t v = 0; v < stored.size(); ++v) {

@@ -120,8 +120,8 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
 
 TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
   // The middle of two sheets 10 µm apart lands on a patch, their rims fly on for 3 mm. Truncation alone leaves each of
-  // two facing vertices a thousandth of its way, and as little of the way that they want to go apart; damping of cut
-  // vertices (method.md §7.6) does not.
+  // two facing vertices a thousandth of its way, and as little of the way that they want to go apart; springs on cut
+  // vertices (method.md §7.6) do not.
   compare::Scene scene;
   scene.name = "closed";
   compare::Material material;

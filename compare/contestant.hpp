@@ -1,0 +1,213 @@
+// A contestant: a name, a callable for each stage that it has, and a resident simulation. The judge drives two of them
+// through the same cases and never learns who they are.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+#include "compare/stages/activation.hpp"
+#include "compare/stages/bending.hpp"
+#include "compare/stages/block.hpp"
+#include "compare/stages/bound.hpp"
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/friction_force.hpp"
+#include "compare/stages/initial_guess.hpp"
+#include "compare/stages/membrane.hpp"
+#include "compare/stages/plane.hpp"
+#include "compare/stages/rest_state.hpp"
+#include "compare/stages/spring.hpp"
+#include "compare/stages/step.hpp"
+#include "compare/stages/sweep.hpp"
+#include "compare/stages/tetrahedron.hpp"
+#include "compare/stages/truncate.hpp"
+
+namespace ogc::compare {
+
+/// Why a step is not clean; bits of StepMetrics::status.
+enum StepStatus : std::uint32_t {
+  step_clean = 0,
+  step_list_grew = 1,       ///< a list was too small: it grew and the step was repeated
+  step_not_finite = 2,      ///< a position became NaN or infinite: the run stops, the last good state stays
+  step_bound_violated = 4,  ///< the motion certificate failed: ‖x − x_prev‖ > b_v in double
+  /// the solver's iterations ended above its tolerance: the run stops, the last good state stays
+  step_not_converged = 8,
+  step_indefinite = 16,  ///< the solver's matrix is not positive definite, or no step lowers the energy: likewise
+};
+
+/// One row of iterations.csv, by solvers that keep one. The state is the one that the iteration begins with, or (the
+/// last row of a step) ends at.
+struct IterationMetrics {
+  std::int64_t step = 0, iteration = 0;  ///< from 1; from 0 in each step
+  double wall_ms = 0;                    ///< since the step began
+  double residual = 0;                   ///< Eq. 29 with the contacts of the last detection
+  double energy = 0;                     ///< incremental potential with these contacts [J]
+  double largest_change = 0;             ///< ‖δ‖_∞ of the solve, before any truncation [m]
+  double share = 0;                      ///< of δ' that the line search took, 0 where no step was taken
+  std::int64_t vertices_cut = 0;         ///< cut in this iteration
+  std::int64_t detected = 0;             ///< 1 where contacts were detected anew for this state
+  double condition_number = 0;           ///< of the matrix; not-a-number where it was not asked for
+  /// Of the matrix without friction, and without contact and friction: with stencils projected where the rest is not
+  /// positive definite.
+  double condition_without_friction = 0, condition_without_contact = 0;
+  /// of this iteration, counted as in StepMetrics
+  std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
+};
+
+/// One row of steps.csv. Times [ms]; not-a-number where a quantity was not asked for.
+struct StepMetrics {
+  std::int64_t step = 0;  ///< number of the step that this row ends, from 1
+  /// CPU: steady clock; CUDA: device events over the frame, divided by its steps
+  double wall_ms = 0;
+  std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
+  /// trees brought up to date (built or refitted) and asked for all pairs once
+  std::int64_t broad_phases = 0;
+  /// contacts or distances of all pairs found at one state; a check that only guards one is none
+  std::int64_t discrete_detections = 0;
+  /// the first contact of all pairs, or of the active ones, found along one motion
+  std::int64_t continuous_detections = 0;
+  std::int64_t guess_rounds = 0, iterations = 0;
+  std::int64_t vertices_cut = 0;                          ///< cut in the last iteration
+  double share_cut = 0;                                   ///< vertices_cut / K
+  double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5.3)
+  double largest_lag = 0;                                 ///< of prescribed vertices behind their targets [m]
+  double query_radius = 0;                                ///< r_q of the step [m]
+  double residual = 0;                                    ///< Eq. 29
+  double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
+  double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
+  std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step
+  std::int64_t repeats = 0;              ///< times the step was repeated because a list grew
+  std::uint32_t status = step_clean;
+  /// what the solver ran into, by name, and how it went on; shown to the user, not in steps.csv
+  std::vector<std::string> notes;
+  std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
+  /// with profile: time by stage, in the order of Simulation::stage_names()
+  std::vector<double> stage_ms;
+};
+
+/// State at the end of a step, with what the motion certificate needs.
+struct Snapshot {
+  std::int64_t step = 0;                     ///< the step that it ends
+  std::vector<Vec3f> positions, velocities;  ///< [m], [m/s]
+  std::vector<Vec3f> previous;               ///< X_prev of the last detection
+  std::vector<float> bounds;                 ///< b_v of the last detection
+  float query_radius = 0;                    ///< r_q of the last detection
+  /// of lists that grow, in the contestant's own order: no position depends on them, but which step is repeated does
+  std::vector<std::int64_t> capacities{};
+  /// of a solver whose state is in double: what positions and velocities are rounded from; else none
+  std::vector<Vec3> exact_positions{}, exact_velocities{};
+  VertexPlanes planes{};  ///< of the last detection, where bounds are planes
+};
+
+/// What a simulation records beside its states.
+struct SimulationOptions {
+  bool profile = false;     ///< record times by stage (adds synchronisations)
+  bool energies = true;     ///< fill the energies of StepMetrics
+  bool iterations = false;  ///< fill StepMetrics::iteration_rows, where the solver keeps them
+  bool condition = false;   ///< with a solver that factorises: the condition number in each iteration row (slow)
+};
+
+/// A simulation that lives where the contestant computes; nothing of it is copied to the host except on request.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+  /// Runs `steps` steps (a frame); returns one row each. Stops early after a row whose status says not_finite or
+  /// bound_violated.
+  virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
+  virtual Snapshot snapshot() = 0;
+  /// Continues from positions, velocities and step number, with room for `capacities` where there are any; what else a
+  /// snapshot holds is recomputed.
+  virtual void restore(const Snapshot& snapshot) = 0;
+  virtual std::vector<std::string> stage_names() const { return {}; }
+  /// One line on where it runs: "NVIDIA H200, CUDA 13.0" or "2 threads".
+  virtual std::string device() const = 0;
+};
+
+/// A contestant that gave no answer: it crashed, hung, or wrote where it must not. The judge looks for the case that
+/// did it and goes on; whatever else a contestant throws ends the comparison.
+struct ContestantFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Empty functions are stages that the contestant does not have.
+struct Contestant {
+  std::string name;  ///< for reports
+  /// By stage: compare/stages/STAGE.hpp says what is asked.
+  std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
+  std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;
+  std::function<DetectVertexFacetOut(const DetectIn&)> detect_vertex_facet;
+  std::function<DetectEdgeEdgeOut(const DetectIn&)> detect_edge_edge;
+  std::function<BoundOut(const BoundIn&)> bound;
+  std::function<ActivationOut(const ActivationIn&)> activation;
+  std::function<TruncateOut(const TruncateIn&)> truncate;
+  std::function<ForceOut(const MembraneIn&)> membrane;
+  std::function<ForceOut(const BendingIn&)> bending;
+  std::function<ForceOut(const SpringIn&)> spring;
+  std::function<ForceOut(const TetrahedronIn&)> tetrahedron;
+  std::function<ForceOut(const ContactForceIn&)> contact_force;
+  std::function<ForceOut(const FrictionForceIn&)> friction_force;
+  std::function<BlockOut(const BlockIn&)> block;
+  std::function<RestStateOut(const RestStateIn&)> rest_state;
+  std::function<InitialGuessOut(const InitialGuessIn&)> initial_guess;
+  std::function<SweepOut(const SweepIn&)> sweep;
+  std::function<StepOut(const StepIn&)> step;
+  std::function<std::unique_ptr<Simulation>(const Scene&, const SimulationOptions&)> start;
+};
+
+/// Calls visit(name, pointer to member) for each stage that a contestant may have; the names are those of
+/// compare/stages. The judge's list of stages is held to this one (compare/judge/engine/judge.cpp).
+template <class Visit>
+constexpr void visit_stages(Visit visit) {
+  visit("closest_face", &Contestant::closest_face);
+  visit("closest_points", &Contestant::closest_points);
+  visit("block", &Contestant::block);
+  visit("detect_vertex_facet", &Contestant::detect_vertex_facet);
+  visit("detect_edge_edge", &Contestant::detect_edge_edge);
+  visit("bound", &Contestant::bound);
+  visit("initial_guess", &Contestant::initial_guess);
+  visit("activation", &Contestant::activation);
+  visit("contact_force", &Contestant::contact_force);
+  visit("friction_force", &Contestant::friction_force);
+  visit("membrane", &Contestant::membrane);
+  visit("bending", &Contestant::bending);
+  visit("spring", &Contestant::spring);
+  visit("tetrahedron", &Contestant::tetrahedron);
+  visit("truncate", &Contestant::truncate);
+  visit("rest_state", &Contestant::rest_state);
+  visit("sweep", &Contestant::sweep);
+  visit("step", &Contestant::step);
+}
+
+/// The contestant that is right: its answers carry what the judge needs to decide about grey cases and conditioning.
+struct Authority {
+  std::string name;  ///< for reports
+  /// By stage, as for a contestant.
+  std::function<ClosestFaceTruth(const ClosestFaceIn&)> closest_face;
+  std::function<ClosestPointsTruth(const ClosestPointsIn&)> closest_points;
+  std::function<DetectVertexFacetTruth(const DetectIn&)> detect_vertex_facet;
+  std::function<DetectEdgeEdgeTruth(const DetectIn&)> detect_edge_edge;
+  std::function<BoundTruth(const BoundIn&)> bound;
+  std::function<ActivationTruth(const ActivationIn&)> activation;
+  std::function<TruncateTruth(const TruncateIn&)> truncate;
+  std::function<ForceTruth(const MembraneIn&)> membrane;
+  std::function<ForceTruth(const BendingIn&)> bending;
+  std::function<ForceTruth(const SpringIn&)> spring;
+  std::function<ForceTruth(const TetrahedronIn&)> tetrahedron;
+  std::function<ForceTruth(const ContactForceIn&)> contact_force;
+  std::function<ForceTruth(const FrictionForceIn&)> friction_force;
+  std::function<BlockTruth(const BlockIn&)> block;
+  std::function<RestStateTruth(const RestStateIn&)> rest_state;
+  std::function<InitialGuessTruth(const InitialGuessIn&)> initial_guess;
+  /// Of sweep and step the truth follows the answer (compare/stages/sweep.hpp, step.hpp).
+  std::function<SweepTruth(const SweepIn&, const SweepOut&)> sweep;
+  std::function<StepTruth(const StepIn&, const StepOut&)> step;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,57 @@
+#include "compare/judge/cases/any_models.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ogc::compare {
+
+namespace {
+
+double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+/// Of about the membranes' stiffness; a stitch in one of three.
+void add_spring(Random& random, const std::vector<Index>& groups, Scene& scene) {
+  const auto count = static_cast<int>(groups.size());
+  const Index first = random.below(count), second = random.below(count);
+  if (first == second ||
+      (groups[static_cast<std::size_t>(first)] >= 0 && groups[static_cast<std::size_t>(second)] >= 0))
+    return;
+  const auto& x = scene.mesh.positions;
+  const double length = distance(x[static_cast<std::size_t>(first)], x[static_cast<std::size_t>(second)]);
+  Spring spring{first, second, random.magnitude(-1, 2), 0, 0};
+  if (!random.one_in(3)) spring.rest_length = std::max(0x1p-19, length * random.between(0.5, 1.5));
+  if (random.one_in(2)) spring.damping = random.magnitude(-4, -2);
+  const Index third = random.below(count);
+  if (random.one_in(2) && third != first && third != second)
+    spring.third = third, spring.ratio = random.one_in(4) ? 0.5 : random.unit();
+  scene.springs.push_back(spring);
+}
+
+}  // namespace
+
+void choose_models(Random& random, Scene& scene) {
+  scene.settings.activation = static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
+  if (random.one_in(3)) scene.settings.damping = DampingForm::per_vertex;
+  for (Body& body : scene.bodies) {
+    if (body.material.membrane != MembraneModel::none && random.one_in(2))
+      body.material.membrane = MembraneModel::stable_neo_hookean;
+    if (body.material.bending != BendingModel::none && random.one_in(2))
+      body.material.bending = BendingModel::isometric_quadratic;
+  }
+  const std::vector<Index> groups = rigid_groups(scene);
+  for (int springs = random.below(4); springs > 0; --springs) add_spring(random, groups, scene);
+  if (random.one_in(2)) {
+    for (const Spring& spring : scene.springs) {
+      scene.excluded_pairs.push_back({spring.first, spring.second});
+      if (spring.third >= 0) scene.excluded_pairs.push_back({spring.first, spring.third});
+    }
+  }
+  round_to_single(scene);
+}
+
+void bend_isometrically(Scene& scene) {
+  for (Body& body : scene.bodies)
+    if (body.material.bending != BendingModel::none) body.material.bending = BendingModel::isometric_quadratic;
+}
+
+}  // namespace ogc::compare

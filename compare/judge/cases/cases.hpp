@@ -1,0 +1,135 @@
+// One case of each stage, as data: what a generator makes, a contestant answers, a file keeps.
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/judge/cases/stage.hpp"
+#include "compare/problem/scene.hpp"
+#include "compare/stages/bending.hpp"
+#include "compare/stages/block.hpp"
+#include "compare/stages/friction_force.hpp"
+#include "compare/stages/initial_guess.hpp"
+#include "compare/stages/membrane.hpp"
+#include "compare/stages/spring.hpp"
+#include "compare/stages/tetrahedron.hpp"
+
+namespace ogc::compare {
+
+/// A parameter set after the case is made (compare/judge/cases/parameters.hpp).
+struct Override {
+  std::string name;  ///< of the stage's table
+  float value = 0;   ///< as it was given
+  friend bool operator==(const Override&, const Override&) = default;
+};
+
+/// Names a generated case. Printed: `stage=detect_edge_edge gen=few seed=7 index=1234`, then parameters that are not
+/// the generator's own (` r=0.002`), and for real states ` states=RUN`.
+struct CaseName {
+  Stage stage = Stage::closest_face;  ///< who is asked
+  std::string generator;              ///< a row of the stage's table, `states` or `mutated`
+  std::uint64_t seed = 0, index = 0;  ///< of the random numbers
+  std::string states;                 ///< run folder; empty unless the generator takes real states
+  std::vector<Override> overrides{};  ///< in the stage's order
+  friend bool operator==(const CaseName&, const CaseName&) = default;
+};
+
+/// The canonical line.
+std::string print_problem(const CaseName& name);
+/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong,
+/// or the parameter that the stage lacks.
+CaseName parse_problem(const std::string& line);
+
+/// A point and a triangle [m].
+struct ClosestFaceCase {
+  Vec3f point;                    ///< may lie on the triangle
+  std::array<Vec3f, 3> triangle;  ///< by corner
+};
+
+/// Two edges [m].
+struct ClosestPointsCase {
+  std::array<Vec3f, 2> first, second;  ///< by end
+};
+
+/// A whole state for detection.
+struct MeshCase {
+  std::shared_ptr<const Topology> topology;    ///< of the mesh
+  std::vector<Index> rigid_groups;             ///< by vertex, as in Exclusions
+  std::vector<Vec3f> positions;                ///< by vertex [m]
+  float contact_radius = 0, query_radius = 0;  ///< r ≤ r_q [m]
+  CompressedRows partners{};                   ///< as in Exclusions
+};
+
+/// Smallest distances of a mesh's faces.
+struct BoundCase {
+  std::shared_ptr<const Topology> topology;                     ///< of the mesh
+  std::vector<float> d_min_vertex, d_min_edge, d_min_triangle;  ///< by face [m]
+  float bound_relaxation = 0.45f;                               ///< γ_p, Eq. 21
+};
+
+/// A mesh and what is asked about it.
+struct BlockCase {
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
+  std::vector<Vec3f> positions;              ///< by vertex [m]
+  std::vector<BlockQuestion> questions;      ///< each counts as a case
+};
+
+/// A scene whose rest data are asked for.
+struct RestStateCase {
+  std::shared_ptr<const Scene> scene;        ///< rounded
+  std::shared_ptr<const Topology> topology;  ///< of its mesh
+};
+
+/// A scene that takes one step.
+struct StepCase {
+  std::shared_ptr<const Scene> scene;        ///< rounded
+  std::shared_ptr<const Topology> topology;  ///< of its mesh
+};
+
+/// Where a sweep finds a scene; contacts and bounds follow from X_prev (compare/judge/stages/sweep_question.hpp).
+struct SweepCase {
+  std::shared_ptr<const Scene> scene;               ///< rounded
+  std::vector<Index> colour;                        ///< as in SweepIn
+  std::vector<Vec3f> old, start, target, previous;  ///< x (the question brings it within the bound), xᵗ, y, X_prev [m]
+  /// [m]; b_v is the smaller one of it and the bound of the detection
+  std::vector<float> largest_bound;
+  float query_radius = 0;  ///< r_q [m]
+};
+
+/// A distance, and what acts there.
+struct ActivationCase {
+  float distance = 0, contact_radius = 0, stiffness = 0;  ///< d [m], r [m], k_c [N/m]
+  ContactActivation activation = ContactActivation::ogc;  ///< which function of the distance
+};
+
+/// A vertex that moved.
+struct TruncateCase {
+  Vec3f previous, position;  ///< X_prev, x [m]
+  float bound = 0;           ///< b_v [m]
+};
+
+/// The data of a case; its type is that of the stage (compare/judge/stages).
+using CaseData = std::any;
+
+/// Throws std::bad_any_cast where the case is another stage's.
+template <class Case>
+const Case& case_of(const CaseData& data) {
+  if (const auto* found = std::any_cast<Case>(&data)) return *found;
+  throw std::bad_any_cast();
+}
+template <class Case>
+Case& case_of(CaseData& data) {
+  if (auto* found = std::any_cast<Case>(&data)) return *found;
+  throw std::bad_any_cast();
+}
+
+/// A case and its name, which makes it again.
+struct TestCase {
+  CaseName name;  ///< of a case that was made smaller: what it came from
+  CaseData data;  ///< of the stage's own type
+};
+
+}  // namespace ogc::compare

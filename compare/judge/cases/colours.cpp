@@ -1,0 +1,53 @@
+#include "compare/judge/cases/colours.hpp"
+
+#include <set>
+
+namespace ogc::compare {
+
+namespace {
+
+/// Vertices that share a stencil with each, as the topology, the tetrahedra and the springs tell.
+std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topology) {
+  std::vector<std::set<Index>> near(static_cast<std::size_t>(topology.vertex_count));
+  const auto join = [&](Index a, Index b) {
+    near[static_cast<std::size_t>(a)].insert(b);
+    near[static_cast<std::size_t>(b)].insert(a);
+  };
+  for (const Edge& e : topology.edges) join(e[0], e[1]);
+  for (const Hinge& hinge : topology.hinges) join(hinge.opposite[0], hinge.opposite[1]);
+  for (const Tetrahedron& t : scene.mesh.tetrahedra)
+    for (std::size_t k = 1; k < 4; ++k)
+      for (std::size_t l = 0; l < k; ++l) join(t[k], t[l]);
+  for (const Spring& spring : scene.springs) {
+    join(spring.first, spring.second);
+    if (spring.third < 0) continue;
+    join(spring.first, spring.third);
+    join(spring.second, spring.third);
+  }
+  return near;
+}
+
+}  // namespace
+
+std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology) {
+  const auto near = conflicts(scene, topology);
+  const std::vector<Index> groups = rigid_groups(scene);
+  std::vector<Index> order(near.size()), colour(near.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  const bool chain = random.one_in(8);
+  Index next = 0;
+  for (const Index v : order) {
+    const auto i = static_cast<std::size_t>(v);
+    if (groups[i] >= 0) continue;
+    std::set<Index> taken;
+    for (const Index u : near[i]) taken.insert(colour[static_cast<std::size_t>(u)]);
+    Index c = chain ? next++ : 0;
+    while (taken.contains(c)) ++c;
+    colour[i] = c;
+  }
+  return colour;
+}
+
+}  // namespace ogc::compare

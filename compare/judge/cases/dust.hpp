@@ -1,0 +1,27 @@
+// Small coordinates: what rotations leave of a zero, and runs of a vertex near a plane of symmetry (method.md §2.4:
+// legal everywhere).
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "compare/judge/cases/cases.hpp"
+#include "compare/judge/cases/random.hpp"
+
+namespace ogc::compare {
+
+/// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), each by itself, as long as the case stays legal.
+/// Products of two that are smaller still are lost beside 1 in double-double, and so are decisions. Connectivity,
+/// radii, materials and rest data stay. Scenes stay as they are, but for the positions of a sweep.
+void add_dust(Random& random, TestCase& test);
+
+/// The coordinates of points, one place after another.
+inline std::vector<float*> coordinates_of(std::initializer_list<std::span<Vec3f>> places) {
+  std::vector<float*> all;
+  for (const std::span<Vec3f> points : places)
+    for (Vec3f& p : points) all.insert(all.end(), {&p.x, &p.y, &p.z});
+  return all;
+}
+
+}  // namespace ogc::compare

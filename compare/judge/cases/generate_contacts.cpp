@@ -1,0 +1,429 @@
+// Cases of contact_force and friction_force. Canonical frame: the contact point of the second side near the origin, the
+// normal about z, so that distance and slip along the normal are single coordinates. Ladders lead to the boundaries of
+// the closest features, to collapse as far as the question is legal, to parallel edges and the rule for them, to r, τ
+// and 0, and of friction to a slip of 0 and of ε_v h, and to a motion along the normal.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/cases/placement.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, ContactSides::point_edge,
+                                                ContactSides::edge_edge, ContactSides::point_triangle};
+
+/// A contact in its canonical frame: its points, now and at the last detection.
+struct Shape {
+  ContactSides sides = ContactSides::point_point;
+  double size = 1, radius = 1, distance = 0;  ///< about the length of an edge; r; about d
+  std::array<Vec3, 4> x{}, previous{};
+  bool turned = true;  ///< may be rotated
+};
+
+/// r between a fifth of an edge and three edges; d a share of it.
+Shape sized(Random& random, ContactSides sides, double share) {
+  Shape shape;
+  shape.sides = sides;
+  shape.size = random.magnitude(-3, 0);
+  shape.radius = shape.size * random.magnitude(-0.7, 0.5);
+  shape.distance = shape.radius * share;
+  return shape;
+}
+
+ContactSides any_sides(Random& random) { return random.pick(std::span<const ContactSides>(all_sides)); }
+
+/// A point above the point of the x axis at parameter t of an edge that is `length` long.
+void put_edge(Shape& shape, double t, double length) {
+  shape.x = {Vec3{0, 0, shape.distance}, Vec3{-t * length, 0, 0}, Vec3{(1 - t) * length, 0, 0}, Vec3{}};
+}
+
+/// A point above the point of a triangle with weights b and c at its second and third corner.
+void put_triangle(Shape& shape, const Vec3& second, const Vec3& third, double b, double c) {
+  const Vec3 foot = sum(scaled(second, b), scaled(third, c));
+  shape.x = {Vec3{0, 0, shape.distance}, scaled(foot, -1), sum(second, scaled(foot, -1)), sum(third, scaled(foot, -1))};
+}
+
+/// Edges of the lengths `shape.size` and `length` that cross, seen from above, at the parameters s and t.
+std::array<Vec3, 4> crossing(const Shape& shape, double length, double sine, double s, double t) {
+  const double x = length * std::sqrt(std::max(0.0, 1 - sine * sine)), y = length * sine, a = shape.size;
+  return {Vec3{-s * a, 0, shape.distance}, Vec3{(1 - s) * a, 0, shape.distance}, Vec3{-t * x, -t * y, 0},
+          Vec3{(1 - t) * x, (1 - t) * y, 0}};
+}
+
+double other_length(Random& random, const Shape& shape) { return shape.size * random.magnitude(-0.5, 0.5); }
+
+struct Base {
+  Vec3 second, third;
+};
+
+/// Second and third corner of a triangle of some shape, the first at the origin.
+Base any_base(Random& random, double size) {
+  const double x = random.between(-0.5, 1.5), y = random.between(0.3, 1.5);
+  return {{size * random.between(0.5, 1.5), 0, 0}, {size * x, size * y, 0}};
+}
+
+/// A contact of the sides with its points at the given parameters.
+void put(Random& random, Shape& shape, double s, double t) {
+  switch (shape.sides) {
+    case ContactSides::point_edge: return put_edge(shape, s, other_length(random, shape));
+    case ContactSides::edge_edge:
+      shape.x = crossing(shape, other_length(random, shape), random.between(0.1, 1), s, t);
+      return;
+    case ContactSides::point_triangle: {
+      const Base base = any_base(random, shape.size);
+      return put_triangle(shape, base.second, base.third, s, t);
+    }
+    case ContactSides::point_point: shape.x = {Vec3{0, 0, shape.distance}, Vec3{}, Vec3{}, Vec3{}};
+  }
+}
+
+/// In the interiors, of a triangle as of two edges.
+Shape inside(Random& random, ContactSides sides, double share) {
+  Shape shape = sized(random, sides, share);
+  const bool triangle = sides == ContactSides::point_triangle;
+  const double s = random.between(0.05, 0.95), t = random.between(0.05, 0.95);
+  put(random, shape, triangle ? s * (1 - t) : s, triangle ? t * (1 - s) : t);
+  return shape;
+}
+
+/// A parameter near an end, or beyond it.
+double near_end(Random& random) {
+  const double off = !random.is_fine() && random.one_in(3) ? random.between(-0.5, 0) : random.rung();
+  return random.one_in(2) ? off : 1 - off;
+}
+
+Shape near_feature(Random& random) {
+  const ContactSides sides = random.pick(std::span<const ContactSides>(all_sides).subspan(1));
+  Shape shape = sized(random, sides, random.between(0.05, 1));
+  double s = near_end(random), t = random.one_in(2) ? random.unit() : near_end(random);
+  if (sides == ContactSides::point_triangle && random.one_in(3)) {  // the side opposite the first corner
+    s = random.unit();
+    t = 1 - s + random.rung();
+  }
+  put(random, shape, s, t);
+  return shape;
+}
+
+/// Triangles and edges that are thin or short.
+Shape thin_by(Random& random, double thinness) {
+  Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
+                      random.between(0.05, 1));
+  shape.turned = thinness > 0;
+  const double b = random.between(-0.2, 1.2), c = random.one_in(2) ? random.between(-0.2, 1.2) : random.rung();
+  if (shape.sides == ContactSides::edge_edge) {
+    shape.x = crossing(shape, shape.size * thinness, random.unit(), b, c);
+    if (random.one_in(2)) std::rotate(shape.x.begin(), shape.x.begin() + 2, shape.x.end());
+    return shape;
+  }
+  const double length = shape.size, width = length * thinness, lean = random.between(-0.3, 1.3);
+  const std::array<Base, 3> bases{{{{length, 0, 0}, {lean * length, width, 0}},
+                                   {{0, width, 0}, {length, lean * width, 0}},
+                                   {{length, 0, 0}, {length, width, 0}}}};
+  const Base& base = bases[random.below(3)];
+  put_triangle(shape, base.second, base.third, b, c);
+  return shape;
+}
+
+/// Down to where needles begin (compare/stages/contact_force.hpp), or collapsed exactly.
+Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
+Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
+
+/// Angles around the rule for nearly parallel edges and towards 0, with an overlap that may end, inside or beyond.
+Shape nearly_parallel(Random& random) {
+  Shape shape = sized(random, ContactSides::edge_edge, random.between(0.05, 1));
+  const double sine = random.one_in(2) ? 1e-3 * (1 + random.rung()) : std::min(1.0, std::abs(random.rung()));
+  const double length = other_length(random, shape);
+  if (random.one_in(3)) {
+    shape.x = crossing(shape, length, sine, random.between(0.05, 0.95), random.between(0.05, 0.95));
+    return shape;
+  }
+  // One behind the other: a share of the first overlaps, or none, or the ends meet.
+  const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(),
+               aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.radius;
+  shape.x = crossing(shape, length, sine, 1 - overlap, 0);
+  const double tilt = random.one_in(2) ? 0.0 : sine * length;
+  shape.x[2].y += aside;
+  shape.x[3] = {shape.x[3].x, shape.x[3].y + aside, shape.x[3].z + tilt};
+  if (random.one_in(2)) std::swap(shape.x[2], shape.x[3]);
+  return shape;
+}
+
+/// Small numbers of few bits, on which decisions are often ties.
+Shape on_grid(Random& random) {
+  Shape shape = sized(random, any_sides(random), 0);
+  shape.size = std::ldexp(1.0, random.below(9) - 8);
+  shape.radius = shape.size * 0.5 * (1 + random.below(6));
+  for (Vec3& p : shape.x) p = scaled(on_lattice(random, 1), shape.size);
+  shape.turned = false;
+  return shape;
+}
+
+/// The edges at the last detection: as now, moved a little, or at an angle of their own.
+void detect(Random& random, Shape& shape) {
+  shape.previous = shape.x;
+  const double step = random.one_in(2) ? 0.0 : shape.size * random.magnitude(-4, -1);
+  for (Vec3& p : shape.previous) p = sum(p, scaled(in_box(random, -1, 1), step));
+}
+
+float squared_length(const Vec3f& a, const Vec3f& b) {
+  const double x = double{b.x} - a.x, y = double{b.y} - a.y, z = double{b.z} - a.z;
+  return static_cast<float>(x * x + y * y + z * z);
+}
+
+/// x and `moved`, the motion of each vertex since the start of the step, at one place.
+FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Vec3, 4>& moved) {
+  std::array<Vec3, 12> points;
+  for (std::size_t k = 0; k < 4; ++k) {
+    points[k] = shape.x[k];
+    points[4 + k] = shape.previous[k];
+    points[8 + k] = sum(shape.x[k], scaled(moved[k], -1));
+  }
+  permute(random, points);
+  if (shape.turned && random.one_in(2)) rotate(random, points);
+  FrictionForceCase question;
+  ContactForceCase& contact = question.contact;
+  contact.sides = shape.sides;
+  contact.own = random.below(vertex_count(shape.sides));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(shape.sides)); ++k) {
+    contact.vertex[k] = single(points[k]);
+    contact.previous[k] = single(points[4 + k]);
+    question.start[k] = single(points[8 + k]);
+  }
+  contact.contact_radius = static_cast<float>(shape.radius);
+  contact.stiffness = static_cast<float>(random.magnitude(-1, 4));
+  if (shape.sides == ContactSides::edge_edge && !random.one_in(4)) {
+    const double stretch = random.one_in(2) ? 1 : random.magnitude(-0.5, 0.5);
+    contact.rest_squared = {
+        std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[0], contact.vertex[1])),
+        std::max(0x1p-40f, static_cast<float>(stretch) * squared_length(contact.vertex[2], contact.vertex[3]))};
+    if (random.one_in(8)) contact.rest_squared[static_cast<std::size_t>(random.below(2))] = 0;
+  }
+  return question;
+}
+
+CaseData contact_case(Random& random, Shape shape) {
+  detect(random, shape);
+  return placed(random, shape, {}).contact;
+}
+
+double any_share(Random& random) { return random.between(0.02, 1.15); }
+
+/// d → r.
+Shape near_radius(Random& random) { return inside(random, any_sides(random), 1 + random.rung()); }
+/// d → τ = r/2.
+Shape near_switch(Random& random) { return inside(random, any_sides(random), 0.5 * (1 + random.rung())); }
+/// d → 0, through 2⁻²³ r.
+Shape near_touching(Random& random) {
+  return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1));
+}
+
+/// Points, edges and radii of any bits; a pair that the contract leaves out by its shape, of two edges or with a
+/// triangle, is not among them.
+Shape of_bits(Random& random) {
+  Shape shape;
+  shape.sides = random.one_in(2) ? ContactSides::point_point : ContactSides::point_edge;
+  shape.x = points_of_bits(random);
+  shape.previous = shape.x;
+  shape.radius = random.pattern();
+  shape.size = shape.radius;
+  shape.turned = false;
+  return shape;
+}
+
+CaseData contact_bits(Random& random) { return placed(random, of_bits(random), {}).contact; }
+
+CaseData contact_uniform(Random& random) {
+  return contact_case(random, inside(random, any_sides(random), any_share(random)));
+}
+CaseData contact_lattice(Random& random) { return contact_case(random, on_grid(random)); }
+CaseData contact_feature(Random& random) { return contact_case(random, near_feature(random)); }
+CaseData contact_thin(Random& random) { return contact_case(random, thin(random)); }
+CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
+CaseData contact_parallel(Random& random) {
+  auto question = case_of<ContactForceCase>(contact_case(random, nearly_parallel(random)));
+  if (random.one_in(2)) question.rest_squared = {};  // whose energy is that of their overlap
+  return question;
+}
+CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
+CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
+CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
+
+/// Any activation, where features and stages change and in between.
+Shape any_shape(Random& random) {
+  switch (random.below(5)) {
+    case 0: return near_feature(random);
+    case 1: return near_radius(random);
+    case 2: return near_switch(random);
+    case 3: return near_touching(random);
+    default: return inside(random, any_sides(random), any_share(random));
+  }
+}
+ContactActivation any_activation(Random& random) {
+  return static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
+}
+
+/// Next to a boundary: of a feature, of the radius, between the stages.
+Shape near_boundary(Random& random) {
+  random.be_fine();
+  switch (random.below(4)) {
+    case 0: return near_radius(random);
+    case 1: return near_switch(random);
+    default: return near_feature(random);
+  }
+}
+CaseData contact_boundary(Random& random) { return contact_case(random, near_boundary(random)); }
+
+CaseData contact_variants(Random& random) {
+  auto question = case_of<ContactForceCase>(contact_case(random, any_shape(random)));
+  question.activation = any_activation(random);
+  return question;
+}
+
+/// Any vertices move together.
+CaseData contact_together(Random& random) {
+  auto question = case_of<ContactForceCase>(contact_case(random, any_shape(random)));
+  question.together = static_cast<std::uint8_t>(1 + random.below(15));
+  return question;
+}
+
+/// c → ε and c → 0 at the last detection.
+CaseData contact_mollifier(Random& random) {
+  Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
+  const double sine = random.one_in(2) ? std::sqrt(1e-3) * (1 + random.rung()) : std::abs(random.rung());
+  shape.previous = crossing(shape, other_length(random, shape), sine, 0.5, 0.5);
+  return placed(random, shape, {}).contact;
+}
+
+/// The first side moves by `along` in the tangent plane and `lift` along the normal against the second; all by a common
+/// motion. ε_v h is the unit.
+CaseData friction_case(Random& random, Shape shape, double along, double lift) {
+  detect(random, shape);
+  const double limit = shape.size * random.magnitude(-5, -1), angle = random.between(0, 6.283185307179586);
+  const Vec3 slip{limit * along * std::cos(angle), limit * along * std::sin(angle), limit * lift};
+  const Vec3 common = random.one_in(2) ? Vec3{} : scaled(in_box(random, -1, 1), shape.size * random.magnitude(-4, -1));
+  const double bend = random.one_in(2) ? 0.0 : limit * random.magnitude(-3, 0);
+  const bool edges = shape.sides == ContactSides::edge_edge;
+  std::array<Vec3, 4> moved;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool first = k == 0 || (edges && k == 1);
+    moved[k] = sum(sum(common, first ? slip : Vec3{}), scaled(in_box(random, -1, 1), bend));
+  }
+  FrictionForceCase question = placed(random, shape, moved);
+  question.friction = random.one_in(16) ? 0.0f : static_cast<float>(random.between(0.01, 1.5));
+  question.slip_limit = static_cast<float>(limit);
+  return question;
+}
+
+CaseData friction_of(Random& random, const Shape& shape) {
+  return friction_case(random, shape, random.between(0, 3), random.between(-1, 1));
+}
+
+CaseData friction_uniform(Random& random) {
+  return friction_of(random, inside(random, any_sides(random), any_share(random)));
+}
+CaseData friction_feature(Random& random) {
+  return friction_of(random, random.one_in(4) ? thin(random) : near_feature(random));
+}
+CaseData friction_needle(Random& random) { return friction_of(random, needle(random)); }
+CaseData friction_parallel(Random& random) { return friction_of(random, nearly_parallel(random)); }
+CaseData friction_distance(Random& random) {
+  return friction_of(random, random.one_in(3)   ? near_touching(random)
+                             : random.one_in(2) ? near_switch(random)
+                                                : near_radius(random));
+}
+
+/// Nothing has moved, or by a grid step.
+CaseData friction_lattice(Random& random) {
+  Shape shape = on_grid(random);
+  shape.previous = shape.x;
+  std::array<Vec3, 4> moved;
+  for (Vec3& m : moved) m = random.one_in(2) ? Vec3{} : scaled(on_lattice(random, 1), shape.size / 8);
+  FrictionForceCase question = placed(random, shape, moved);
+  question.friction = 0.5f;
+  question.slip_limit = static_cast<float>(std::ldexp(shape.size, -random.below(8)));
+  return question;
+}
+
+/// The motion of any bits as well.
+CaseData friction_bits(Random& random) {
+  FrictionForceCase question = placed(random, of_bits(random), points_of_bits(random));
+  question.friction = static_cast<float>(random.between(0.01, 1.5));
+  question.slip_limit = random.pattern();
+  return question;
+}
+
+/// ‖u‖ → 0.
+CaseData friction_still(Random& random) {
+  return friction_case(random, inside(random, any_sides(random), any_share(random)), random.rung(),
+                       random.one_in(2) ? 0 : random.between(-1, 1));
+}
+
+/// ‖u‖ → ε_v h.
+CaseData friction_limit(Random& random) {
+  return friction_case(random, inside(random, any_sides(random), any_share(random)), 1 + random.rung(),
+                       random.between(-1, 1));
+}
+
+/// A motion along the normal, up to many times the slip and ε_v h.
+CaseData friction_lift(Random& random) {
+  return friction_case(random, inside(random, any_sides(random), any_share(random)),
+                       random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));
+}
+
+CaseData friction_boundary(Random& random) { return friction_of(random, near_boundary(random)); }
+
+CaseData friction_variants(Random& random) {
+  auto question = case_of<FrictionForceCase>(
+      friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
+  question.contact.activation = any_activation(random);
+  return question;
+}
+
+CaseData friction_together(Random& random) {
+  auto question = case_of<FrictionForceCase>(
+      friction_case(random, any_shape(random), random.between(0, 3), random.between(-1, 1)));
+  question.contact.together = static_cast<std::uint8_t>(1 + random.below(15));
+  return question;
+}
+
+constexpr std::array<Generator, 15> contact_table{{{"uniform", 30, true, contact_uniform},
+                                                   {"bits", 10, false, contact_bits},
+                                                   {"dust", 8, false, contact_uniform},
+                                                   {"lattice", 15, false, contact_lattice},
+                                                   {"ladder.feature", 14, false, contact_feature},
+                                                   {"ladder.thin", 8, false, contact_thin},
+                                                   {"ladder.needle", 8, false, contact_needle},
+                                                   {"ladder.parallel", 10, false, contact_parallel},
+                                                   {"ladder.radius", 6, false, contact_radius},
+                                                   {"ladder.switch", 5, false, contact_switch},
+                                                   {"ladder.touching", 7, false, contact_touching},
+                                                   {"ladder.mollifier", 5, false, contact_mollifier},
+                                                   {"ladder.variants", 25, false, contact_variants},
+                                                   {"ladder.together", 12, false, contact_together},
+                                                   {"ladder.boundary", 150, false, contact_boundary}}};
+constexpr std::array<Generator, 13> friction_table{{{"uniform", 30, true, friction_uniform},
+                                                    {"bits", 10, false, friction_bits},
+                                                    {"lattice", 12, false, friction_lattice},
+                                                    {"ladder.feature", 14, false, friction_feature},
+                                                    {"ladder.needle", 8, false, friction_needle},
+                                                    {"ladder.parallel", 8, false, friction_parallel},
+                                                    {"ladder.distance", 10, false, friction_distance},
+                                                    {"ladder.still", 10, false, friction_still},
+                                                    {"ladder.limit", 8, false, friction_limit},
+                                                    {"ladder.lift", 8, false, friction_lift},
+                                                    {"ladder.variants", 20, false, friction_variants},
+                                                    {"ladder.together", 12, false, friction_together},
+                                                    {"ladder.boundary", 140, false, friction_boundary}}};
+
+}  // namespace
+
+std::span<const Generator> contact_force_generators() { return contact_table; }
+std::span<const Generator> friction_force_generators() { return friction_table; }
+
+}  // namespace ogc::compare

@@ -1,0 +1,337 @@
+// Scenes of one step, small enough for the exact detections of every event. Sheets lie in planes z = const before one
+// symmetry of the cube turns all of it. Ladders lead to what decides the order of events: the count of cut vertices at
+// its threshold, the cap of r_q, contacts at the radius.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compare/judge/cases/any_models.hpp"
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/cases/mesh_builder.hpp"
+#include "compare/judge/cases/placement.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+/// A scene under construction, in metres; `spacing` is about the length of an edge.
+struct StepBuilder {
+  Random& random;
+  double spacing;
+  Scene scene;
+
+  explicit StepBuilder(Random& source) : random(source), spacing(0.01 * source.magnitude(-0.5, 0.5)) {
+    constexpr std::array<double, 4> steps{0.01, 0.01, 0x1p-6, 0.001}, caps{1, 1.5, 4, 16}, fractions{0.01, 0.1, 0.5, 1};
+    constexpr std::array<std::int64_t, 4> every{0, 0, 1, 2}, lanes{0, 1, 4, 32};
+    constexpr std::array<std::int64_t, 3> rounds{1, 2, 16};
+    scene.name = "step";
+    Settings& s = scene.settings;
+    s.time_step = random.pick(std::span<const double>(steps));
+    s.iterations = 1 + random.below(6);
+    s.contact_radius = spacing * random.between(0.1, 0.6);
+    s.query_radius_cap = random.pick(std::span<const double>(caps));
+    s.bound_relaxation = random.one_in(2) ? 0.45 : random.between(0.1, 0.49);
+    s.redetect_fraction = random.pick(std::span<const double>(fractions));
+    s.redetect_every = random.pick(std::span<const std::int64_t>(every));
+    s.guess_rounds = random.pick(std::span<const std::int64_t>(rounds));
+    s.lanes = random.pick(std::span<const std::int64_t>(lanes));
+    s.friction_velocity = speed(random.magnitude(-2, -0.5));
+    scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
+  }
+
+  /// Stiffer than inertia by up to a thousand times: beyond, a sweep's single-precision solve says little, and what it
+  /// says is stage sweep's affair.
+  Material material() {
+    Material m;
+    m.density = 0.2 * random.magnitude(-0.5, 0.5);
+    const double inertia = m.density * spacing * spacing / (scene.settings.time_step * scene.settings.time_step);
+    m.lame_mu = inertia * random.magnitude(-1, 2.5);
+    m.lame_lambda = random.one_in(4) ? 0 : inertia * random.magnitude(-1, 2.5);
+    m.bending_stiffness = inertia * spacing * spacing * random.magnitude(-3, 0.5);
+    m.membrane_damping = random.one_in(2) ? 0 : random.magnitude(-5, -2);
+    m.bending_damping = random.one_in(2) ? 0 : random.magnitude(-5, -2);
+    m.contact_stiffness = inertia * random.magnitude(-1, 3);
+    m.friction = random.one_in(3) ? 0 : random.between(0.05, 0.8);
+    return m;
+  }
+
+  /// nx × ny vertices at `origin` (in spacings, and two more: no jitter brings a coordinate next to 0), diagonals
+  /// alternating, with one velocity [m/s].
+  void sheet(int nx, int ny, const Vec3& origin, const Vec3& velocity, bool fixed = false) {
+    Mesh mesh;
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) mesh.positions.push_back(scaled(sum(origin, {2.0 + i, 2.0 + j, 2.0}), spacing));
+    for (int j = 0; j + 1 < ny; ++j)
+      for (int i = 0; i + 1 < nx; ++i) {
+        const Index a = j * nx + i, b = a + 1, c = a + nx, d = c + 1;
+        if ((i + j) % 2 == 0)
+          mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+        else
+          mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
+      }
+    add(mesh, velocity, fixed);
+  }
+
+  void add(const Mesh& mesh, const Vec3& velocity, bool fixed) {
+    const auto first = scene.mesh.positions.size();
+    Body body;
+    body.name = "body_" + std::to_string(scene.bodies.size());
+    body.fixed = fixed;
+    body.material = material();
+    append_body(scene, body, mesh);
+    std::fill(scene.velocities.begin() + static_cast<std::ptrdiff_t>(first), scene.velocities.end(), velocity);
+  }
+
+  /// Moves every start position by up to `by` spacings a coordinate; rest positions stay.
+  void jitter(double by) {
+    for (Vec3& x : scene.mesh.positions) x = sum(x, scaled(in_box(random, -by, by), spacing));
+  }
+
+  /// A speed that moves a vertex by that many spacings in one step.
+  double speed(double spacings) const { return spacings * spacing / scene.settings.time_step; }
+
+  CaseData finish() {
+    const std::size_t n = scene.mesh.positions.size();
+    std::vector<Vec3> all = scene.mesh.positions;
+    all.insert(all.end(), scene.rest_positions.begin(), scene.rest_positions.end());
+    all.insert(all.end(), scene.velocities.begin(), scene.velocities.end());
+    all.push_back(scene.gravity);
+    for (const PrescribedMotion& motion : scene.motions) all.insert(all.end(), {motion.centre, motion.velocity});
+    for (const PrescribedMotion& motion : scene.motions)
+      for (const Vec3f& p : motion.keyframes.positions) all.push_back({p.x, p.y, p.z});
+    permute(random, all);
+    const auto part = [&](std::size_t k) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * n);
+      return std::vector<Vec3>(first, first + static_cast<std::ptrdiff_t>(n));
+    };
+    scene.mesh.positions = part(0), scene.rest_positions = part(1), scene.velocities = part(2);
+    scene.gravity = all[3 * n];
+    for (std::size_t k = 0; k < scene.motions.size(); ++k) {
+      scene.motions[k].centre = all[3 * n + 1 + 2 * k];
+      scene.motions[k].velocity = all[3 * n + 2 + 2 * k];
+    }
+    auto next = all.begin() + static_cast<std::ptrdiff_t>(3 * n + 1 + 2 * scene.motions.size());
+    for (PrescribedMotion& motion : scene.motions)
+      for (Vec3f& p : motion.keyframes.positions) p = single(*next++);
+    round_to_single(scene);
+    return StepCase{std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
+  }
+};
+
+int side(Random& random) { return 2 + random.below(4); }
+
+Vec3 direction(Random& random) {
+  const Vec3 v = in_box(random, -1, 1);
+  return scaled(v, 1 / std::max(0.1, std::hypot(v.x, v.y, v.z)));
+}
+
+/// A sheet alone in free flight, slower or faster than its bounds allow.
+CaseData fall(Random& random) {
+  StepBuilder builder(random);
+  builder.sheet(side(random), side(random), {}, scaled(direction(random), builder.speed(random.magnitude(-2, 1))));
+  builder.jitter(random.between(0.02, 0.2));
+  return builder.finish();
+}
+
+/// A sheet that comes down on a fixed one, askew.
+CaseData onto(Random& random) {
+  StepBuilder builder(random);
+  const double gap = random.between(0.2, 1.5), slip = random.between(-1, 1);
+  builder.sheet(side(random), side(random), {random.between(-0.5, 0.5), random.between(-0.5, 0.5), gap},
+                {builder.speed(0.3 * slip), 0, -builder.speed(random.magnitude(-2, 0.7))});
+  builder.sheet(side(random), side(random), {}, {}, true);
+  builder.jitter(random.between(0.01, 0.09));
+  return builder.finish();
+}
+
+/// Two sheets thrown at each other.
+CaseData collide(Random& random) {
+  StepBuilder builder(random);
+  const double speed = builder.speed(random.magnitude(-2, 0.7));
+  builder.sheet(side(random), side(random),
+                {random.between(-0.5, 0.5), random.between(-0.5, 0.5), random.between(0.2, 1.5)},
+                {0, 0.3 * speed, -speed});
+  builder.sheet(side(random), side(random), {}, {0, 0, 0.5 * speed});
+  builder.jitter(random.between(0.01, 0.09));
+  return builder.finish();
+}
+
+/// One row of a sheet is carried off, turned, or both; now and then it starts or ends within the step.
+/// The same vertices, each on a way of its own; the step ends between two keyframes, at one, or behind the last.
+PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
+  const double h = builder.scene.settings.time_step;
+  PrescribedMotion motion;
+  motion.name = like.name;
+  motion.vertices = like.vertices;
+  motion.keyframes.times = {random.one_in(2) ? 0.0 : -h, h * (random.one_in(3) ? 1.0 : random.between(0.2, 0.9))};
+  if (random.one_in(2)) motion.keyframes.times.push_back(2 * h);
+  const double apart = builder.spacing * random.magnitude(-2, 0);
+  for (std::size_t frame = 0; frame < motion.keyframes.times.size(); ++frame)
+    for (const Index v : motion.vertices)
+      motion.keyframes.positions.push_back(
+          single(sum(builder.scene.mesh.positions[static_cast<std::size_t>(v)], in_box(random, -apart, apart))));
+  return motion;
+}
+
+CaseData handle(Random& random) {
+  StepBuilder builder(random);
+  const int nx = side(random), ny = side(random);
+  builder.sheet(nx, ny, {}, scaled(direction(random), builder.speed(random.magnitude(-3, -1))));
+  if (random.one_in(2)) builder.sheet(side(random), side(random), {0, 0, -random.between(0.3, 1)}, {}, true);
+  builder.jitter(random.between(0.02, 0.09));
+  const double h = builder.scene.settings.time_step;
+  PrescribedMotion motion;
+  motion.name = "row";
+  for (Index v = 0; v < nx; ++v) motion.vertices.push_back(v);
+  if (!random.one_in(4)) motion.velocity = scaled(direction(random), builder.speed(random.magnitude(-2, 1)));
+  if (random.one_in(2)) motion.angular_velocity = random.sign() * random.magnitude(-1, 1) / h;
+  motion.axis = direction(random);
+  if (random.one_in(4)) motion.start = 0.5 * h;
+  if (random.one_in(4)) motion.end = 0.75 * h;
+  if (random.one_in(3)) motion = keyframed(random, builder, motion);
+  builder.scene.motions.push_back(motion);
+  return builder.finish();
+}
+
+/// A sheet at rest of which as many vertices are flung out of their bounds as the threshold of a re-detection says, one
+/// more or one less; γ_e K a rung beside a whole number.
+CaseData count_at_threshold(Random& random) {
+  StepBuilder builder(random);
+  const int nx = side(random), ny = side(random), count = nx * ny;
+  builder.sheet(nx, ny, {}, {});
+  builder.scene.gravity = {};
+  Settings& s = builder.scene.settings;
+  s.redetect_fraction = std::min(1.0, (1 + random.below(count / 2 + 1)) * (1 + 0.4 * random.rung()) / count);
+  const int threshold = std::max(
+      1, static_cast<int>(std::ceil(static_cast<float>(s.redetect_fraction) * static_cast<double>(count))));
+  s.guess_rounds = random.one_in(4) ? 1 : 2 + random.below(4);
+  const int flung = std::clamp(threshold + (random.one_in(3) ? random.below(2) : -1), 0, count);
+  for (int k = 0, first = random.below(count); k < flung; ++k)
+    builder.scene.velocities[static_cast<std::size_t>((first + k) % count)] = {0, 0, random.sign() * builder.speed(20)};
+  builder.jitter(random.one_in(2) ? 0 : 0.05);
+  return builder.finish();
+}
+
+/// r + ‖y − xᵗ‖ a rung beside the cap of r_q.
+CaseData radius_at_cap(Random& random) {
+  StepBuilder builder(random);
+  builder.sheet(side(random), side(random), {0, 0, random.between(0.3, 1)}, {});
+  builder.sheet(side(random), side(random), {}, {});
+  builder.jitter(random.one_in(2) ? 0 : 0.05);
+  builder.scene.gravity = {};
+  const Settings& s = builder.scene.settings;
+  const double move = (s.query_radius_cap - 1) * s.contact_radius * std::abs(1 + 0.5 * random.rung());
+  const Vec3 to = random.one_in(2) ? Vec3{0, 0, -1} : direction(random);
+  builder.scene.velocities.front() = scaled(to, move / s.time_step / std::hypot(to.x, to.y, to.z));
+  return builder.finish();
+}
+
+/// A sheet at rest on another, in register or shifted by half a cell, a rung beside the contact radius.
+CaseData at_rest(Random& random) {
+  StepBuilder builder(random);
+  const double shift = random.one_in(2) ? 0 : 0.5;
+  builder.sheet(side(random), side(random), {shift, shift, random.between(0.1, 0.6)}, {});
+  builder.sheet(side(random), side(random), {}, {}, random.one_in(2));
+  const auto height = [&](std::size_t v) { return double{static_cast<float>(builder.scene.mesh.positions[v].z)}; };
+  builder.scene.settings.contact_radius = (height(0) - height(builder.scene.mesh.positions.size() - 1)) *
+                                          (1 + 0.5 * random.rung());
+  if (random.one_in(3)) builder.jitter(0.05);
+  return builder.finish();
+}
+
+/// The least scenes: one triangle, two, nothing that is free; coordinates and velocities on a lattice.
+CaseData lattice(Random& random) {
+  StepBuilder builder(random);
+  builder.spacing = std::ldexp(1.0, random.below(5) - 9);
+  builder.scene.settings.contact_radius = builder.spacing * (random.one_in(2) ? 0.5 : 0.25);
+  const double s = builder.spacing;
+  Mesh mesh{{{0, 0, 0}, {s, 0, 0}, {0, s, 0}, {s, s, random.one_in(2) ? 0 : s}}, {{0, 1, 2}, {1, 3, 2}}, {}};
+  if (random.one_in(2)) mesh.positions.pop_back(), mesh.triangles.pop_back();
+  const int kind = random.below(4);
+  const Vec3 velocity = scaled(on_lattice(random, 1), builder.speed(0.5 * random.below(5)));
+  builder.add(mesh, velocity, kind == 0);
+  if (kind == 1 || kind == 2) {
+    PrescribedMotion motion;
+    motion.name = "held";
+    for (Index v = 0; v < (kind == 1 ? static_cast<Index>(mesh.positions.size()) : 1); ++v)
+      motion.vertices.push_back(v);
+    motion.velocity = velocity;
+    builder.scene.motions.push_back(motion);
+  }
+  if (random.one_in(2)) builder.sheet(2, 2, {-2, -2, random.one_in(2) ? -2.25 : -2.5}, {}, random.one_in(2));
+  return builder.finish();
+}
+
+/// Strips of one to three triangles, alone or one thrown at the other.
+CaseData few(Random& random) {
+  StepBuilder builder(random);
+  const double speed = builder.speed(random.magnitude(-2, 0.7)), gap = random.between(0.2, 1.5);
+  const int layers = 1 + random.below(2);
+  for (int layer = 0; layer < layers; ++layer) {
+    Mesh strip = triangle_strip(1 + random.below(3));
+    for (Vec3& p : strip.positions) p = scaled(sum(p, {2, 2, 2 + layer * gap}), builder.spacing);
+    builder.add(strip, {0, 0.3 * speed, layer == 0 ? speed : -speed}, layer > 0 && random.one_in(3));
+  }
+  builder.jitter(random.between(0.01, 0.09));
+  return builder.finish();
+}
+
+/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight
+/// and more powers of two (of the latter within what inertia allows), coordinates in their last bits.
+CaseData bits(Random& random) {
+  StepBuilder builder(random);
+  const auto single = [](double x) { return static_cast<float>(x); };
+  const int layers = 1 + random.below(2);
+  const double gap = 0.5 + 0.25 * random.below(5);
+  for (int layer = 0; layer < layers; ++layer) {
+    Mesh strip = triangle_strip(1 + random.below(3));
+    for (Vec3& p : strip.positions) p = scaled(sum(p, {2, 2, 2 + layer * gap}), builder.spacing);
+    builder.add(strip, {}, false);
+    const double density = random.pattern(0x1p-6f, 2);
+    Material& m = builder.scene.bodies.back().material;
+    const double inertia = density * builder.spacing * builder.spacing / std::pow(builder.scene.settings.time_step, 2);
+    m.density = density;
+    m.lame_mu = random.pattern(single(inertia / 8), single(256 * inertia));
+    m.lame_lambda = random.pattern(single(inertia / 8), single(256 * inertia));
+    m.bending_stiffness = builder.spacing * builder.spacing * random.pattern(single(inertia / 1024), single(inertia));
+    m.contact_stiffness = random.pattern(single(inertia / 8), single(512 * inertia));
+    m.friction = random.pattern(0x1p-6f, 1);
+  }
+  const auto number = [&] {
+    return random.sign() * random.pattern(single(builder.speed(0x1p-8)), single(builder.speed(4)));
+  };
+  for (Vec3& v : builder.scene.velocities) v = {number(), 0, 0}, v.y = number(), v.z = number();
+  for (auto* points : {&builder.scene.mesh.positions, &builder.scene.rest_positions})
+    for (Vec3& p : *points)
+      for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) p.*axis = random.last_bits(single(p.*axis), 18);
+  return builder.finish();
+}
+
+/// Other models than the default ones.
+CaseData models(Random& random) {
+  StepCase test = case_of<StepCase>(random.one_in(2) ? onto(random) : handle(random));
+  Scene scene = *test.scene;
+  choose_models(random, scene);
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
+constexpr std::array<Generator, 11> table{{{"fall", 12, true, fall},
+                                           {"onto", 13, true, onto},
+                                           {"collide", 13, true, collide},
+                                           {"handle", 12, true, handle},
+                                           {"few", 5, true, few},
+                                           {"ladder.count", 28, false, count_at_threshold},
+                                           {"ladder.cap", 10, false, radius_at_cap},
+                                           {"ladder.rest", 18, false, at_rest},
+                                           {"bits", 6, false, bits},
+                                           {"lattice", 10, false, lattice},
+                                           {"models", 5, false, models}}};
+
+}  // namespace
+
+std::span<const Generator> step_generators() { return table; }
+
+}  // namespace ogc::compare

@@ -1,0 +1,55 @@
+// Where cases come from. Each stage has a table of generators; a case is a pure function of (stage, generator, seed,
+// index). At least half of all cases lie close to a decision boundary (lattice, ladder.*).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "compare/judge/cases/cases.hpp"
+#include "compare/judge/cases/random.hpp"
+
+namespace ogc::compare {
+
+class States;
+
+/// One row of a stage's table.
+struct Generator {
+  std::string_view name;  ///< "uniform", "ladder.parallel"
+  double share;           ///< of a stage's cases, relative to the other rows
+  bool generic;           ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
+  CaseData (*make)(Random&);
+  /// left out of a run of fewer cases than this, of which one of its meshes would be too large a part
+  std::uint64_t least = 0;
+  bool solids = false;  ///< scenes with tetrahedra, which only a contestant with that stage is asked about
+};
+
+/// The generators of a stage, without those that take real states: `states` as they are, `mutated`
+/// (compare/judge/cases/mutate.hpp).
+std::span<const Generator> generators(Stage stage);
+
+/// The row of a generator, `states` and `mutated` included. Throws InputError that lists the known names.
+const Generator& find_generator(Stage stage, std::string_view name);
+
+/// Makes a case. `states` is needed (and throws InputError where it is null) for the generators `states` and `mutated`
+/// alone.
+TestCase generate(const CaseName& name, const States* states = nullptr);
+/// The same where the row of `name.generator` is at hand.
+TestCase generate(const Generator& generator, CaseName name, const States* states = nullptr);
+
+/// Largest share of grey decisions in the generic generators (compare/README.md, "The verdict").
+inline constexpr double grey_share_limit = 1e-5;
+
+/// Tables of the stages whose generators fill files of their own, compare/judge/cases/generate_*.cpp; those of the
+/// others stand in compare/judge/stages.
+std::span<const Generator> rest_state_generators();
+std::span<const Generator> block_generators();
+std::span<const Generator> detect_generators();
+std::span<const Generator> bound_generators();
+std::span<const Generator> contact_force_generators();
+std::span<const Generator> friction_force_generators();
+std::span<const Generator> membrane_generators();
+std::span<const Generator> bending_generators();
+std::span<const Generator> sweep_generators();
+std::span<const Generator> step_generators();
+
+}  // namespace ogc::compare

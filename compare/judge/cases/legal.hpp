@@ -1,0 +1,60 @@
+// What a legal question is (compare/stages), in one place: generators, states of runs and shrunk cases obey it.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "compare/judge/cases/cases.hpp"
+
+namespace ogc::compare {
+
+/// Of coordinates [m], velocities [m/s] and accelerations [m/s²]: the largest modulus. Scenes end at 2²⁰; generators go
+/// beyond, so that no stage relies on it. There is no smallest one (method.md §2.4).
+inline constexpr float most_coordinate = 0x1p30f;
+
+/// Limits of radii, distances and steps; `vast` of stiffnesses and bounds.
+inline constexpr float least_length = 0x1p-20f, most_length = 0x1p20f, vast = 0x1p40f;
+
+/// What makes the question illegal, with the number at fault; empty where nothing does.
+std::string problem_of(const TestCase& test);
+
+/// The first problem that was met.
+class FirstProblem {
+ public:
+  /// Outside [least, most], or no number.
+  void number(const char* what, float value, float least, float most) {
+    if (value >= least && value <= most) return;
+    say(what, value);
+  }
+  /// A coordinate beyond most_coordinate.
+  void vector(const char* what, const Vec3f& v) {
+    for (const float x : {v.x, v.y, v.z})
+      if (!(std::abs(x) <= most_coordinate)) say(what, x);
+  }
+  /// The same of each.
+  void vectors(const char* what, std::span<const Vec3f> all) {
+    for (const Vec3f& v : all) vector(what, v);
+  }
+  /// Anything else.
+  void require(bool holds, const char* otherwise) {
+    if (!holds && text_.empty()) text_ = otherwise;
+  }
+  /// Empty where there is none.
+  const std::string& text() const { return text_; }
+
+ private:
+  void say(const char* what, float value);
+
+  std::string text_;
+};
+
+/// Of the points of a stencil (compare/stages/force.hpp): none apart by less than `least`, but 0, nor all by
+/// less than `least_longest`.
+void check_lengths(FirstProblem& problem, std::span<const Vec3f> points, float least, float least_longest = 0x1p-30f);
+
+/// Rest shape, materials and settings are those of a valid scene. Where it stands may be anything: a run collapses
+/// triangles that no scene may begin with.
+void check_scene(FirstProblem& problem, const Scene& scene);
+
+}  // namespace ogc::compare

@@ -1,0 +1,13 @@
+// A small solid for cases about whole scenes.
+#pragma once
+
+#include "compare/judge/cases/random.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+/// Up to 2 × 2 × 2 cells of side `size` [m], `height` times as high, each of six tetrahedra about the same diagonal; of
+/// 2 × 2 × 2 one vertex lies inside. Vertices are moved by up to a tenth of a cell.
+Mesh jittered_block(Random& random, double size, double height);
+
+}  // namespace ogc::compare

@@ -1,0 +1,94 @@
+// The stages that the judge can compare; their names are the stems of compare/stages. A stage is an enumerator here, a
+// line in the list below and a file in compare/judge/stages that defines what the list points to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace ogc::compare {
+
+/// In the order of a step.
+enum class Stage : std::uint8_t {
+  rest_state,
+  closest_face,
+  closest_points,
+  block,
+  detect_vertex_facet,
+  detect_edge_edge,
+  bound,
+  initial_guess,
+  activation,
+  contact_force,
+  friction_force,
+  membrane,
+  bending,
+  spring,
+  tetrahedron,
+  sweep,
+  truncate,
+  step
+};
+
+struct StageTraits;
+
+/// What the judge knows of each stage (compare/judge/cases/stage_traits.hpp).
+namespace stages {
+/// Each defined in compare/judge/stages, in the file of its name.
+extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
+    initial_guess, activation, contact_force, friction_force, membrane, bending, spring, tetrahedron, sweep, truncate,
+    step;
+}  // namespace stages
+
+/// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
+/// (-Wswitch; tests/exhaustive.py plants one). Null for a number that is no enumerator.
+constexpr const StageTraits* find_traits(Stage stage) {
+  switch (stage) {
+    case Stage::rest_state: return &stages::rest_state;
+    case Stage::closest_face: return &stages::closest_face;
+    case Stage::closest_points: return &stages::closest_points;
+    case Stage::block: return &stages::block;
+    case Stage::detect_vertex_facet: return &stages::detect_vertex_facet;
+    case Stage::detect_edge_edge: return &stages::detect_edge_edge;
+    case Stage::bound: return &stages::bound;
+    case Stage::initial_guess: return &stages::initial_guess;
+    case Stage::activation: return &stages::activation;
+    case Stage::contact_force: return &stages::contact_force;
+    case Stage::friction_force: return &stages::friction_force;
+    case Stage::membrane: return &stages::membrane;
+    case Stage::bending: return &stages::bending;
+    case Stage::spring: return &stages::spring;
+    case Stage::tetrahedron: return &stages::tetrahedron;
+    case Stage::sweep: return &stages::sweep;
+    case Stage::truncate: return &stages::truncate;
+    case Stage::step: return &stages::step;
+  }
+  return nullptr;
+}
+
+/// Enumerators count from 0 without gaps.
+inline constexpr std::size_t stage_count = [] {
+  std::size_t count = 0;
+  while (find_traits(static_cast<Stage>(count)) != nullptr) ++count;
+  return count;
+}();
+
+/// All of them, in the order of a step.
+inline constexpr std::array<Stage, stage_count> all_stages = [] {
+  std::array<Stage, stage_count> all{};
+  for (std::size_t i = 0; i < stage_count; ++i) all[i] = static_cast<Stage>(i);
+  return all;
+}();
+
+/// "closest_face" …
+std::string_view stage_name(Stage stage);
+
+/// The stage of that name; empty where there is none.
+std::optional<Stage> find_stage(std::string_view name);
+
+/// Whether a case of the stage is a whole mesh, whose vertices (or edges, or questions) count one by one, of a
+/// step at each event.
+bool is_mesh_stage(Stage stage);
+
+}  // namespace ogc::compare

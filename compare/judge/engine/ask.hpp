@@ -1,0 +1,56 @@
+// From cases to both sides' answers, with a clock at each side.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <span>
+
+#include "compare/contestant.hpp"
+#include "compare/judge/cases/cases.hpp"
+#include "compare/judge/engine/tally.hpp"
+
+namespace ogc::compare {
+
+/// Cases of one batch, by position; all of one stage.
+using Cases = std::span<const TestCase>;
+
+/// Asks both sides the same question and adds the seconds of each to a tally.
+class Asker {
+ public:
+  Asker(std::mutex& contestant_turn, Tally& tally) : turn_(contestant_turn), tally_(tally) {}
+
+  /// What the authority says.
+  template <class Question, class Truth, class In>
+  Truth truth(const Question& question, const std::function<Truth(const In&)>& authority) {
+    const auto start = std::chrono::steady_clock::now();
+    Truth truth = authority(question);
+    tally_.authority_seconds += seconds_since(start);
+    return truth;
+  }
+
+  /// What the contestant says; one thread at a time asks.
+  template <class Question, class Out, class In>
+  Out answer(const Question& question, const std::function<Out(const In&)>& contestant) {
+    const std::lock_guard lock(turn_);
+    const auto start = std::chrono::steady_clock::now();
+    Out out = contestant(question);
+    tally_.contestant_seconds += seconds_since(start);
+    return out;
+  }
+
+ private:
+  static double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  std::mutex& turn_;
+  Tally& tally_;
+};
+
+/// Puts cases of one stage to both sides and judges the answers. `contestant_turn` is held while the contestant is
+/// asked; its name says nothing of whether it may be asked by two threads at once.
+void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
+         std::mutex& contestant_turn, Tally& tally);
+
+}  // namespace ogc::compare

@@ -1,0 +1,103 @@
+// Answers as bits, for comparisons that forgive nothing: signs of zeros and payloads included.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/contestant.hpp"
+
+namespace ogc::compare {
+
+/// The bits of numbers one after another.
+class Bits {
+ public:
+  /// A number, or a structure of numbers without padding.
+  template <class T>
+  void add(const T& value) {
+    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+
+  /// Its length, too.
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(values.size());
+    for (const T& value : values) add(value);
+  }
+
+  /// Faces have padding between their members.
+  void add(const Face& face) {
+    add(face.kind);
+    add(face.index);
+  }
+  /// Answers, member by member.
+  void add(const VertexFacetContact& c) {
+    add(c.vertex);
+    add(c.face);
+    add(c.owner);
+  }
+  void add(const EdgeEdgeContact& c) {
+    add(c.first);
+    add(c.second);
+    add(c.first_edge);
+    add(c.second_edge);
+  }
+  void add(const DetectVertexFacetOut& out) {
+    add(out.contacts);
+    add(out.d_min_vertex);
+    add(out.d_min_triangle);
+  }
+  void add(const DetectEdgeEdgeOut& out) {
+    add(out.contacts);
+    add(out.d_min_edge);
+  }
+  void add(const RestStateOut& out) {
+    add(out.mass);
+    add(out.triangles);
+    add(out.hinges);
+    add(out.edge_length_squared);
+    add(out.meetings);
+  }
+  void add(const SweepOut& out) {
+    add(out.position);
+    add(out.cut);
+  }
+  void add(const StepEvent& event) {
+    add(event.kind);
+    add(event.position);
+    add(event.cut);
+    add(event.vertex_facet);
+    add(event.edge_edge);
+    add(event.bound);
+  }
+  void add(const StepOut& out) {
+    add(out.colour);
+    add(out.rest);
+    add(out.query_radius);
+    add(out.target);
+    for (const StepEvent& event : out.events) add(event);
+    add(out.position);
+    add(out.velocity);
+  }
+
+  /// All bits so far; none stay.
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+/// Entry i of each array belongs to case i.
+template <class... Arrays>
+std::vector<std::string> bits_by_case(std::size_t count, const Arrays&... arrays) {
+  std::vector<Bits> bits(count);
+  const auto add_entries = [&](const auto& array) {
+    for (std::size_t i = 0; i < count && i < array.size(); ++i) bits[i].add(array[i]);
+  };
+  (add_entries(arrays), ...);
+  std::vector<std::string> texts;
+  for (Bits& one : bits) texts.push_back(one.take());
+  return texts;
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,54 @@
+// The sign of a sum of doubles, with no rounding: Shewchuk's growing expansion (1997). The judge asks the one exact
+// question of its own with it, whether a stored position obeys its bound, so that no contestant's arithmetic is trusted
+// for it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "compare/problem/vector.hpp"
+
+namespace ogc::compare {
+
+/// Terms and products must neither overflow nor fall below 2⁻¹⁰⁷⁴; single-precision inputs squared do neither.
+class ExactSum {
+ public:
+  /// One more term.
+  void add(double term) {
+    std::size_t kept = 0;
+    for (const double part : parts_) {
+      const double sum = term + part, back = sum - term;
+      const double error = (term - (sum - back)) + (part - back);
+      if (error != 0) parts_[kept++] = error;
+      term = sum;
+    }
+    parts_.resize(kept);
+    if (term != 0) parts_.push_back(term);
+  }
+  /// Adds a · b.
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(product);
+    add(std::fma(a, b, -product));
+  }
+  /// −1, 0 or 1. The parts do not overlap and grow, so the last one decides.
+  int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
+
+ private:
+  std::vector<double> parts_;
+};
+
+/// ‖x − p‖ ≤ b, exactly: x² − 2xp + p² by coordinate, products of two floats being exact in double. All must be finite.
+inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
+  ExactSum margin;
+  for (const auto [a, c] : {std::array{x.x, p.x}, std::array{x.y, p.y}, std::array{x.z, p.z}}) {
+    margin.add(double{a} * a);
+    margin.add(-2 * (double{a} * c));
+    margin.add(double{c} * c);
+  }
+  margin.add(-(double{b} * b));
+  return margin.sign() <= 0;
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,119 @@
+// The members of the cases of force stages by name and unit, named once: for files, in both ways, and for people.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "compare/judge/cases/cases.hpp"
+#include "compare/problem/material_table.hpp"
+
+namespace ogc::compare {
+
+// visit(name, unit, member): lengths in m, pure numbers "1", choices and numbers of vertices "".
+
+/// The members of a triangle with a membrane.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, MembraneCase>
+void visit_members(Case& c, Visit visit) {
+  visit("corner", "m", c.corner);
+  visit("start", "m", c.start);
+  visit("gradient_1", "1/m", c.gradient[0]);
+  visit("gradient_2", "1/m", c.gradient[1]);
+  visit("area", "m²", c.area);
+  visit("lame_lambda", "N/m", c.lame_lambda);
+  visit("lame_mu", "N/m", c.lame_mu);
+  visit("damping", "1", c.damping);
+  visit("model", "", c.model);
+  visit("damping_form", "", c.damping_form);
+}
+
+/// The members of a hinge.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, BendingCase>
+void visit_members(Case& c, Visit visit) {
+  visit("vertex", "m", c.vertex);
+  visit("start", "m", c.start);
+  visit("stiffness", "J", c.stiffness);
+  visit("rest_angle", "rad", c.rest_angle);
+  visit("damping", "1", c.damping);
+  visit("own", "", c.own);
+  visit("model", "", c.model);
+  visit("weight", "1/m", c.weight);
+  visit("damping_form", "", c.damping_form);
+}
+
+/// The members of a spring.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, SpringCase>
+void visit_members(Case& c, Visit visit) {
+  visit("vertex", "m", c.vertex);
+  visit("start", "m", c.start);
+  visit("stiffness", "N/m", c.stiffness);
+  visit("rest_length", "m", c.rest_length);
+  visit("damping", "1", c.damping);
+  visit("ratio", "1", c.ratio);
+  visit("own", "", c.own);
+  visit("damping_form", "", c.damping_form);
+}
+
+/// The members of a tetrahedron.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, TetrahedronCase>
+void visit_members(Case& c, Visit visit) {
+  visit("corner", "m", c.corner);
+  visit("start", "m", c.start);
+  visit("weight", "m", c.weight);
+  visit("inverse", "1/m³", c.inverse);
+  visit("gradient_1", "1/m", c.gradient[0]);
+  visit("gradient_2", "1/m", c.gradient[1]);
+  visit("gradient_3", "1/m", c.gradient[2]);
+  visit("volume", "m³", c.volume);
+  visit("lame_lambda", "Pa", c.lame_lambda);
+  visit("lame_mu", "Pa", c.lame_mu);
+  visit("damping", "1", c.damping);
+  visit("damping_form", "", c.damping_form);
+}
+
+/// The members of a contact.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, ContactForceCase>
+void visit_members(Case& c, Visit visit) {
+  visit("sides", "", c.sides);
+  visit("own", "", c.own);
+  visit("vertex", "m", c.vertex);
+  visit("previous", "m", c.previous);
+  visit("rest_squared", "m²", c.rest_squared);
+  visit("contact_radius", "m", c.contact_radius);
+  visit("stiffness", "N/m", c.stiffness);
+  visit("activation", "", c.activation);
+  visit("together", "", c.together);
+}
+
+/// The members of a contact with friction.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, FrictionForceCase>
+void visit_members(Case& c, Visit visit) {
+  visit_members(c.contact, visit);
+  visit("start", "m", c.start);
+  visit("friction", "1", c.friction);
+  visit("slip_limit", "m", c.slip_limit);
+}
+
+/// By ContactSides.
+inline constexpr std::array<std::string_view, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
+
+/// The names of an enumeration's values, in their order.
+inline std::span<const std::string_view> names_of(ContactSides) { return side_names; }
+inline std::span<const std::string_view> names_of(MembraneModel) { return membrane_model_names(); }
+inline std::span<const std::string_view> names_of(BendingModel) { return bending_model_names(); }
+inline std::span<const std::string_view> names_of(ContactActivation) { return activation_names(); }
+inline std::span<const std::string_view> names_of(DampingForm) { return damping_form_names(); }
+
+/// What names_of takes.
+template <class T>
+concept Named = std::is_enum_v<T>;
+
+}  // namespace ogc::compare

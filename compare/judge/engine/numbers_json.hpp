@@ -1,0 +1,80 @@
+// Numbers and points of saved cases, as hexadecimal text, so that every bit comes back, and choices by name.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/problem/error.hpp"
+#include "compare/problem/vector.hpp"
+
+namespace ogc::compare {
+
+using Json = nlohmann::ordered_json;
+
+/// "0x1.8p-3": every bit.
+inline std::string hexadecimal(float x) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%a", static_cast<double>(x));
+  return buffer;
+}
+
+/// Reads it back, or a decimal number; throws InputError for other text.
+inline float number(const Json& json) {
+  const std::string text = json.get<std::string>();
+  char* end = nullptr;
+  const float x = std::strtof(text.c_str(), &end);
+  if (text.empty() || *end != '\0')
+    throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
+  return x;
+}
+
+/// [x, y, z], and back.
+inline Json to_json(const Vec3f& p) { return {hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z)}; }
+inline Vec3f to_point(const Json& json) { return {number(json.at(0)), number(json.at(1)), number(json.at(2))}; }
+
+/// An array of points, and back where their number is fixed.
+template <class Points>
+Json points_to_json(const Points& points) {
+  Json json = Json::array();
+  for (const Vec3f& p : points) json.push_back(to_json(p));
+  return json;
+}
+
+/// The first n points of an array.
+template <std::size_t n>
+std::array<Vec3f, n> to_points(const Json& json) {
+  std::array<Vec3f, n> points;
+  for (std::size_t i = 0; i < n; ++i) points[i] = to_point(json.at(i));
+  return points;
+}
+
+/// An array of numbers.
+inline Json numbers_to_json(const std::vector<float>& numbers) {
+  Json json = Json::array();
+  for (const float x : numbers) json.push_back(hexadecimal(x));
+  return json;
+}
+
+/// And back.
+inline std::vector<float> to_numbers(const Json& json) {
+  std::vector<float> numbers;
+  for (const Json& x : json) numbers.push_back(number(x));
+  return numbers;
+}
+
+/// The place of a name in a list of all names. Throws InputError where it is none of them.
+template <class Names>
+int number_of(const Json& name, const Names& names) {
+  const auto found = std::find(names.begin(), names.end(), name.get<std::string>());
+  if (found == names.end())
+    throw InputError("'" + name.get<std::string>() + "' is none of the names that may stand there");
+  return static_cast<int>(found - names.begin());
+}
+
+}  // namespace ogc::compare

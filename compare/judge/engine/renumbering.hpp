@@ -1,0 +1,56 @@
+// Numbers of vertices and triangles mean nothing to contact sets and bounds: the same mesh under other numbers, and its
+// answer under the old ones.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "compare/judge/cases/random.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+/// Vertices, triangles and each triangle's corners in another order.
+class Renumbering {
+ public:
+  Renumbering(Random& random, const Topology& from);
+
+  /// The same mesh under the new numbers.
+  const std::shared_ptr<const Topology>& topology() const { return topology_; }
+  /// One entry for each vertex, edge or triangle, in the new order.
+  template <class T>
+  std::vector<T> by_vertex(const std::vector<T>& old) const {
+    return renumbered(old, vertex_);
+  }
+  template <class T>
+  std::vector<T> by_edge(const std::vector<T>& old) const {
+    return renumbered(old, edge_);
+  }
+  template <class T>
+  std::vector<T> by_triangle(const std::vector<T>& old) const {
+    return renumbered(old, triangle_);
+  }
+  /// The new number, or the face under it.
+  Index vertex(Index v) const { return vertex_[static_cast<std::size_t>(v)]; }
+  Face face(const Face& f) const {
+    const std::vector<Index>& to = f.kind == FaceKind::vertex ? vertex_ : f.kind == FaceKind::edge ? edge_ : triangle_;
+    return {f.kind, to[static_cast<std::size_t>(f.index)]};
+  }
+
+ private:
+  Edge renamed(const Edge& e) const {
+    return {std::min(vertex(e[0]), vertex(e[1])), std::max(vertex(e[0]), vertex(e[1]))};
+  }
+  template <class T>
+  static std::vector<T> renumbered(const std::vector<T>& old, const std::vector<Index>& to) {
+    std::vector<T> all(old.size());
+    for (std::size_t i = 0; i < old.size() && i < to.size(); ++i) all[static_cast<std::size_t>(to[i])] = old[i];
+    return all;
+  }
+
+  std::vector<Index> vertex_, triangle_, edge_;
+  std::shared_ptr<const Topology> topology_;
+};
+
+}  // namespace ogc::compare

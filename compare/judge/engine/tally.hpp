@@ -1,0 +1,115 @@
+// What the judge counts. Tallies of batches add up in the order of the batches, so a report is the same on any number
+// of threads.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/judge/cases/cases.hpp"
+#include "compare/judge/cases/stage_traits.hpp"
+
+namespace ogc::compare {
+
+/// Errors ≥ 0 in bins of 1 % (the top 15 bits of a float), so that quantiles cost neither memory nor order.
+class Histogram {
+ public:
+  void add(double value);                         ///< infinite values count at the end
+  void add(const Histogram& other);               ///< all of its values
+  std::uint64_t count() const { return count_; }  ///< of all values
+  double maximum() const { return maximum_; }     ///< exact; 0 where there are none
+  /// Smallest bin edge below which the share `q` of the values lies (within 1 %); 0 where there are none.
+  double quantile(double q) const;
+  /// How many values lie in [2^exponent, 2^(exponent+1)), ascending, without gaps in between; those below 2^lowest
+  /// count there, 0 too.
+  struct Octave {
+    int exponent = 0;         ///< of the lower end
+    std::uint64_t count = 0;  ///< of values
+  };
+  std::vector<Octave> octaves(int lowest) const;  ///< as said of Octave
+
+ private:
+  std::vector<std::uint64_t> bins_;
+  std::uint64_t count_ = 0;
+  double maximum_ = 0;
+};
+
+/// A tolerance that no error comes nearer to than this factor is loose: it would let a kernel become so much worse. It
+/// becomes tighter, or MetricInfo::loose_because says why not; a test holds the two to what it sees, both ways.
+inline constexpr double loose_factor = 50;
+
+/// The errors of one metric.
+struct MetricTally {
+  Histogram errors;  ///< in units of the metric
+  CaseName worst;    ///< of the largest error
+  /// By which factor the largest error stays below the tolerance; infinite where all are 0.
+  double room(const MetricInfo& info) const { return info.tolerance / errors.maximum(); }
+  bool is_loose(const MetricInfo& info) const { return errors.count() > 0 && !(room(info) <= loose_factor); }
+};
+
+/// A wrong answer: which case, which element of it, how.
+struct Mismatch {
+  CaseName name;        ///< the case
+  std::string message;  ///< what is wrong with its answer
+};
+
+/// Counts of one generator, or of several.
+struct GeneratorTally {
+  std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;  ///< as Tally::count takes them
+  /// grey decisions whose accepted answer is not the exact one, or not one of its side of a jump
+  std::uint64_t not_exact = 0;
+};
+
+/// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge
+/// (detect_edge_edge) or question (block), of step one vertex at one event.
+class Tally {
+ public:
+  explicit Tally(Stage stage);
+  /// All that follows belongs to this case, until the next call.
+  void begin(const CaseName& name);
+  /// `near`: cases within 2¹⁰ ulp of a decision boundary (near_factor), where the stage has one.
+  void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
+  /// One error in units of the metric; beyond the tolerance it is a mismatch, described by `where` (called only then)
+  /// and the numbers.
+  template <class Where>
+  void error(std::size_t metric, double value, const Where& where) {
+    if (const auto excess = note_error(metric, value)) mismatch(*excess + where());
+  }
+  void mismatch(std::string message);  ///< a wrong answer to the present case
+  /// Grey decisions have accepted answers that are not the exact ones.
+  void answered_not_exactly(std::uint64_t count = 1) { row_->not_exact += count; }
+  void add(const Tally& other);
+
+  Stage stage;                                       ///< whose cases are counted
+  std::vector<MetricTally> metrics;                  ///< in the order of metrics(stage)
+  std::map<std::string, GeneratorTally> generators;  ///< by name
+  std::vector<Mismatch> mismatches;                  ///< the first of each generator, at most `listed`
+  std::uint64_t mismatched = 0;                      ///< all of them
+  std::uint64_t questions = 0;                       ///< generated cases: of a mesh stage meshes, sweeps or steps
+  std::uint64_t failures = 0;  ///< of them, cases to which the contestant gave no answer (ContestantFailure)
+  double contestant_seconds = 0, authority_seconds = 0;  ///< of their answers alone
+  static constexpr std::uint64_t listed = 20;            ///< mismatches kept of each generator
+
+  GeneratorTally total() const;  ///< over all generators
+  /// Sums over the generic generators.
+  GeneratorTally generic_total() const;
+  /// Grey decisions over all decisions of the generic generators.
+  double grey_share() const;
+  /// Cases within 2¹⁰ ulp of a decision boundary over all cases.
+  double near_share() const;
+  /// Whether the share is compatible with grey_share_limit: of n decisions m = n · limit may be grey, and chance may
+  /// add 3 √m + 3 (a Poisson count of mean m lies higher in less than one run of a hundred).
+  bool grey_within_limit() const;
+
+ private:
+  /// What is said of an error beyond the tolerance; nothing of others.
+  std::optional<std::string> note_error(std::size_t metric, double value);
+
+  CaseName current_;
+  GeneratorTally* row_ = nullptr;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,27 @@
+// The complex of a saved case: what a mesh file says, from which the adjacency is built again.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "compare/judge/engine/numbers_json.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::compare {
+
+/// Vertex count, triangles and loose edges.
+inline Json topology_to_json(const Topology& topology) {
+  Json loose = Json::array();
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+    if (topology.edge_triangles[e].empty()) loose.push_back(topology.edges[e]);
+  return {{"vertex_count", topology.vertex_count}, {"triangles", topology.triangles}, {"loose_edges", loose}};
+}
+
+/// Throws what the JSON library or build_topology throw.
+inline std::shared_ptr<const Topology> to_topology(const Json& json) {
+  const auto triangles = json.at("triangles").get<std::vector<Triangle>>();
+  const auto loose = json.at("loose_edges").get<std::vector<Edge>>();
+  return std::make_shared<Topology>(build_topology(json.at("vertex_count").get<Index>(), triangles, loose));
+}
+
+}  // namespace ogc::compare

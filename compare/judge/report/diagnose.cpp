@@ -1,0 +1,172 @@
+#include "compare/judge/report/diagnose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/cases/stage_traits.hpp"
+#include "compare/judge/report/inputs.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+// Cases that are looked at: enough to tell accident from rule, few enough for a second or two of the authority's time.
+constexpr std::size_t most_failing = 120, most_failing_meshes = 24;
+constexpr std::size_t sampled = 600, sampled_of_mesh_stage = 2;
+// What all failing cases have in common says something where so many right ones lack it.
+constexpr std::uint64_t least_elsewhere = 10;
+
+/// Of the sample of a stage with so many generators.
+std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
+  switch (kind) {
+    case CaseKind::single: return (sampled + generators - 1) / generators;
+    case CaseKind::mesh: return sampled_of_mesh_stage;
+    case CaseKind::followed: return 1;
+  }
+  return 1;
+}
+
+/// The first cases of every generator.
+std::vector<TestCase> sample(Stage stage, std::uint64_t seed) {
+  const auto rows = generators(stage);
+  const std::size_t each = cases_of_a_generator(stage_info(stage).kind, rows.size());
+  std::vector<TestCase> cases;
+  for (const Generator& row : rows)
+    for (std::size_t i = 0; i < each && row.least == 0; ++i)
+      cases.push_back(generate(row, {stage, std::string(row.name), seed, i, "", {}}));
+  return cases;
+}
+
+/// So many of the cases, evenly.
+std::vector<TestCase> thinned(std::span<const TestCase> cases, std::size_t most) {
+  std::vector<TestCase> kept;
+  const std::size_t count = std::min(cases.size(), most);
+  for (std::size_t i = 0; i < count; ++i) kept.push_back(cases[i * cases.size() / count]);
+  return kept;
+}
+
+class Diagnosing {
+ public:
+  Diagnosing(Stage stage, const Contestant& contestant, const Authority& authority)
+      : stage_(stage), contestant_(contestant), authority_(authority) {}
+
+  void look_at(std::span<const TestCase> cases) {
+    for (const TestCase& test : cases) {
+      if (std::any_of(evidence_.begin(), evidence_.end(),
+                      [&](const Evidence& seen) { return seen.test.name == test.name; }))
+        continue;
+      Evidence one{test, remembered(contestant_)};
+      try {
+        one.fails = !agrees(one, authority_);
+      } catch (const ContestantFailure&) {
+        return;  // it crashes or hangs: each such case would cost a restart
+      }
+      evidence_.push_back(std::move(one));
+    }
+  }
+
+  std::uint64_t failing() const {
+    return static_cast<std::uint64_t>(
+        std::count_if(evidence_.begin(), evidence_.end(), [](const Evidence& one) { return one.fails; }));
+  }
+
+  Diagnosis conclude() {
+    Diagnosis result;
+    result.failing = failing();
+    result.right = evidence_.size() - result.failing;
+    const std::vector<WrongForm> forms = wrong_forms(stage_, evidence_);
+    result.forms = forms.size();
+    for (const WrongForm& form : forms) consider(form, result);
+    find_where(result);
+    return result;
+  }
+
+ private:
+  bool fits(const WrongForm& form, const Evidence& one) const {
+    try {
+      return form.fits(one, authority_);
+    } catch (const std::exception&) {
+      return false;  // the changed question is none that the authority takes
+    }
+  }
+
+  /// Keeps the form that fewest cases speak against, failing or right, of those that fit enough failing ones.
+  void consider(const WrongForm& form, Diagnosis& best) const {
+    const auto wanted = std::max<std::uint64_t>(
+        least_fits, static_cast<std::uint64_t>(std::ceil(least_share * static_cast<double>(best.failing))));
+    std::uint64_t fitting = 0, missed = 0, otherwise = 0;
+    for (const Evidence& one : evidence_) {
+      if (!one.fails) continue;
+      (fits(form, one) ? fitting : missed) += 1;
+      if (missed + wanted > best.failing) return;
+    }
+    for (const Evidence& one : evidence_) otherwise += !one.fails && !fits(form, one);
+    const std::uint64_t against = missed + otherwise, against_best = best.failing - best.fits + best.otherwise;
+    if (!best.name.empty() && against > against_best) return;
+    if (!best.name.empty() && against == against_best) {
+      best.as_well.push_back(form.name);
+      return;
+    }
+    best.name = form.name;
+    best.meaning = form.meaning;
+    best.as_well.clear();
+    best.fits = fitting;
+    best.otherwise = otherwise;
+  }
+
+  /// The words of a case's inputs: names, and of numbers whether they are 0.
+  static std::map<std::string, std::string> words_of(const TestCase& test) {
+    std::map<std::string, std::string> words;
+    for (const Quantity& quantity : inputs_of(test)) {
+      if (quantity.is_list || quantity.entries() != 1) continue;
+      if (!quantity.words.empty())
+        words[quantity.name] = quantity.words[0];
+      else if (quantity.width == 1)
+        words[quantity.name] = quantity.numbers[0] == 0 ? "0" : "not 0";
+    }
+    return words;
+  }
+
+  /// The input whose words in failing cases are missing from most right ones; of several that with the fewest words.
+  void find_where(Diagnosis& result) const {
+    if (is_mesh_stage(stage_) || result.failing < least_fits) return;
+    std::map<std::string, std::set<std::string>> of_failing;
+    for (const Evidence& one : evidence_)
+      if (one.fails)
+        for (const auto& [name, text] : words_of(one.test)) of_failing[name].insert(text);
+    std::map<std::string, std::uint64_t> elsewhere;
+    for (const Evidence& one : evidence_)
+      if (!one.fails)
+        for (const auto& [name, text] : words_of(one.test)) elsewhere[name] += of_failing[name].count(text) == 0;
+    std::size_t words = 0;
+    for (const auto& [name, count] : elsewhere) {
+      const std::set<std::string>& texts = of_failing[name];
+      if (count < least_elsewhere || count < result.elsewhere || (count == result.elsewhere && texts.size() >= words))
+        continue;
+      result.elsewhere = count;
+      words = texts.size();
+      result.where = name + " is ";
+      for (const std::string& text : texts) result.where += (text == *texts.begin() ? "" : " or ") + text;
+    }
+  }
+
+  Stage stage_;
+  const Contestant& contestant_;
+  const Authority& authority_;
+  std::vector<Evidence> evidence_;
+};
+
+}  // namespace
+
+Diagnosis diagnose(Stage stage, std::span<const TestCase> failing, const Contestant& contestant,
+                   const Authority& authority, std::uint64_t seed) {
+  Diagnosing diagnosing(stage, contestant, authority);
+  diagnosing.look_at(thinned(failing, is_mesh_stage(stage) ? most_failing_meshes : most_failing));
+  diagnosing.look_at(sample(stage, seed));
+  return diagnosing.conclude();
+}
+
+}  // namespace ogc::compare

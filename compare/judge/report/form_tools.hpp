@@ -1,0 +1,57 @@
+// How to write forms: as a change of the question to the authority, or of its answer.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "compare/judge/report/wrong_forms.hpp"
+
+namespace ogc::compare {
+
+template <class Truth, class In>
+using Ask = std::function<Truth(const In&)>;
+
+/// A form that makes its truth from that of the stage: `change(right, in)` returns what the form says of the question.
+template <class Truth, class In, class Change>
+WrongForm form(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
+  return form_of(std::move(name), std::move(meaning), [stage, change](const Authority& authority) {
+    Authority wrong = authority;
+    wrong.*stage = [right = authority.*stage, change](const In& in) -> Truth { return change(right, in); };
+    return wrong;
+  });
+}
+
+/// `change(In&)` changes the question.
+template <class Truth, class In, class Change>
+WrongForm asked(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
+  return form(std::move(name), std::move(meaning), stage, [change](const Ask<Truth, In>& right, const In& in) {
+    In other = in;
+    change(other);
+    return right(other);
+  });
+}
+
+/// `change(const In&, Truth&)` changes the truth.
+template <class Truth, class In, class Change>
+WrongForm told(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
+  return form(std::move(name), std::move(meaning), stage, [change](const Ask<Truth, In>& right, const In& in) {
+    Truth truth = right(in);
+    change(in, truth);
+    return truth;
+  });
+}
+
+/// An activation by name.
+struct NamedActivation {
+  ContactActivation kind;      ///< which one
+  const char *name, *meaning;  ///< of the form
+};
+
+/// What may stand in place of `ogc`.
+inline constexpr std::array<NamedActivation, 4> other_activations{
+    {{ContactActivation::ogc_as_printed, "ogc_as_printed", "Eq. 19 as printed: k' = τ k_c (τ − r)², numbers in metres"},
+     {ContactActivation::quadratic, "quadratic", "k_c/2 (r − d)² at every distance"},
+     {ContactActivation::ipc_log, "ipc_log", "IPC's barrier −k_c (d − r)² ln(d/r)"},
+     {ContactActivation::cubic, "cubic", "2 k_c/(3r) (r − d)³"}}};
+
+}  // namespace ogc::compare

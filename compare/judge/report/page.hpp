@@ -1,0 +1,15 @@
+// A report as one static page of HTML that loads nothing.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "compare/judge/engine/judge.hpp"
+
+namespace ogc::compare {
+
+/// The table of report_table, a histogram of each metric, each generator's counts, the listed mismatches and the worst
+/// cases. `heading` says who was judged.
+std::string report_page(std::span<const StageReport> reports, const std::string& heading);
+
+}  // namespace ogc::compare

@@ -1,0 +1,48 @@
+// Known ways to get a stage wrong, each with a name: what an answer may equal where it does not equal the truth.
+//
+// A form is the truth to a question that is changed first (another activation, no damping), or a truth that is changed
+// afterwards (a sign, a factor). Both come from the authority, so a form is as exact as the truth itself, and an answer
+// equals it within the verdict and the tolerances of its stage.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/contestant.hpp"
+#include "compare/judge/cases/cases.hpp"
+
+namespace ogc::compare {
+
+/// A case, and a contestant that answers as the one judged did (`remembered`).
+struct Evidence {
+  TestCase test;        ///< the question
+  Contestant answered;  ///< answers as it did then
+  bool fails = false;   ///< whether the judge finds a mismatch
+};
+
+/// One way to get a stage wrong.
+struct WrongForm {
+  std::string name;     ///< "ogc_as_printed"
+  std::string meaning;  ///< one line: what is computed in place of what
+  /// Whether the answer is what the form gives, within what the stage accepts.
+  std::function<bool(const Evidence&, const Authority&)> fits;
+  /// The authority that takes the form for the truth; empty where what the form says depends on the answer.
+  std::function<Authority(const Authority&)> wrong{};
+};
+
+/// The form of such an authority.
+WrongForm form_of(std::string name, std::string meaning, std::function<Authority(const Authority&)> wrong);
+
+/// The forms of a stage. Some have a parameter that is read off the answers (how many contacts a list keeps).
+std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence);
+
+/// The contestant, asked once a stage: what it answers first is what it answers to everything later. A failure is not
+/// remembered.
+Contestant remembered(const Contestant& contestant);
+
+/// Whether the judge finds nothing wrong with the answer, given this authority.
+bool agrees(const Evidence& evidence, const Authority& authority);
+
+}  // namespace ogc::compare

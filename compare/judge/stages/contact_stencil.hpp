@@ -1,0 +1,69 @@
+// What contact_force and friction_force share: a contact as a stencil.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "compare/judge/stages/force_forms.hpp"
+#include "compare/judge/stages/force_stage.hpp"
+
+namespace ogc::compare {
+
+/// What the vertices of a contact are.
+std::vector<std::string> contact_roles(ContactSides sides);
+
+/// Names what makes the contact illegal.
+void check_contact(const ContactForceCase& c, FirstProblem& problem);
+
+/// The vertices that a contact has.
+template <class Vertices>
+auto vertices_of(Vertices& all, ContactSides sides) {
+  return std::span(all).first(static_cast<std::size_t>(vertex_count(sides)));
+}
+
+Shape contact_shape(const ContactForceCase& c);  ///< its faces, the vertex asked about as a dot
+
+/// Throws InputError where `own` names no vertex of the contact.
+void check_own(const ContactForceCase& c);
+
+/// "r" or "k_c" of the contact.
+inline float* contact_place(ContactForceCase& c, std::string_view name) {
+  return name == ranges::contact_radius.name ? &c.contact_radius : &c.stiffness;
+}
+
+/// Forms of the contact inside a question: `contact(case)` finds it.
+template <class In, class Contact>
+void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact contact) {
+  using Case = std::decay_t<decltype(In{}.cases[0])>;
+  const auto changed = [&](std::string name, std::string meaning, auto change) {
+    forms.push_back(
+        case_asked(std::move(name), std::move(meaning), stage, [contact, change](Case& c) { change(contact(c)); }));
+  };
+  for (const auto& [kind, name, meaning] : other_activations)
+    changed(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](ContactForceCase& c) {
+      if (c.activation == ContactActivation::ogc) c.activation = to;
+    });
+  changed("ogc_for_every_activation", "`ogc`, whichever activation is asked for",
+          [](ContactForceCase& c) { c.activation = ContactActivation::ogc; });
+  // A rest length that is none, and not 0 either: e_k is 1.
+  changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full", [](ContactForceCase& c) {
+    if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
+  });
+  changed("overlap_share_missing", "e_k is 1 for nearly parallel edges without triangles", [](ContactForceCase& c) {
+    if (c.rest_squared == std::array<float, 2>{}) c.rest_squared = {-1, -1};
+  });
+  changed("mollifier_of_present_edges", "e_k of the present edges, not of those at the last detection",
+          [](ContactForceCase& c) { c.previous = c.vertex; });
+  changed("block_of_own_weight_alone", "w² in the block where other vertices are updated together with it",
+          [](ContactForceCase& c) { c.together = 0; });
+  changed("ends_exchanged", "the weight of the edge's other end", [](ContactForceCase& c) {
+    if (c.sides == ContactSides::edge_edge) c.own ^= 1;
+    if (c.sides == ContactSides::point_edge && c.own > 0) c.own = 3 - c.own;
+  });
+  changed("sides_exchanged", "the weight and side of the other edge", [](ContactForceCase& c) {
+    if (c.sides == ContactSides::edge_edge) c.own ^= 2;
+  });
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,316 @@
+// What the two detections share: the verdict about a contact set, the traits of a state, forms that are a change of the
+// question or a cap. The verdict sorts both sets and compares keys:
+//
+//   exact, answered            right
+//   exact, not answered        excused by a grey decision that holds it, if another contact of that decision is
+//                              answered or absence is accepted
+//   answered, not exact        excused by a grey decision that holds it
+//   a and b answered, a ⊂ b    wrong in one grey decision: whatever the side of the boundary, their blocks share no
+//                              point (§3.3, local exclusiveness). Two triangles across a slightly concave edge may
+//                              stand side by side; so may edge pairs, by the rule for nearly parallel ones
+//
+// A missing contact that nothing replaces is a gap in the covering, and named so: there a vertex could pass unseen.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/judge/cases/dust.hpp"
+#include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/engine/features.hpp"
+#include "compare/judge/engine/renumbering.hpp"
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/mesh_case.hpp"
+#include "compare/judge/stages/parameter_ranges.hpp"
+#include "compare/judge/stages/stage_of.hpp"
+
+namespace ogc::compare {
+
+/// Whether the contact is there.
+template <class Contact>
+bool holds(const std::vector<Contact>& sorted, const Contact& contact) {
+  return std::binary_search(sorted.begin(), sorted.end(), contact);
+}
+
+/// Whether the decision is about the contact.
+template <class Contact>
+bool lists(const GreyDecision<Contact>& decision, const Contact& contact) {
+  return std::find(decision.contacts.begin(), decision.contacts.end(), contact) != decision.contacts.end();
+}
+
+/// Compares two sets. `excludes(topology, a, b)`: whether a's block lies on the other side of a boundary of b's.
+template <class Contact>
+class SetVerdict {
+ public:
+  using Excludes = bool (*)(const Topology&, const Contact&, const Contact&);
+
+  SetVerdict(std::vector<Contact> exact, std::vector<Contact> answer, const std::vector<GreyDecision<Contact>>& grey,
+             const Topology& topology, Excludes excludes, Tally& tally)
+      : exact_(std::move(exact)),
+        answer_(std::move(answer)),
+        grey_(grey),
+        topology_(topology),
+        excludes_(excludes),
+        tally_(tally) {
+    std::sort(exact_.begin(), exact_.end());
+    std::sort(answer_.begin(), answer_.end());
+  }
+
+  /// Writes mismatches into the tally.
+  void judge() {
+    for (std::size_t i = 1; i < answer_.size(); ++i)
+      if (answer_[i - 1] == answer_[i]) tally_.mismatch("contacts: " + print(answer_[i]) + " stands twice");
+    for (const Contact& contact : exact_)
+      if (!holds(answer_, contact)) judge_missing(contact);
+    for (const Contact& contact : answer_)
+      if (!holds(exact_, contact)) judge_extra(contact);
+    for (const auto& decision : grey_) judge_decision(decision);
+  }
+
+ private:
+  /// In braces, so that its commas end nothing.
+  std::string print(const Contact& contact) const { return "{" + contact_name(contact, topology_) + "}"; }
+
+  std::size_t answered(const GreyDecision<Contact>& decision) const {
+    return static_cast<std::size_t>(std::count_if(decision.contacts.begin(), decision.contacts.end(),
+                                                  [&](const Contact& c) { return holds(answer_, c); }));
+  }
+
+  void judge_missing(const Contact& contact) {
+    bool listed = false;
+    for (const auto& decision : grey_) {
+      if (!lists(decision, contact)) continue;
+      if (decision.absence_accepted || answered(decision) > 0) return tally_.answered_not_exactly();
+      listed = true;
+    }
+    tally_.mismatch("contacts: " + print(contact) + " is missing" +
+                    (listed ? ", and nothing that the grey zone allows stands for it (covering)" : ""));
+  }
+
+  void judge_extra(const Contact& contact) {
+    const bool excused = std::any_of(grey_.begin(), grey_.end(),
+                                     [&](const auto& decision) { return lists(decision, contact); });
+    if (excused)
+      tally_.answered_not_exactly();
+    else
+      tally_.mismatch("contacts: " + print(contact) + " is no contact");
+  }
+
+  void judge_decision(const GreyDecision<Contact>& decision) {
+    for (const Contact& a : decision.contacts)
+      for (const Contact& b : decision.contacts)
+        if (excludes_(topology_, a, b) && holds(answer_, a) && holds(answer_, b)) {
+          tally_.mismatch("contacts: " + print(a) + " and " + print(b) +
+                          " stand side by side, and one is part of the other");
+          return;
+        }
+  }
+
+  std::vector<Contact> exact_, answer_;
+  const std::vector<GreyDecision<Contact>>& grey_;
+  const Topology& topology_;
+  Excludes excludes_;
+  Tally& tally_;
+};
+
+/// ‖a − b‖ [m].
+inline double length(const Vec3f& a, const Vec3f& b) {
+  return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
+}
+
+/// The unit of a smallest distance is that of the pair which attains it, u max(d, Σ|δ|), and the judge does not know
+/// that pair. Every point of it lies within d + (longest sides) of the case's first vertex, which bounds each |δ| by √3
+/// times that: three of them for a pair of four vertices.
+inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
+
+/// A stage that is asked for the contacts of a state. `S::kept(out)`: the contacts, as a set;
+/// `S::moved(out, to)`: the same under other numbers.
+template <class S, auto contestant, auto authority>
+struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
+  using Base = MeshStage<S, contestant, authority>;
+  using typename Base::In;
+  using typename Base::Out;
+  using typename Base::Truth;
+  using Case = MeshCase;
+  /// R and r_q.
+  static constexpr std::array parameters{ranges::contact_radius, ranges::query_radius};
+
+  /// Radii, which must be legal together.
+  static std::string set(Case& c, std::span<const Override> values) {
+    for (const Override& value : values)
+      (value.name == ranges::contact_radius.name ? c.contact_radius : c.query_radius) = value.value;
+    return ranges::check_radii(c.contact_radius, c.query_radius);
+  }
+  /// One table for both detections.
+  static std::span<const Generator> generators() { return detect_generators(); }
+
+  /// Arrays by vertex, coordinates and radii.
+  static void check(const Case& c, FirstProblem& problem) {
+    const auto n = static_cast<std::size_t>(c.topology->vertex_count);
+    problem.require(c.positions.size() == n && c.rigid_groups.size() == n,
+                    "an array does not have one entry for each vertex");
+    problem.vectors("a coordinate", c.positions);
+    problem.number("a contact radius", c.contact_radius, 0x1p-60f, most_length);  // its square is a normal number
+    problem.number("a query radius", c.query_radius, c.contact_radius, vast);
+  }
+  /// Positions; mesh and radii stay.
+  static void mutate(Random& random, Case& c) { mutate_points(random, c.positions); }
+  static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.positions}); }
+  /// A frame, whole.
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    return states.whole(states.frame(index), random);
+  }
+  static Case of_scene(const Scene& scene, const Contestant&) { return case_at_start(scene); }
+
+  /// The state, and back.
+  static Json write(const Case& c) { return mesh_case_to_json(c); }
+  static Case read(const Json& data) { return to_mesh_case(data); }
+
+  /// The mesh.
+  static Shape shape(const Case& c) {
+    Shape shape;
+    shape.add(*c.topology, c.positions);
+    return shape;
+  }
+  /// Radii, mesh, positions and exclusions.
+  static std::vector<Quantity> inputs(const Case& c) {
+    std::vector<Quantity> all = joined(
+        {scalar("contact_radius", "m", c.contact_radius), scalar("query_radius", "m", c.query_radius)},
+        mesh_quantities(*c.topology),
+        std::vector{points("positions", "m", c.positions), indices("rigid_groups", c.rigid_groups)});
+    if (c.partners.rows() > 0) all.push_back(indices("excluded_pairs", pairs_of(c.partners)));
+    return all;
+  }
+
+  /// A smaller case is a part of the mesh.
+  static const Topology* mesh(const Case& c) { return c.topology.get(); }
+  static Case part(const Case& c, const MeshPart& part) {
+    return {part.topology,
+            MeshPart::picked(c.rigid_groups, part.vertices),
+            MeshPart::picked(c.positions, part.vertices),
+            c.contact_radius,
+            c.query_radius,
+            part.partners(c.partners)};
+  }
+  /// Coordinates, and radii that stay above 0.
+  static ShortenedNumbers numbers(Case& c) { return {coordinates(c), {&c.contact_radius, &c.query_radius}}; }
+
+  /// A view of the case, and the bits of an answer.
+  static In question(const Case& c) { return detect_question(c); }
+  static void add(Bits& bits, const Out& out) { bits.add(out); }
+  /// How many decisions are grey.
+  static std::string note(const Truth& truth) {
+    return truth.grey.empty()
+               ? ""
+               : "grey: " + std::to_string(truth.grey.size()) + " decisions may go either way; the exact one is shown";
+  }
+  /// The exact answer, as a contestant would give it.
+  static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return S::outputs(in, truth.exact); }
+
+  /// What is defined by numbers (owners, generating edges) is left out, and smallest distances, which are rounded in
+  /// the order of corners and edges. Cases with collapsed triangles or edges have ties that a contestant may break by
+  /// order: not for them.
+  static bool is_same_renumbered(const TestCase& test, Random& random, const Contestant& c) {
+    const auto& before = case_of<Case>(test.data);
+    const Renumbering to(random, *before.topology);
+    auto pairs = pairs_of(before.partners);
+    for (auto& [a, b] : pairs) a = to.vertex(a), b = to.vertex(b);
+    const Case after{to.topology(),
+                     to.by_vertex(before.rigid_groups),
+                     to.by_vertex(before.positions),
+                     before.contact_radius,
+                     before.query_radius,
+                     partner_rows(before.positions.size(), pairs)};
+    return S::moved((c.*contestant)(question(before)), to) == S::kept((c.*contestant)(question(after)));
+  }
+};
+
+/// The contacts of an answer by name.
+template <class Contact>
+Quantity contact_quantity(const std::vector<Contact>& all, const Topology& topology) {
+  std::vector<std::string> names;
+  for (const Contact& contact : all) names.push_back(contact_name(contact, topology));
+  std::sort(names.begin(), names.end());
+  return words("contacts", std::move(names));
+}
+
+template <class Truth>
+using Detection = std::function<Truth(const DetectIn&)> Authority::*;
+
+/// Changes of the question.
+template <class Truth>
+std::vector<WrongForm> question_forms(Detection<Truth> stage) {
+  return {asked("groups_ignored", "pairs inside one rigid group are kept", stage,
+                [](DetectIn& in) { in.exclusions.groups = {}; }),
+          asked("excluded_pairs_ignored", "pairs beside a stitch are kept", stage,
+                [](DetectIn& in) { in.exclusions.partners = nullptr; }),
+          asked("query_radius_for_contact_radius", "contacts up to r_q, not up to r", stage,
+                [](DetectIn& in) { in.contact_radius = in.query_radius; }),
+          asked("half_the_contact_radius", "contacts up to r/2, not up to r", stage,
+                [](DetectIn& in) { in.contact_radius /= 2; }),
+          told("contacts_missing", "no contact at all", stage, [](const DetectIn&, Truth& truth) {
+            truth.exact.contacts.clear();
+            truth.grey.clear();
+          })};
+}
+
+/// The list that keeps a contact: by vertex, by triangle, by edge; one for all.
+template <class Contact>
+using Owner = Index (*)(const Contact&);
+
+template <class Contact>
+std::map<Index, std::size_t> lengths(const std::vector<Contact>& contacts, Owner<Contact> owner) {
+  std::map<Index, std::size_t> count;
+  for (const Contact& contact : contacts) ++count[owner(contact)];
+  return count;
+}
+
+/// The longest list of all answers.
+template <class Out, class Contact>
+std::size_t cap_seen(std::span<const Evidence> evidence, std::function<Out(const DetectIn&)> Contestant::*answered,
+                     Owner<Contact> owner) {
+  std::size_t longest = 0;
+  for (const Evidence& one : evidence) {
+    const Out out = (one.answered.*answered)(detect_question(case_of<MeshCase>(one.test.data)));
+    for (const auto& [list, count] : lengths<Contact>(out.contacts, owner)) longest = std::max(longest, count);
+  }
+  return longest;
+}
+
+/// Lists of at most `cap` contacts: which are missing from a full one, the answer says.
+template <class Out, class Truth, class Contact>
+WrongForm capped(std::string name, const std::string& list, std::size_t cap, Detection<Truth> stage,
+                 std::function<Out(const DetectIn&)> Contestant::*answered, Owner<Contact> owner) {
+  const std::string meaning = "at most " + std::to_string(cap) + " contacts " + list +
+                              " are kept, and the others dropped";
+  return {std::move(name), meaning, [=](const Evidence& evidence, const Authority& authority) {
+            Authority wrong = authority;
+            wrong.*stage = [&](const DetectIn& in) {
+              Truth truth = (authority.*stage)(in);
+              std::vector<Contact> kept = (evidence.answered.*answered)(in).contacts;
+              std::sort(kept.begin(), kept.end());
+              const auto given = lengths<Contact>(kept, owner);
+              const auto is_full = [&](const Contact& contact) {
+                const auto count = given.find(owner(contact));
+                return count != given.end() && count->second == cap;
+              };
+              std::erase_if(truth.exact.contacts, [&](const Contact& c) {
+                return is_full(c) && !std::binary_search(kept.begin(), kept.end(), c);
+              });
+              for (auto& decision : truth.grey)
+                decision.absence_accepted = decision.absence_accepted ||
+                                            std::any_of(decision.contacts.begin(), decision.contacts.end(), is_full);
+              return truth;
+            };
+            return agrees(evidence, wrong);
+          }};
+}
+
+}  // namespace ogc::compare

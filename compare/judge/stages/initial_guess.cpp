@@ -1,0 +1,331 @@
+// Stage initial_guess. Where a bound is to be just reached or just missed, a generator sets it from y in double, which
+// is within a few u of every answer's own y.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "compare/judge/cases/dust.hpp"
+#include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/cases/placement.hpp"
+#include "compare/judge/engine/numbers_json.hpp"
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/parameter_ranges.hpp"
+#include "compare/judge/stages/stage_of.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+Vec3 wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
+double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+
+/// ‖y − x_prev‖ [m].
+double move_of(const InitialGuessCase& c) {
+  const double h = c.time_step;
+  const Vec3 y = sum(wide(c.start), sum(scaled(wide(c.velocity), h), scaled(wide(c.acceleration), h * h)));
+  return length(sum(y, scaled(wide(c.previous), -1)));
+}
+
+/// A vertex of a scene of everyday size: cloth at up to `speed` m/s.
+InitialGuessCase falling(Random& random, double speed) {
+  InitialGuessCase c;
+  c.start = single(in_box(random, -1, 1));
+  c.velocity = single(scaled(in_box(random, -1, 1), speed));
+  c.acceleration = random.one_in(4) ? single(scaled(in_box(random, -1, 1), 20)) : Vec3f{0, -9.81f, 0};
+  c.time_step = static_cast<float>(random.magnitude(-4, -1));
+  // Of a later round: the vertex has gone a part of its way.
+  const double part = random.one_in(2) ? 0 : random.unit();
+  c.previous = single(sum(wide(c.start), scaled(wide(c.velocity), part * c.time_step)));
+  c.held = random.one_in(6);
+  return c;
+}
+
+float times(double length, double factor) { return static_cast<float>(length * factor); }
+
+CaseData uniform(Random& random) {
+  InitialGuessCase c = falling(random, 5);
+  c.bound = times(move_of(c), random.between(0.05, 2));
+  return c;
+}
+
+CaseData bits(Random& random) {
+  const auto vector = [&] {
+    return Vec3f{static_cast<float>(random.sign()) * random.pattern(),
+                 static_cast<float>(random.sign()) * random.pattern(),
+                 static_cast<float>(random.sign()) * random.pattern()};
+  };
+  InitialGuessCase c{
+      vector(), vector(), vector(), 0, vector(), random.pattern(), static_cast<std::uint8_t>(random.one_in(6))};
+  c.time_step = static_cast<float>(std::ldexp(random.between(0.5, 1), -random.below(20)));
+  return c;
+}
+
+/// Without a rounding: powers of two and small integers, moves of rational length.
+CaseData lattice(Random& random) {
+  constexpr std::array<Vec3, 5> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {5, 0, 0}}};
+  constexpr std::array<float, 5> lengths{5, 3, 7, 9, 5};
+  const int k = random.below(5);
+  const float h = std::ldexp(1.0f, -random.below(7));
+  std::array<Vec3, 1> step{steps[static_cast<std::size_t>(k)]};
+  permute(random, step);
+  InitialGuessCase c;
+  c.start = c.previous = single(on_lattice(random, 3));
+  (random.one_in(2) ? c.velocity : c.acceleration) = single(step[0]);
+  c.time_step = h;
+  const bool is_speed = !(c.velocity == Vec3f{});
+  const float moved = lengths[static_cast<std::size_t>(k)] * h * (is_speed ? 1 : h);
+  const std::array<float, 4> bounds{moved, std::nextafter(moved, 0.0f),
+                                    std::nextafter(moved, std::numeric_limits<float>::infinity()), 2 * moved};
+  c.bound = random.pick(std::span<const float>(bounds));
+  c.held = random.one_in(8);
+  return c;
+}
+
+/// ‖y − x_prev‖ → b_v.
+CaseData bound(Random& random) {
+  InitialGuessCase c = falling(random, random.magnitude(-2, 2));
+  c.bound = times(move_of(c), 1 + random.rung());
+  return c;
+}
+
+/// Likewise, on the lower rungs.
+CaseData boundary(Random& random) {
+  random.be_fine();
+  return bound(random);
+}
+
+/// Fast movers with small bounds: 10² … 10⁶ bounds a step.
+CaseData fast(Random& random) {
+  InitialGuessCase c = falling(random, random.magnitude(0, 5));
+  c.bound = times(move_of(c), random.magnitude(-6, -2));
+  return c;
+}
+
+/// Far from the origin: the move tends to the spacing of the coordinates.
+CaseData far(Random& random) {
+  InitialGuessCase c = falling(random, random.magnitude(-3, 0));
+  const Vec3 shift = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
+  c.start = single(sum(wide(c.start), shift));
+  c.previous = single(sum(wide(c.previous), shift));
+  c.bound = times(move_of(c), random.magnitude(-1, 0.5));
+  return c;
+}
+
+/// At rest or almost: no velocity, no acceleration, no bound, or a rung of one.
+CaseData still(Random& random) {
+  InitialGuessCase c = falling(random, 1);
+  const auto little = [&] {
+    return random.one_in(2) ? Vec3f{} : single(scaled(in_box(random, -1, 1), std::abs(random.rung())));
+  };
+  c.velocity = little();
+  c.acceleration = little();
+  if (random.one_in(2)) c.previous = c.start;
+  c.bound = static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung()));
+  return c;
+}
+
+constexpr std::array<Generator, 9> table{{{"uniform", 25, true, uniform},
+                                          {"bits", 15, false, bits},
+                                          {"dust", 8, false, uniform},
+                                          {"lattice", 20, false, lattice},
+                                          {"ladder.bound", 15, false, bound},
+                                          {"ladder.fast", 10, false, fast},
+                                          {"ladder.far", 10, false, far},
+                                          {"ladder.still", 5, false, still},
+                                          {"ladder.boundary", 190, false, boundary}}};
+
+}  // namespace
+
+TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out) {
+  TruncateIn cut;
+  for (std::size_t i = 0; i < in.cases.size(); ++i) {
+    const bool is_point = i < out.target.size() && is_finite(out.target[i]);
+    cut.previous.push_back(in.cases[i].previous);
+    cut.position.push_back(is_point ? out.target[i] : in.cases[i].previous);
+    cut.bound.push_back(in.cases[i].bound);
+  }
+  return cut;
+}
+
+void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth,
+                         const TruncateTruth& cut, const InitialGuessOut& out, Tally& tally) {
+  tally.begin(cases[0].name);
+  const std::size_t n = cases.size();
+  if (out.target.size() != n || out.position.size() != n || out.cut.size() != n) {
+    tally.mismatch("an array of the answer does not have one entry for each case");
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const InitialGuessCase& c = in.cases[i];
+    const Vec3f& y = out.target[i];
+    tally.begin(cases[i].name);
+    tally.count(1, 1, cut.grey[i] && !c.held, cut.near[i] && !c.held);
+    const Vec3& exact = truth.target[i];
+    const double error = std::max({std::abs(y.x - exact.x), std::abs(y.y - exact.y), std::abs(y.z - exact.z)});
+    tally.error(
+        0, is_finite(y) ? in_units(error, truth.target_scale[i]) : std::numeric_limits<double>::infinity(),
+        [&] { return text("a coordinate is %.4g from the exact one, terms of %.4g", error, truth.target_scale[i]); });
+    if (!is_finite(y)) continue;
+    if (c.held) {
+      if (out.cut[i] != 0 || !(out.position[i] == c.previous))
+        tally.mismatch("position: the vertex is held, but it was moved or counted as cut");
+      continue;
+    }
+    if (out.cut[i] > 1 || (out.cut[i] != cut.cut[i] && !cut.grey[i])) {
+      tally.mismatch("cut: " + std::to_string(out.cut[i]) + ", exact " + std::to_string(cut.cut[i]));
+      continue;
+    }
+    if (out.cut[i] != cut.cut[i]) tally.answered_not_exactly();
+    judge_position(c.previous, y, c.bound, cut.position[i], out.position[i], out.cut[i], 1, tally);
+  }
+}
+
+namespace {
+
+template <class Change>
+WrongForm guess_asked(std::string name, std::string meaning, Change change) {
+  return asked(std::move(name), std::move(meaning), &Authority::initial_guess, [change](InitialGuessIn& in) {
+    for (InitialGuessCase& c : in.cases) change(c);
+  });
+}
+
+Vec3f times(const Vec3f& v, float factor) { return {factor * v.x, factor * v.y, factor * v.z}; }
+
+/// Whether the answer is right about a vertex that is free.
+bool is_not_held(const Evidence& evidence, const Authority& authority) {
+  Evidence free = evidence;
+  case_of<InitialGuessCase>(free.test.data).held = 0;
+  return agrees(free, authority);
+}
+
+std::vector<WrongForm> initial_guess_forms() {
+  return {
+      guess_asked("acceleration_missing", "y without h² a_ext", [](InitialGuessCase& c) { c.acceleration = {}; }),
+      guess_asked("half_acceleration", "h²/2 a_ext for h² a_ext",
+                  [](InitialGuessCase& c) { c.acceleration = times(c.acceleration, 0.5f); }),
+      guess_asked("acceleration_flipped", "a_ext with the other sign",
+                  [](InitialGuessCase& c) { c.acceleration = times(c.acceleration, -1); }),
+      guess_asked("velocity_missing", "y without h vᵗ", [](InitialGuessCase& c) { c.velocity = {}; }),
+      guess_asked("from_previous", "y from X_prev in place of xᵗ", [](InitialGuessCase& c) { c.start = c.previous; }),
+      {"held_ignored", "vertices that are held move like all others", is_not_held}};
+}
+
+struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Authority::initial_guess>,
+                      TakenWhole,
+                      ParametersInPlace<InitialGuess>,
+                      InEveryRun {
+  using Case = InitialGuessCase;
+  static constexpr StageInfo info{.name = "initial_guess",
+                                  .question = "inertial target, truncated",
+                                  .unit = "vertex",
+                                  .reference = "reference/solvers/initial_guess.cpp",
+                                  .kind = CaseKind::single,
+                                  .has_boundary = true,
+                                  .determinism = Determinism::cpu_to_gpu};
+  static constexpr std::array metrics{MetricInfo{"target", "u scale", initial_guess_target_tolerance},
+                                      MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance}};
+  static constexpr std::array parameters{ranges::time_step, ranges::bound};
+  static float* place(Case& c, std::string_view name) { return name == "h" ? &c.time_step : &c.bound; }
+
+  static std::span<const Generator> generators() { return table; }
+
+  static void check(const Case& c, FirstProblem& problem) {
+    problem.vector("a coordinate", c.start);
+    problem.vector("a coordinate", c.previous);
+    problem.vector("a velocity", c.velocity);
+    problem.vector("an acceleration", c.acceleration);
+    problem.number("a time step", c.time_step, least_length, 1);
+    problem.number("a bound", c.bound, 0, vast);
+    problem.require(c.held <= 1, "held is neither 0 nor 1");
+  }
+  static void mutate(Random& random, Case& c) {
+    mutate_together(random, std::span(&c.previous, 1), std::span(&c.start, 1));
+  }
+  static std::vector<float*> coordinates(Case& c) {
+    auto all = coordinates_of({{&c.start, 1}, {&c.velocity, 1}, {&c.acceleration, 1}, {&c.previous, 1}});
+    all.push_back(&c.bound);
+    return all;
+  }
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    return states.guessed_vertex(states.frame(index), random);
+  }
+
+  static Json write(const Case& c) {
+    return {{"start", to_json(c.start)},
+            {"velocity", to_json(c.velocity)},
+            {"acceleration", to_json(c.acceleration)},
+            {"time_step", hexadecimal(c.time_step)},
+            {"previous", to_json(c.previous)},
+            {"bound", hexadecimal(c.bound)},
+            {"held", c.held != 0}};
+  }
+  static Case read(const Json& data) {
+    return {to_point(data.at("start")),   to_point(data.at("velocity")), to_point(data.at("acceleration")),
+            number(data.at("time_step")), to_point(data.at("previous")), number(data.at("bound")),
+            data.at("held").get<bool>()};
+  }
+
+  static Shape shape(const Case& c) {
+    Shape shape;
+    shape.dots.push_back(shape.add(c.previous));
+    shape.add(c.start);
+    shape.lines.push_back({0, 1});
+    return shape;
+  }
+  static std::vector<Quantity> inputs(const Case& c) {
+    return {points("start", "m", std::array{c.start}),
+            points("velocity", "m/s", std::array{c.velocity}),
+            points("acceleration", "m/s²", std::array{c.acceleration}),
+            scalar("time_step", "s", c.time_step),
+            points("previous", "m", std::array{c.previous}),
+            scalar("bound", "m", c.bound),
+            word("held", c.held ? "yes" : "no")};
+  }
+
+  static In question(Cases cases) { return case_question(cases, &In::cases); }
+  static auto arrays(const Out& out) { return std::tie(out.target, out.position, out.cut); }
+
+  static bool can_judge(const Contestant& c, const Authority& a) {
+    return c.initial_guess && a.initial_guess && a.truncate;
+  }
+  /// The authority truncates the y of the answer: position and cut follow it.
+  static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
+    const In in = question(cases);
+    const Out out = asker.answer(in, c.initial_guess);
+    const TruncateTruth cut = asker.truth(cut_question(in, out), a.truncate);
+    judge_initial_guess(cases, in, asker.truth(in, a.initial_guess), cut, out, tally);
+  }
+
+  static std::vector<Quantity> outputs(const Quantity& target, const Quantity& position, unsigned cut) {
+    return {target, position, flag("cut", cut)};
+  }
+  static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
+    const In in = question({&test, 1});
+    const Truth truth = a.initial_guess(in);
+    std::string note;
+    const std::optional<Out> out = answer_or_note(c.initial_guess, in, note);
+    const Case& asked_about = in.cases[0];
+    const TruncateTruth cut = a.truncate(cut_question(in, out ? *out : Out{}));
+    const Vec3 held{asked_about.previous.x, asked_about.previous.y, asked_about.previous.z};
+    std::vector<Quantity> given;
+    if (out)
+      given = outputs(points("target", "m", std::array{out->target.at(0)}),
+                      points("position", "m", std::array{out->position.at(0)}), out->cut.at(0));
+    return paired(given,
+                  outputs(points("target", "m", std::array{truth.target[0]}),
+                          points("position", "m", std::array{asked_about.held ? held : cut.position[0]}),
+                          asked_about.held ? 0 : cut.cut[0]),
+                  note);
+  }
+  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return initial_guess_forms(); }
+};
+
+}  // namespace
+
+constinit const StageTraits stages::initial_guess = make_traits<InitialGuess>();
+
+}  // namespace ogc::compare

@@ -1,0 +1,387 @@
+// Stage rest_state.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/cases/rest_cases.hpp"
+#include "compare/judge/engine/numbers_json.hpp"
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/stage_of.hpp"
+#include "compare/problem/material_table.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+/// The numbers of the metrics of rest_state, in the order of RestState::metrics.
+enum Metric : std::size_t {
+  of_mass,
+  of_area,
+  of_gradient,
+  of_edge_length_squared,
+  of_rest_angle,
+  of_stiffness,
+  of_weight,
+  of_meeting,
+  of_tetrahedron
+};
+
+/// Whether θ₀ cannot be told from its turn by 2π.
+bool is_folded(double angle, double scale) {
+  return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
+}
+
+class RestVerdict {
+ public:
+  RestVerdict(const RestStateTruth& truth, const RestStateOut& out, Tally& tally)
+      : truth_(truth), exact_(truth.exact), out_(out), tally_(tally) {}
+
+  void judge() {
+    if (!has_right_lengths() || !names_right_vertices()) return;
+    for (std::size_t v = 0; v < out_.mass.size(); ++v)
+      one(of_mass, "vertex", v, out_.mass[v], truth_.mass[v], truth_.mass_scale[v]);
+    for (std::size_t t = 0; t < out_.triangles.size(); ++t) judge_triangle(t);
+    for (std::size_t e = 0; e < out_.edge_length_squared.size(); ++e)
+      one(of_edge_length_squared, "edge", e, out_.edge_length_squared[e], truth_.edge_length_squared[e],
+          truth_.edge_length_squared_scale[e]);
+    for (std::size_t i = 0; i < out_.hinges.size(); ++i) judge_hinge(i);
+    for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) judge_tetrahedron(t);
+    for (std::size_t i = 0; i < out_.meetings.size(); ++i) {
+      one(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i],
+          truth_.meeting_stiffness[i]);
+      one(of_meeting, "friction of meeting", i, out_.meetings[i].friction, truth_.meeting_friction[i],
+          truth_.meeting_friction[i]);
+    }
+  }
+
+ private:
+  void one(Metric metric, const char* what, std::size_t i, double value, double exact, double scale) {
+    error(metric, what, i, std::abs(value - exact), scale, value, exact);
+  }
+
+  void error(Metric metric, const char* what, std::size_t i, double off, double scale, double value, double exact) {
+    tally_.error(metric, in_units(off, scale), [&] {
+      return std::string(what) + " " + std::to_string(i) + text(": %.9g, exact %.17g", value, exact);
+    });
+  }
+
+  bool has_length(const char* what, std::size_t length, std::size_t wanted) {
+    if (length == wanted) return true;
+    tally_.mismatch(std::string(what) + ": " + std::to_string(length) + " entries instead of " +
+                    std::to_string(wanted));
+    return false;
+  }
+
+  bool has_right_lengths() {
+    return has_length("mass", out_.mass.size(), exact_.mass.size()) &&
+           has_length("triangles", out_.triangles.size(), exact_.triangles.size()) &&
+           has_length("hinges", out_.hinges.size(), exact_.hinges.size()) &&
+           has_length("tetrahedra", out_.tetrahedra.size(), exact_.tetrahedra.size()) &&
+           has_length("edge_length_squared", out_.edge_length_squared.size(), exact_.edge_length_squared.size()) &&
+           has_length("meetings", out_.meetings.size(), exact_.meetings.size());
+  }
+
+  bool names_right_vertices() {
+    for (std::size_t t = 0; t < out_.triangles.size(); ++t) {
+      const RestTriangle &a = out_.triangles[t], &b = exact_.triangles[t];
+      if (a.corner != b.corner || a.body != b.body) return wrong_name("triangle", t);
+    }
+    for (std::size_t i = 0; i < out_.hinges.size(); ++i) {
+      const RestHinge &a = out_.hinges[i], &b = exact_.hinges[i];
+      if (a.vertex != b.vertex || a.body != b.body) return wrong_name("hinge", i);
+    }
+    for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) {
+      const RestTetrahedron &a = out_.tetrahedra[t], &b = exact_.tetrahedra[t];
+      if (a.corner != b.corner || a.body != b.body) return wrong_name("tetrahedron", t);
+    }
+    return true;
+  }
+
+  bool wrong_name(const char* what, std::size_t i) {
+    tally_.mismatch(std::string(what) + " " + std::to_string(i) +
+                    " has other vertices, or another body, than the one that stands there");
+    return false;
+  }
+
+  void judge_triangle(std::size_t t) {
+    one(of_area, "triangle", t, out_.triangles[t].area, truth_.area[t], truth_.area_scale[t]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& value = out_.triangles[t].gradient[k];
+      const auto& exact = truth_.gradient[t][k];
+      error(of_gradient, k == 0 ? "first gradient of triangle" : "second gradient of triangle", t,
+            std::hypot(value[0] - exact[0], value[1] - exact[1]), truth_.gradient_scale[t][k],
+            std::hypot(value[0], value[1]), std::hypot(exact[0], exact[1]));
+    }
+  }
+
+  void judge_hinge(std::size_t i) {
+    const double angle = out_.hinges[i].rest_angle, exact = truth_.rest_angle[i], scale = truth_.rest_angle_scale[i];
+    const double turned = exact - std::copysign(2 * std::numbers::pi, exact);
+    const bool is_turned = is_folded(exact, scale) && std::abs(angle - turned) < std::abs(angle - exact);
+    if (is_turned && in_units(std::abs(angle - turned), scale) <= rest_state_angle_tolerance)
+      tally_.answered_not_exactly();
+    one(of_rest_angle, "hinge", i, angle, is_turned ? turned : exact, scale);
+    one(of_stiffness, "hinge", i, out_.hinges[i].stiffness, truth_.stiffness[i], truth_.stiffness_scale[i]);
+    const auto& weight = out_.hinges[i].weight;
+    const auto& right = truth_.weight[i];
+    error(of_weight, "weights of hinge", i,
+          std::hypot(weight[0] - right[0], weight[1] - right[1], weight[2] - right[2]), truth_.weight_scale[i],
+          std::hypot(weight[0], weight[1], weight[2]), std::hypot(right[0], right[1], right[2]));
+  }
+
+  void judge_tetrahedron(std::size_t t) {
+    const RestTetrahedron& rest = out_.tetrahedra[t];
+    one(of_tetrahedron, "volume of tetrahedron", t, rest.volume, truth_.volume[t], truth_.volume_scale[t]);
+    one(of_tetrahedron, "inverse of tetrahedron", t, rest.inverse, truth_.inverse[t], truth_.inverse_scale[t]);
+    for (std::size_t k = 0; k < 6; ++k)
+      one(of_tetrahedron, "a weight of tetrahedron", t, rest.weight[k], truth_.tetrahedron_weight[t][k],
+          truth_.tetrahedron_weight_scale[t]);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        one(of_tetrahedron, "a gradient of tetrahedron", t, rest.gradient[k][axis],
+            truth_.tetrahedron_gradient[t][k][axis], truth_.tetrahedron_gradient_scale[t]);
+  }
+
+  const RestStateTruth& truth_;
+  const RestStateOut &exact_, &out_;
+  Tally& tally_;
+};
+
+}  // namespace
+
+void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const RestStateOut& out, Tally& tally) {
+  tally.begin(test.name);
+  std::uint64_t folded = 0;
+  for (std::size_t i = 0; i < truth.rest_angle.size(); ++i)
+    folded += is_folded(truth.rest_angle[i], truth.rest_angle_scale[i]);
+  tally.count(truth.mass.size(), truth.rest_angle.size(), folded);
+  RestVerdict(truth, out, tally).judge();
+}
+
+namespace {
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& x : values) x *= factor;
+}
+
+/// The rounded answer from the values.
+void round_exact(RestStateTruth& truth) {
+  RestStateOut& exact = truth.exact;
+  exact.mass.assign(truth.mass.begin(), truth.mass.end());
+  exact.edge_length_squared.assign(truth.edge_length_squared.begin(), truth.edge_length_squared.end());
+  for (std::size_t t = 0; t < exact.triangles.size(); ++t) {
+    exact.triangles[t].area = static_cast<float>(truth.area[t]);
+    for (std::size_t k = 0; k < 2; ++k)
+      exact.triangles[t].gradient[k] = {static_cast<float>(truth.gradient[t][k][0]),
+                                        static_cast<float>(truth.gradient[t][k][1])};
+  }
+  for (std::size_t i = 0; i < exact.hinges.size(); ++i) {
+    exact.hinges[i].rest_angle = static_cast<float>(truth.rest_angle[i]);
+    exact.hinges[i].stiffness = static_cast<float>(truth.stiffness[i]);
+  }
+}
+
+template <class Change>
+WrongForm rest_told(std::string name, std::string meaning, Change change) {
+  return told(std::move(name), std::move(meaning), &Authority::rest_state,
+              [change](const RestStateIn&, RestStateTruth& truth) {
+                change(truth);
+                round_exact(truth);
+              });
+}
+
+std::vector<WrongForm> rest_state_forms() {
+  return {
+      rest_told("area_not_halved", "twice the area of each triangle: the cross product itself",
+                [](RestStateTruth& truth) { scale(truth.area, 2), scale(truth.area_scale, 2); }),
+      rest_told("mass_of_whole_triangles", "ρ A in place of ρ A/3 for each corner",
+                [](RestStateTruth& truth) { scale(truth.mass, 3), scale(truth.mass_scale, 3); }),
+      rest_told("rest_angle_flipped", "θ₀ with the other sign",
+                [](RestStateTruth& truth) { scale(truth.rest_angle, -1); }),
+      rest_told("rest_angle_missing", "θ₀ is 0", [](RestStateTruth& truth) { scale(truth.rest_angle, 0); }),
+      rest_told("hinge_stiffness_third", "k_b ‖e‖²/(A₀ + A₁) without the factor 3",
+                [](RestStateTruth& truth) { scale(truth.stiffness, 1.0 / 3), scale(truth.stiffness_scale, 1.0 / 3); }),
+      rest_told("lengths_not_squared", "lengths of edges in place of their squares",
+                [](RestStateTruth& truth) {
+                  for (double& x : truth.edge_length_squared) x = std::sqrt(x);
+                  for (double& x : truth.edge_length_squared_scale) x = std::sqrt(x);
+                }),
+      rest_told("gradients_exchanged", "∇N₁ and ∇N₂ exchanged", [](RestStateTruth& truth) {
+        for (auto& gradient : truth.gradient) std::swap(gradient[0], gradient[1]);
+        for (auto& scales : truth.gradient_scale) std::swap(scales[0], scales[1]);
+      })};
+}
+
+Json wide_points_to_json(const std::vector<Vec3>& points) { return points_to_json(to_single(points)); }
+
+std::vector<Vec3> to_wide_points(const Json& json) {
+  std::vector<Vec3f> points;
+  for (const Json& p : json) points.push_back(to_point(p));
+  return to_double(points);
+}
+
+Json body_to_json(const Body& body) {
+  Json json{{"name", body.name},
+            {"vertices", body.vertex_count},
+            {"triangles", body.triangle_count},
+            {"tetrahedra", body.tetrahedron_count},
+            {"fixed", body.fixed},
+            {"membrane", name_of(body.material.membrane)},
+            {"bending", name_of(body.material.bending)}};
+  for (const MaterialInfo& info : material_table())
+    json[std::string(info.name)] = hexadecimal(static_cast<float>(body.material.*info.field));
+  return json;
+}
+
+/// The next body after those that the scene has.
+Body to_body(const Json& json, const Scene& scene) {
+  Body body;
+  body.name = json.at("name").get<std::string>();
+  if (!scene.bodies.empty()) {
+    body.first_vertex = scene.bodies.back().first_vertex + scene.bodies.back().vertex_count;
+    body.first_triangle = scene.bodies.back().first_triangle + scene.bodies.back().triangle_count;
+    body.first_tetrahedron = scene.bodies.back().first_tetrahedron + scene.bodies.back().tetrahedron_count;
+  }
+  body.vertex_count = json.at("vertices").get<Index>();
+  body.triangle_count = json.at("triangles").get<Index>();
+  body.tetrahedron_count = json.value("tetrahedra", Index{0});
+  body.fixed = json.at("fixed").get<bool>();
+  body.material.membrane = static_cast<MembraneModel>(number_of(json.at("membrane"), membrane_model_names()));
+  body.material.bending = static_cast<BendingModel>(number_of(json.at("bending"), bending_model_names()));
+  // A case that is older than a constant has its default.
+  for (const MaterialInfo& info : material_table())
+    if (json.contains(info.name)) body.material.*info.field = number(json.at(std::string(info.name)));
+  return body;
+}
+
+struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::rest_state>,
+                   TakenWhole,
+                   Numbered,
+                   NoParameters {
+  using Case = RestStateCase;
+  static constexpr StageInfo info{.name = "rest_state",
+                                  .question = "masses, stencils, rest angles, meeting stiffness of a scene",
+                                  .unit = "vertex",
+                                  .reference = "reference/energies/rest_state.cpp",
+                                  .kind = CaseKind::mesh,
+                                  .has_boundary = false,
+                                  .determinism = Determinism::cpu_to_gpu};
+  static constexpr std::array metrics{MetricInfo{"mass", "u cond", rest_state_tolerance},
+                                      MetricInfo{"area", "u cond", rest_state_tolerance},
+                                      MetricInfo{"gradient", "u cond", rest_state_tolerance},
+                                      MetricInfo{"edge_length_squared", "u cond", rest_state_tolerance},
+                                      MetricInfo{"rest_angle", "u cond", rest_state_angle_tolerance},
+                                      MetricInfo{"stiffness", "u cond", rest_state_tolerance},
+                                      MetricInfo{"weight", "u cond", rest_state_tolerance},
+                                      MetricInfo{"meeting", "u value", rest_state_tolerance},
+                                      MetricInfo{"tetrahedron", "u cond", rest_state_tolerance}};
+
+  static std::span<const Generator> generators() { return rest_state_generators(); }
+
+  static void check(const Case& c, FirstProblem& problem) {
+    const std::string why = problems_of(c);
+    problem.require(why.empty(), why.c_str());
+  }
+  static void mutate(Random& random, Case& c) {
+    Case other = c;
+    for (int attempt = 0; attempt < 8; ++attempt) {
+      auto scene = std::make_shared<Scene>(*c.scene);
+      scene->rest_positions = mutated(random, c.scene->rest_positions);
+      other.scene = std::move(scene);
+      if (!problems_of(other).empty()) continue;
+      c = std::move(other);
+      return;
+    }
+  }
+  static std::vector<float*> coordinates(Case&) { return {}; }
+  static std::string missing_in(const States& states) { return problems_of(states.rest_state()); }
+  static Case of_state(const States& states, std::uint64_t, Random&) { return states.rest_state(); }
+  static Case of_scene(const Scene& scene, const Contestant&) {
+    return {std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
+  }
+
+  /// What the stage reads of the scene, and the start positions, which it must not read.
+  static Json write(const Case& c) {
+    const Scene& scene = *c.scene;
+    Json bodies = Json::array(), held = Json::array();
+    for (const Body& body : scene.bodies) bodies.push_back(body_to_json(body));
+    for (const PrescribedMotion& motion : scene.motions)
+      held.push_back({{"name", motion.name}, {"vertices", motion.vertices}});
+    return {{"rest_positions", wide_points_to_json(scene.rest_positions)},
+            {"positions", wide_points_to_json(scene.mesh.positions)},
+            {"triangles", scene.mesh.triangles},
+            {"loose_edges", scene.mesh.loose_edges},
+            {"tetrahedra", scene.mesh.tetrahedra},
+            {"bodies", bodies},
+            {"motions", held}};
+  }
+  static Case read(const Json& data) {
+    Scene scene;
+    scene.name = "rest";
+    scene.rest_positions = to_wide_points(data.at("rest_positions"));
+    scene.mesh.positions = to_wide_points(data.at("positions"));
+    scene.mesh.triangles = data.at("triangles").get<std::vector<Triangle>>();
+    scene.mesh.loose_edges = data.at("loose_edges").get<std::vector<Edge>>();
+    if (data.contains("tetrahedra")) scene.mesh.tetrahedra = data.at("tetrahedra").get<std::vector<Tetrahedron>>();
+    scene.velocities.resize(scene.mesh.positions.size());
+    for (const Json& body : data.at("bodies")) scene.bodies.push_back(to_body(body, scene));
+    for (const Json& json : data.at("motions")) {
+      PrescribedMotion motion;
+      motion.name = json.at("name").get<std::string>();
+      motion.vertices = json.at("vertices").get<std::vector<Index>>();
+      scene.motions.push_back(std::move(motion));
+    }
+    round_to_single(scene);
+    Case c;
+    c.topology = std::make_shared<Topology>(build_topology(scene));
+    c.scene = std::make_shared<Scene>(std::move(scene));
+    if (const std::string problems = problems_of(c); !problems.empty()) throw InputError(problems);
+    return c;
+  }
+
+  static Shape shape(const Case& c) {
+    Shape shape;
+    shape.add(*c.topology, to_single(c.scene->rest_positions));
+    return shape;
+  }
+  static std::vector<Quantity> inputs(const Case& c) {
+    return joined(mesh_quantities(*c.topology), scene_quantities(*c.scene),
+                  std::vector{points("rest_positions", "m", c.scene->rest_positions)});
+  }
+
+  static In question(const Case& c) { return {c.scene.get(), c.topology.get()}; }
+  static constexpr auto judge = judge_rest_state;
+  static void add(Bits& bits, const Out& out) { bits.add(out); }
+  static std::vector<Quantity> outputs(const In&, const Out& out) {
+    std::vector<std::array<float, 4>> gradients;
+    std::vector<std::array<float, 3>> weights;
+    for (const RestTriangle& t : out.triangles)
+      gradients.push_back({t.gradient[0][0], t.gradient[0][1], t.gradient[1][0], t.gradient[1][1]});
+    for (const RestHinge& h : out.hinges) weights.push_back(h.weight);
+    std::vector<std::array<float, 6>> tetrahedron_weights;
+    for (const RestTetrahedron& t : out.tetrahedra) tetrahedron_weights.push_back(t.weight);
+    return {compare::numbers("mass", "kg", out.mass),
+            each("area", "m²", out.triangles, [](const RestTriangle& t) { return t.area; }),
+            rows("gradient", "1/m", gradients),
+            each("rest_angle", "rad", out.hinges, [](const RestHinge& h) { return h.rest_angle; }),
+            each("hinge_stiffness", "J", out.hinges, [](const RestHinge& h) { return h.stiffness; }),
+            rows("weight", "1/m", weights),
+            each("volume", "m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.volume; }),
+            each("inverse", "1/m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.inverse; }),
+            rows("tetrahedron_weight", "m", tetrahedron_weights),
+            compare::numbers("edge_length_squared", "m²", out.edge_length_squared),
+            each("meeting_stiffness", "N/m", out.meetings, [](const MeetingMaterial& m) { return m.stiffness; }),
+            each("meeting_friction", "1", out.meetings, [](const MeetingMaterial& m) { return m.friction; })};
+  }
+  static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return outputs(in, truth.exact); }
+  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return rest_state_forms(); }
+};
+
+}  // namespace
+
+constinit const StageTraits stages::rest_state = make_traits<RestState>();
+
+}  // namespace ogc::compare

@@ -1,0 +1,260 @@
+// From a class to the traits of a stage. The class says what is the stage's own; its bases here say how such a stage is
+// asked. Who forgets a member of the traits is told so by the compiler.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/cases/legal.hpp"
+#include "compare/judge/cases/states.hpp"
+#include "compare/judge/engine/ask.hpp"
+#include "compare/judge/engine/benchmark.hpp"
+#include "compare/judge/engine/bits.hpp"
+#include "compare/judge/engine/shrink.hpp"
+#include "compare/judge/report/answers.hpp"
+#include "compare/judge/report/quantities.hpp"
+#include "compare/judge/report/shape.hpp"
+#include "compare/judge/report/wrong_forms.hpp"
+#include "compare/judge/stages/verdict.hpp"
+
+namespace ogc::compare {
+
+/// S::of_scene, whose case becomes data; null where there is none.
+template <class S>
+constexpr auto scene_maker() -> CaseData (*)(const Scene&, const Contestant&) {
+  if constexpr (std::is_null_pointer_v<decltype(S::of_scene)>)
+    return nullptr;
+  else
+    return [](const Scene& scene, const Contestant& contestant) -> CaseData { return S::of_scene(scene, contestant); };
+}
+
+/// The traits of the stage that `S` describes: `S::Case` is the type of its cases, all other members are those of
+/// StageTraits under the same names, on cases of that type.
+template <class S>
+constexpr StageTraits make_traits() {
+  using Case = typename S::Case;
+  return {
+      .info = S::info,
+      .generators = S::generators,
+      .metrics = S::metrics,
+      .parameters = S::parameters,
+      .check = [](const CaseData& data, FirstProblem& problem) { S::check(case_of<Case>(data), problem); },
+      .set = [](CaseData& data, std::span<const Override> values) { return S::set(case_of<Case>(data), values); },
+      .mutate = [](Random& random, CaseData& data) { S::mutate(random, case_of<Case>(data)); },
+      .coordinates = [](CaseData& data) -> std::vector<float*> { return S::coordinates(case_of<Case>(data)); },
+      .missing_in = [](const States& states) -> std::string { return S::missing_in(states); },
+      .of_state = [](const States& states, std::uint64_t index, Random& random) -> CaseData {
+        return S::of_state(states, index, random);
+      },
+      .write = [](const CaseData& data) { return S::write(case_of<Case>(data)); },
+      .read = [](const nlohmann::ordered_json& json) -> CaseData { return S::read(json); },
+      .shape = [](const CaseData& data) { return S::shape(case_of<Case>(data)); },
+      .inputs = [](const CaseData& data) { return S::inputs(case_of<Case>(data)); },
+      .mesh = [](const CaseData& data) -> const Topology* { return S::mesh(case_of<Case>(data)); },
+      .part = [](const CaseData& data, const MeshPart& part) -> CaseData { return S::part(case_of<Case>(data), part); },
+      .numbers = [](CaseData& data) { return S::numbers(case_of<Case>(data)); },
+      .can_judge = S::can_judge,
+      .ask = S::ask,
+      .bits = S::bits,
+      .answers = S::answers,
+      .wrong_forms = S::wrong_forms,
+      .benchmark = S::benchmark,
+      .of_scene = scene_maker<S>(),
+      .is_same_renumbered = S::is_same_renumbered};
+}
+
+/// A case that does not get smaller.
+struct TakenWhole {
+  /// Members of StageTraits that say so.
+  template <class Case>
+  static const Topology* mesh(const Case&) {
+    return nullptr;
+  }
+  template <class Case>
+  static Case part(const Case& c, const MeshPart&) {
+    return c;
+  }
+  template <class Case>
+  static ShortenedNumbers numbers(Case&) {
+    return {};
+  }
+};
+
+/// Answers that depend on the numbers of vertices and triangles, or have none.
+struct Numbered {
+  /// None.
+  static constexpr std::nullptr_t is_same_renumbered = nullptr;
+};
+
+/// Benchmarks take the stage's own generic cases.
+struct OwnCases {
+  /// None.
+  static constexpr std::nullptr_t of_scene = nullptr;
+};
+
+/// Cases that have no numbers for a problem string to set.
+struct NoParameters {
+  /// None, and none to set.
+  static constexpr std::span<const ParameterInfo> parameters{};
+  template <class Case>
+  static std::string set(Case&, std::span<const Override>) {
+    return {};
+  }
+};
+
+/// Parameters that are numbers of the case: `S::place(case, name)` finds one.
+template <class S>
+struct ParametersInPlace {
+  /// Each value to its place.
+  template <class Case>
+  static std::string set(Case& c, std::span<const Override> values) {
+    for (const Override& value : values) *S::place(c, value.name) = value.value;
+    return {};
+  }
+};
+
+/// Every run has cases.
+struct InEveryRun {
+  /// Nothing is missing.
+  static std::string missing_in(const States&) { return {}; }
+};
+
+/// Runs with a contact have cases.
+struct OfContacts {
+  /// A contact, in runs without any.
+  static std::string missing_in(const States& states) {
+    return states.has_contact() ? "" : "none of its frames has a contact";
+  }
+};
+
+/// In of a stage whose questions are its cases as they are.
+template <class In, class Case>
+In case_question(Cases cases, std::vector<Case> In::*questions) {
+  In in;
+  for (const TestCase& test : cases) (in.*questions).push_back(case_of<Case>(test.data));
+  return in;
+}
+
+/// Question and answer of one side.
+template <class Member>
+struct SideTypes;
+template <class Answered, class Asked, class Side>
+struct SideTypes<std::function<Answered(const Asked&)> Side::*> {
+  using In = Asked;
+  using Answer = Answered;
+};
+
+/// The contestant's answer, or nothing, and why in the note.
+template <class Out, class In>
+std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestant, const In& in, std::string& note) {
+  try {
+    return contestant(in);
+  } catch (const ContestantFailure& failure) {
+    note = std::string("no answer: ") + failure.what();
+    return std::nullopt;
+  }
+}
+
+/// A stage that both sides answer to the same question. `S::outputs(in, answer)` tells an Out and a Truth by name.
+template <class S, auto contestant, auto authority>
+struct SameQuestion {
+  using In = typename SideTypes<decltype(contestant)>::In;
+  using Out = typename SideTypes<decltype(contestant)>::Answer;
+  using Truth = typename SideTypes<decltype(authority)>::Answer;
+
+  /// Both sides have it.
+  static bool can_judge(const Contestant& c, const Authority& a) { return c.*contestant && a.*authority; }
+
+  /// What is to say beside an exact answer.
+  static std::string note(const Truth&) { return {}; }
+
+  /// Asks both sides about the case.
+  static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
+    const In in = S::question_of(test);
+    const Truth truth = (a.*authority)(in);
+    std::string note = S::note(truth);
+    const std::optional<Out> out = answer_or_note(c.*contestant, in, note);
+    return paired(out ? S::outputs(in, *out) : std::vector<Quantity>{}, S::outputs(in, truth), note);
+  }
+};
+
+/// Single cases, many of which make one question. `S::question(cases)`, `S::judge(cases, in, truth, out, tally)`;
+/// `S::arrays(out)` ties the arrays of an answer, whose entry i belongs to case i.
+template <class S, auto contestant, auto authority>
+struct BatchStage : SameQuestion<S, contestant, authority>, Numbered, OwnCases {
+  using typename SameQuestion<S, contestant, authority>::In;
+  using typename SameQuestion<S, contestant, authority>::Out;
+
+  /// One case alone.
+  static In question_of(const TestCase& test) { return S::question({&test, 1}); }
+
+  /// One question to each side.
+  static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
+    const In in = S::question(cases);
+    S::judge(cases, in, asker.truth(in, a.*authority), asker.answer(in, c.*contestant), tally);
+  }
+
+  /// One question; entry i of each array belongs to case i.
+  static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
+    const Out out = (c.*contestant)(S::question(cases));
+    return std::apply([&](const auto&... arrays) { return bits_by_case(cases.size(), arrays...); }, S::arrays(out));
+  }
+
+  /// All cases at once.
+  static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
+    const auto in = std::make_shared<const In>(S::question(cases));
+    return {[in, stage = c.*contestant] { stage(*in); }, static_cast<std::int64_t>(cases.size())};
+  }
+};
+
+/// Meshes, each a question of its own, a view of the case. `S::question(case)`, `S::judge(test, truth, out, tally)`;
+/// `S::add(bits, out)` adds an answer's bits.
+template <class S, auto contestant, auto authority>
+struct MeshStage : SameQuestion<S, contestant, authority> {
+  using typename SameQuestion<S, contestant, authority>::In;
+
+  /// A view of the case.
+  static In question_of(const TestCase& test) { return S::question(case_of<typename S::Case>(test.data)); }
+
+  /// One question a mesh to each side.
+  static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
+    for (const TestCase& test : cases) {
+      const In in = question_of(test);
+      S::judge(test, asker.truth(in, a.*authority), asker.answer(in, c.*contestant), tally);
+    }
+  }
+
+  /// One question a mesh.
+  static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
+    std::vector<std::string> all;
+    for (const TestCase& test : cases) {
+      Bits bits;
+      S::add(bits, (c.*contestant)(question_of(test)));
+      all.push_back(bits.take());
+    }
+    return all;
+  }
+
+  /// Of a benchmark: vertices.
+  template <class Case>
+  static std::int64_t items(const Case& c) {
+    return c.topology->vertex_count;
+  }
+
+  /// Of the first case.
+  static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
+    const auto test = std::make_shared<const TestCase>(cases.front());
+    return {[test, in = question_of(*test), stage = c.*contestant] { stage(in); },
+            S::items(case_of<typename S::Case>(test->data))};
+  }
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,287 @@
+// Verdict of a step: what each event asks its own stage, from the answer's own state before it, so that the event which
+// is named is the one that is wrong. The first wrong event ends the case: what follows it may be garbage that no stage
+// should be asked about.
+#include <algorithm>
+#include <cmath>
+
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/stages/mesh_case.hpp"
+#include "compare/judge/stages/verdict.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+const char* name_of(StepEventKind kind) {
+  constexpr const char* names[] = {"detection", "guess", "sweep"};
+  return names[std::min(2, static_cast<int>(kind))];
+}
+
+std::string where_of(const StepOut& out, std::size_t event) {
+  return "event " + std::to_string(event) + ", " + name_of(out.events[event].kind);
+}
+
+class StepVerdict {
+ public:
+  StepVerdict(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out,
+              const Authority& authority, Tally& tally)
+      : test_(test),
+        in_(in),
+        truth_(truth),
+        out_(out),
+        authority_(authority),
+        tally_(tally),
+        groups_(rigid_groups(*in.scene)),
+        partners_(exclusions(*in.scene).partners),
+        start_(to_single(in.scene->mesh.positions)),
+        at_(start_),
+        wrong_before_(tally.mismatched) {}
+
+  void judge() {
+    judge_parts();
+    tally_.count(start_.size() * out_.events.size(), decisions_, grey_);
+  }
+
+ private:
+  bool right() const { return tally_.mismatched == wrong_before_; }
+
+  void judge_parts() {
+    part("rest", Stage::rest_state, [&](Tally& own) {
+      judge_rest_state(test_, authority_.rest_state({in_.scene, in_.topology}), out_.rest, own);
+    });
+    if (!right()) return;
+    judge_colours();
+    judge_targets();
+    tally_.error(0, in_units(std::abs(out_.query_radius - truth_.query_radius), truth_.query_radius_scale),
+                 [&] { return text("%.9g, exact %.17g", out_.query_radius, truth_.query_radius); });
+    if (right()) judge_events();
+    if (right()) judge_end();
+  }
+
+  std::string where(std::size_t i) const { return where_of(out_, i); }
+  static std::string vertex(std::size_t v) { return ": vertex " + std::to_string(v); }
+
+  /// Judges a part by the judge of its own stage.
+  template <class Judge>
+  void part(const std::string& prefix, Stage stage, Judge judge) {
+    Tally own(stage);
+    judge(own);
+    const GeneratorTally total = own.total();
+    decisions_ += total.decisions;
+    grey_ += total.grey;
+    tally_.answered_not_exactly(total.not_exact);
+    for (const Mismatch& item : own.mismatches)
+      tally_.mismatch(prefix + " (stage " + std::string(stage_name(stage)) + "): " + item.message);
+  }
+
+  /// Any colouring in which no two free vertices of a stencil share a colour.
+  void judge_colours() {
+    const auto& colour = out_.colour;
+    for (std::size_t v = 0; v < colour.size(); ++v)
+      if ((groups_[v] == -1) != (colour[v] >= 0) || colour[v] < -1)
+        tally_.mismatch("colour" + vertex(v) + " has " + std::to_string(colour[v]));
+    const auto apart = [&](const auto& vertices) {
+      for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+          if (colour[vertices[i]] >= 0 && colour[vertices[i]] == colour[vertices[k]])
+            tally_.mismatch("colour" + vertex(static_cast<std::size_t>(vertices[i])) + " shares that of vertex " +
+                            std::to_string(vertices[k]));
+    };
+    if (!right()) return;
+    for (const RestTriangle& t : out_.rest.triangles) apart(t.corner);
+    for (const RestHinge& h : out_.rest.hinges) apart(h.vertex);
+    for (const RestTetrahedron& t : out_.rest.tetrahedra) apart(t.corner);
+  }
+
+  void judge_targets() {
+    const Scene& scene = *in_.scene;
+    const std::vector<Vec3f> velocity = to_single(scene.velocities);
+    const Vec3f acceleration = to_single({scene.gravity})[0];
+    InitialGuessIn question;
+    for (std::size_t v = 0; v < start_.size(); ++v) {
+      InitialGuessCase c;
+      c.start = c.previous = start_[v];
+      c.velocity = velocity[v];
+      c.acceleration = acceleration;
+      c.time_step = static_cast<float>(scene.settings.time_step);
+      question.cases.push_back(c);
+    }
+    const InitialGuessTruth exact = authority_.initial_guess(question);
+    for (std::size_t v = 0; v < start_.size(); ++v) {
+      const Vec3f& y = out_.target[v];
+      if (groups_[v] != -1) {
+        if (!(y == (groups_[v] == 0 ? start_[v] : truth_.prescribed_target[v])))
+          tally_.mismatch("target" + vertex(v) + " is not where its motion leads");
+        continue;
+      }
+      const Vec3& x = exact.target[v];
+      const double error = std::max({std::abs(y.x - x.x), std::abs(y.y - x.y), std::abs(y.z - x.z)});
+      tally_.error(1, in_units(error, exact.target_scale[v]), [&] {
+        return "target" + vertex(v) + text(" is %.4g m off, of %.4g", error, exact.target_scale[v]);
+      });
+    }
+  }
+
+  void judge_events() {
+    const std::size_t common = std::min(truth_.events.size(), out_.events.size());
+    for (std::size_t i = 0; i < common && right(); ++i) {
+      const StepEvent& event = out_.events[i];
+      if (event.kind != truth_.events[i]) {
+        const std::string after = i > 0 ? std::to_string(out_.events[i - 1].cut) + " vertices having been cut"
+                                        : "at the start";
+        tally_.mismatch(where(i) + ": a " + name_of(truth_.events[i]) + " is due, " + after);
+        return;
+      }
+      switch (event.kind) {
+        case StepEventKind::detection: judge_detection(i); break;
+        case StepEventKind::guess: judge_guess(i); break;
+        case StepEventKind::sweep: judge_iteration(i); break;
+      }
+      at_ = event.position;
+    }
+    if (right() && out_.events.size() != truth_.events.size())
+      tally_.mismatch("events: " + std::to_string(out_.events.size()) + " instead of " +
+                      std::to_string(truth_.events.size()));
+  }
+
+  /// X_prev is x, sets and smallest distances are those at X_prev, bounds those of the answer's own distances.
+  void judge_detection(std::size_t i) {
+    const StepEvent& event = out_.events[i];
+    detection_ = &event;
+    for (std::size_t v = 0; v < at_.size(); ++v)
+      if (!(event.position[v] == at_[v]))
+        tally_.mismatch(where(i) + vertex(v) + " has an X_prev that is not its position");
+    if (!right()) return;
+    const TestCase mesh{test_.name,
+                        MeshCase{case_of<StepCase>(test_.data).topology, groups_, event.position,
+                                 static_cast<float>(in_.scene->settings.contact_radius), out_.query_radius, partners_}};
+    const DetectIn question = detect_question(case_of<MeshCase>(mesh.data));
+    part(where(i), Stage::detect_vertex_facet, [&](Tally& own) {
+      judge_detect_vertex_facet(mesh, authority_.detect_vertex_facet(question), event.vertex_facet, own);
+    });
+    part(where(i), Stage::detect_edge_edge, [&](Tally& own) {
+      judge_detect_edge_edge(mesh, authority_.detect_edge_edge(question), event.edge_edge, own);
+    });
+    if (!right()) return;
+    const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
+                         event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
+    part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
+    ++detections_;
+  }
+
+  /// Vertices that are part of an active contact; each contact is active, as X_prev = x.
+  std::vector<std::uint8_t> touched() const {
+    std::vector<std::uint8_t> touched(start_.size(), 0);
+    const auto mark = [&](const Face& face) {
+      if (face.kind == FaceKind::vertex) touched[face.index] = 1;
+      if (face.kind == FaceKind::edge)
+        for (const Index v : in_.topology->edges[face.index]) touched[v] = 1;
+      if (face.kind == FaceKind::triangle)
+        for (const Index v : in_.topology->triangles[face.index]) touched[v] = 1;
+    };
+    for (const VertexFacetContact& c : detection_->vertex_facet.contacts)
+      mark({FaceKind::vertex, c.vertex}), mark(c.face);
+    for (const EdgeEdgeContact& c : detection_->edge_edge.contacts) mark(c.first), mark(c.second);
+    return touched;
+  }
+
+  /// y, truncated; in the first round for all vertices, later for those that touch nothing. A vertex that is not at y
+  /// was cut: no cut leads to y itself, which lies beyond the bound.
+  void judge_guess(std::size_t i) {
+    const StepEvent& event = out_.events[i];
+    const std::vector<std::uint8_t> held = detections_ > 1 ? touched() : std::vector<std::uint8_t>(start_.size(), 0);
+    Index cut = 0;
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+      if (held[v]) {
+        if (!(event.position[v] == at_[v]))
+          tally_.mismatch(where(i) + vertex(v) + " is part of an active contact and did not stay");
+        continue;
+      }
+      const bool is_cut = !(event.position[v] == out_.target[v]);
+      cut += is_cut;
+      const TruncateIn question{{at_[v]}, {out_.target[v]}, {detection_->bound[v]}};
+      part(where(i) + vertex(v), Stage::truncate, [&](Tally& own) {
+        judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {is_cut}}, own);
+      });
+    }
+    if (event.cut != cut)
+      tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, " + std::to_string(cut) +
+                      " are not at y");
+  }
+
+  void judge_iteration(std::size_t i) {
+    const StepEvent& event = out_.events[i];
+    const SweepIn question{in_.scene,
+                           in_.topology,
+                           &out_.rest,
+                           out_.colour,
+                           at_,
+                           start_,
+                           out_.target,
+                           detection_->position,
+                           detection_->bound,
+                           detection_->vertex_facet.contacts,
+                           detection_->edge_edge.contacts};
+    const SweepOut answer{event.position, event.cut};
+    part(where(i), Stage::sweep, [&](Tally& own) {
+      if (can_judge_sweep(test_, question, answer, own))
+        judge_sweep(test_, question, authority_.sweep(question, answer), answer, own);
+    });
+  }
+
+  void judge_end() {
+    for (std::size_t v = 0; v < start_.size(); ++v) {
+      if (!(out_.position[v] == at_[v])) tally_.mismatch("end" + vertex(v) + " is not where the last event left it");
+      const Vec3f& a = out_.velocity[v];
+      const Vec3& b = truth_.velocity[v];
+      const double error = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+      tally_.error(2, in_units(error, truth_.velocity_scale[v]), [&] {
+        return "end" + vertex(v) + text(" has a velocity %.4g m/s off, of %.4g", error, std::hypot(b.x, b.y, b.z));
+      });
+    }
+  }
+
+  const TestCase& test_;
+  const StepIn& in_;
+  const StepTruth& truth_;
+  const StepOut& out_;
+  const Authority& authority_;
+  Tally& tally_;
+  std::vector<Index> groups_;
+  CompressedRows partners_;
+  std::vector<Vec3f> start_;
+  std::vector<Vec3f> at_;                 ///< x before the event
+  const StepEvent* detection_ = nullptr;  ///< the last
+  int detections_ = 0;
+  std::uint64_t wrong_before_, decisions_ = 0, grey_ = 0;
+};
+
+}  // namespace
+
+bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, Tally& tally) {
+  tally.begin(test.name);
+  const std::size_t wanted = in.scene->mesh.positions.size();
+  bool right = true;
+  const auto check = [&](std::size_t length, const std::string& what) {
+    if (length == wanted) return;
+    tally.mismatch(what + " has " + std::to_string(length) + " entries instead of " + std::to_string(wanted));
+    right = false;
+  };
+  check(out.colour.size(), "colour");
+  check(out.target.size(), "target");
+  check(out.position.size(), "position");
+  check(out.velocity.size(), "velocity");
+  for (std::size_t i = 0; i < out.events.size(); ++i) {
+    check(out.events[i].position.size(), where_of(out, i) + ": position");
+    if (out.events[i].kind == StepEventKind::detection) check(out.events[i].bound.size(), where_of(out, i) + ": bound");
+  }
+  return right;
+}
+
+void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out,
+                const Authority& authority, Tally& tally) {
+  tally.begin(test.name);
+  StepVerdict(test, in, truth, out, authority, tally).judge();
+}
+
+}  // namespace ogc::compare

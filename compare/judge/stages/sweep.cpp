@@ -1,0 +1,285 @@
+// Stage sweep. The judge decides about bounds by exact arithmetic of its own, and holds all else to the authority's
+// truth about this answer.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "compare/judge/cases/dust.hpp"
+#include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/engine/exact_sum.hpp"
+#include "compare/judge/engine/scene_json.hpp"
+#include "compare/judge/engine/sweep_question.hpp"
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/parameter_ranges.hpp"
+#include "compare/judge/stages/stage_of.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+/// Vertices that are cut, or may be, have a bound; fixed ones stay whatever it is.
+bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Index>& groups, Tally& tally) {
+  for (std::size_t v = 0; v < in.old.size(); ++v) {
+    if (in.colour[v] < 0 && groups[v] <= 0) continue;
+    if (obeys_bound(out.position[v], in.previous[v], in.bound[v])) continue;
+    const Vec3f &x = out.position[v], &p = in.previous[v];
+    const double moved = std::hypot(double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z);
+    tally.mismatch("vertex " + std::to_string(v) +
+                   text(": the stored position is %.17g from X_prev, bound %.9g", moved, in.bound[v]));
+    return false;
+  }
+  return true;
+}
+
+/// Every vertex decides whether it is cut, and for each of its stencils on which side of that stencil's jumps it lies.
+std::uint64_t decisions(const SweepIn& in) {
+  constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
+  std::uint64_t count = in.old.size() + 3 * in.rest->triangles.size() + 4 * in.rest->hinges.size() +
+                        4 * in.rest->tetrahedra.size();
+  for (const VertexFacetContact& c : in.vertex_facet) count += 1 + corners[static_cast<std::size_t>(c.face.kind)];
+  for (const EdgeEdgeContact& c : in.edge_edge)
+    count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
+  return count;
+}
+
+double error_in_units(const SweepTruth& truth, const SweepOut& out, std::size_t v) {
+  const Vec3f& x = out.position[v];
+  const Vec3& exact = truth.position[v];
+  const double error = std::hypot(x.x - exact.x, x.y - exact.y, x.z - exact.z);
+  return error == 0 ? 0 : error / truth.accepted[v];
+}
+
+}  // namespace
+
+bool can_judge_sweep(const TestCase& test, const SweepIn& in, const SweepOut& out, Tally& tally) {
+  tally.begin(test.name);
+  if (out.position.size() != in.old.size()) {
+    tally.mismatch("the answer does not have one position for each vertex");
+    return false;
+  }
+  if (std::all_of(out.position.begin(), out.position.end(), is_finite)) return true;
+  tally.mismatch("a position is not finite");
+  return false;
+}
+
+void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally) {
+  tally.begin(test.name);
+  const auto grey = static_cast<std::uint64_t>(std::count(truth.grey.begin(), truth.grey.end(), std::uint8_t{1}));
+  tally.count(in.old.size(), decisions(in), grey);
+  if (!judge_bounds(in, out, rigid_groups(*in.scene), tally)) return;
+  for (std::size_t v = 0; v < in.old.size(); ++v) {
+    tally.error(0, error_in_units(truth, out, v), [&] {
+      const Vec3f& x = out.position[v];
+      const Vec3& exact = truth.position[v];
+      return "vertex " + std::to_string(v) + ", colour " + std::to_string(in.colour[v]) +
+             text(": %.4g m from the exact position, %.4g accepted",
+                  std::hypot(x.x - exact.x, x.y - exact.y, x.z - exact.z), truth.accepted[v]);
+    });
+  }
+  if (out.cut < truth.cut || out.cut > truth.cut + truth.cut_doubtful)
+    tally.mismatch("cut: " + std::to_string(out.cut) + ", exact " + std::to_string(truth.cut) + " and " +
+                   std::to_string(truth.cut_doubtful) + " in doubt");
+}
+
+namespace {
+
+/// What a sweep reads, as copies that a form may change.
+struct Read {
+  SweepIn in;
+  Scene scene;
+  RestStateOut rest;
+  std::vector<Index> colour;
+};
+
+template <class Change>
+WrongForm sweep_asked(std::string name, std::string meaning, Change change) {
+  return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
+    Authority wrong = authority;
+    wrong.sweep = [right = authority.sweep, change](const SweepIn& in, const SweepOut& out) {
+      Read read{in, *in.scene, *in.rest, {in.colour.begin(), in.colour.end()}};
+      change(read);
+      read.in.colour = read.colour;
+      read.in.scene = &read.scene;
+      read.in.rest = &read.rest;
+      return right(read.in, out);
+    };
+    return wrong;
+  });
+}
+
+template <class Change>
+auto materials(Change change) {
+  return [change](Read& read) {
+    for (Body& body : read.scene.bodies) change(body.material);
+  };
+}
+
+template <class Change>
+auto meetings(Change change) {
+  return [change](Read& read) {
+    for (MeetingMaterial& meeting : read.rest.meetings) change(meeting);
+  };
+}
+
+std::vector<WrongForm> sweep_forms() {
+  std::vector<WrongForm> forms{
+      sweep_asked("contacts_missing", "no contact acts",
+                  [](Read& read) { read.in.vertex_facet = {}, read.in.edge_edge = {}; }),
+      sweep_asked("vertex_facet_missing", "contacts of vertices with facets do not act",
+                  [](Read& read) { read.in.vertex_facet = {}; }),
+      sweep_asked("edge_edge_missing", "contacts of edges do not act", [](Read& read) { read.in.edge_edge = {}; }),
+      sweep_asked("contacts_twice_as_stiff", "2 k_c for k_c", meetings([](MeetingMaterial& m) { m.stiffness *= 2; })),
+      sweep_asked("friction_missing", "no friction", meetings([](MeetingMaterial& m) { m.friction = 0; })),
+      sweep_asked("membranes_missing", "no membrane acts", [](Read& read) { read.rest.triangles.clear(); }),
+      sweep_asked("bending_missing", "no hinge acts", [](Read& read) { read.rest.hinges.clear(); }),
+      sweep_asked("tetrahedra_missing", "no tetrahedron acts", [](Read& read) { read.rest.tetrahedra.clear(); }),
+      sweep_asked("springs_missing", "no spring acts", [](Read& read) { read.scene.springs.clear(); }),
+      sweep_asked("mollifier_missing", "e_k is 1: nearly parallel edges act in full",
+                  [](Read& read) { read.rest.edge_length_squared.assign(read.rest.edge_length_squared.size(), -1); }),
+      sweep_asked("damping_missing", "membranes, hinges and springs without damping",
+                  [](Read& read) {
+                    materials([](Material& m) { m.membrane_damping = m.bending_damping = 0; })(read);
+                    for (Spring& spring : read.scene.springs) spring.damping = 0;
+                  }),
+      sweep_asked("bending_damping_missing", "hinges without damping",
+                  materials([](Material& m) { m.bending_damping = 0; })),
+      sweep_asked("membrane_damping_missing", "membranes without damping",
+                  materials([](Material& m) { m.membrane_damping = 0; })),
+      sweep_asked("jacobi", "every neighbour is read where it was before the sweep, whatever its colour",
+                  [](Read& read) {
+                    for (Index& colour : read.colour)
+                      if (colour > 0) colour = 0;
+                  })};
+  for (const auto& [kind, name, meaning] : other_activations)
+    forms.push_back(sweep_asked(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](Read& read) {
+      if (read.scene.settings.activation == ContactActivation::ogc) read.scene.settings.activation = to;
+    }));
+  return forms;
+}
+
+/// No two vertices that an element or a spring holds together share a colour; exactly the free ones have one.
+bool is_coloured(const SweepCase& c) {
+  const Topology topology = build_topology(*c.scene);
+  const std::vector<Index> groups = rigid_groups(*c.scene);
+  const auto apart = [&](Index a, Index b) {
+    return c.colour[static_cast<std::size_t>(a)] < 0 ||
+           c.colour[static_cast<std::size_t>(a)] != c.colour[static_cast<std::size_t>(b)];
+  };
+  bool legal = c.colour.size() == groups.size();
+  for (std::size_t v = 0; v < groups.size() && legal; ++v) legal = (c.colour[v] >= 0) == (groups[v] < 0);
+  for (const Edge& e : topology.edges) legal = legal && apart(e[0], e[1]);
+  for (const Hinge& hinge : topology.hinges) legal = legal && apart(hinge.opposite[0], hinge.opposite[1]);
+  for (const Spring& spring : c.scene->springs) {
+    legal = legal && apart(spring.first, spring.second);
+    if (spring.third >= 0) legal = legal && apart(spring.first, spring.third) && apart(spring.second, spring.third);
+  }
+  return legal;
+}
+
+struct Sweep : TakenWhole, Numbered, OwnCases {
+  using Case = SweepCase;
+  static constexpr StageInfo info{.name = "sweep",
+                                  .question = "one sweep over all colours",
+                                  .unit = "vertex",
+                                  .reference = "reference/solvers/sweep.cpp",
+                                  .kind = CaseKind::followed,
+                                  .has_boundary = false,
+                                  .determinism = Determinism::cpu_to_gpu};
+  static constexpr std::array metrics{MetricInfo{"position", "accepted error", 1}};
+  static constexpr std::array parameters{ranges::contact_radius,   ranges::query_radius,      ranges::time_step,
+                                         ranges::bound_relaxation, ranges::contact_stiffness, ranges::friction};
+  static std::string set(Case& c, std::span<const Override> values) {
+    c.scene = ranges::with_parameters(*c.scene, values);
+    for (const Override& value : values)
+      if (value.name == ranges::query_radius.name) c.query_radius = value.value;
+    return ranges::check_radii(static_cast<float>(c.scene->settings.contact_radius), c.query_radius);
+  }
+
+  static std::span<const Generator> generators() { return sweep_generators(); }
+
+  static void check(const Case& c, FirstProblem& problem) {
+    check_scene(problem, *c.scene);
+    problem.require(is_coloured(c), "two vertices of an element share a colour, or one that is held has any");
+    for (const auto* positions : {&c.old, &c.start, &c.target, &c.previous})
+      problem.vectors("a coordinate", *positions);
+    for (const float bound : c.largest_bound) problem.number("a bound", bound, 0, std::numeric_limits<float>::max());
+    problem.number("a query radius", c.query_radius, static_cast<float>(c.scene->settings.contact_radius), vast);
+  }
+  static void mutate(Random& random, Case& c) {
+    mutate_points(random, c.target);
+    mutate_points(random, c.start);
+  }
+  static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.old, c.start, c.target, c.previous}); }
+  static std::string missing_in(const States& states) { return stages::rest_state.missing_in(states); }
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    return states.sweep(states.frame(index), random);
+  }
+
+  static Json write(const Case& c) { return sweep_case_to_json(c); }
+  static Case read(const Json& data) { return to_sweep_case(data); }
+
+  static Shape shape(const Case& c) {
+    Shape shape;
+    shape.add(build_topology(*c.scene), c.previous);
+    return shape;
+  }
+  static std::vector<Quantity> inputs(const Case& c) {
+    return joined(
+        mesh_quantities(build_topology(*c.scene)), scene_quantities(*c.scene),
+        std::vector{scalar("query_radius", "m", c.query_radius), indices("colour", c.colour), points("old", "m", c.old),
+                    points("start", "m", c.start), points("target", "m", c.target), points("previous", "m", c.previous),
+                    compare::numbers("largest_bound", "m", c.largest_bound)});
+  }
+
+  static bool can_judge(const Contestant& c, const Authority& a) {
+    return c.sweep && a.sweep && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound;
+  }
+  /// The truth follows the answer, so the contestant comes first.
+  static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
+    for (const TestCase& test : cases) {
+      const SweepQuestion question(case_of<Case>(test.data), a);
+      const SweepOut out = asker.answer(question.in(), c.sweep);
+      if (!can_judge_sweep(test, question.in(), out, tally)) continue;
+      const std::function<SweepTruth(const SweepIn&)> about_answer = [&](const SweepIn& in) {
+        return a.sweep(in, out);
+      };
+      judge_sweep(test, question.in(), asker.truth(question.in(), about_answer), out, tally);
+    }
+  }
+  static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority& a) {
+    std::vector<std::string> all;
+    for (const TestCase& test : cases) {
+      Bits bits;
+      bits.add(c.sweep(SweepQuestion(case_of<Case>(test.data), a).in()));
+      all.push_back(bits.take());
+    }
+    return all;
+  }
+  static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority& a) {
+    const auto test = std::make_shared<const TestCase>(cases.front());
+    const auto question = std::make_shared<const SweepQuestion>(case_of<Case>(test->data), a);
+    return {[test, question, stage = c.sweep] { stage(question->in()); },
+            static_cast<std::int64_t>(question->in().colour.size())};
+  }
+  static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
+    const SweepQuestion question(case_of<Case>(test.data), a);
+    std::string note;
+    const auto out = answer_or_note(c.sweep, question.in(), note);
+    if (!out) return {{}, note};
+    if (out->position.size() != question.in().old.size())
+      return {{}, "the answer does not have one position for each vertex"};
+    const SweepTruth truth = a.sweep(question.in(), *out);
+    const auto cut = [](Index count) { return scalar("cut", "", count); };
+    return paired({points("position", "m", out->position), cut(out->cut)},
+                  {points("position", "m", truth.position), cut(truth.cut)}, note);
+  }
+  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return sweep_forms(); }
+};
+
+}  // namespace
+
+constinit const StageTraits stages::sweep = make_traits<Sweep>();
+
+}  // namespace ogc::compare

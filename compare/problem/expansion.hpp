@@ -1,0 +1,47 @@
+// Sums of products without rounding, for the few questions that validation decides exactly.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace ogc::compare {
+
+/// A sum as a non-overlapping expansion of at most `capacity` components (Shewchuk 1997, Grow-Expansion): the last one
+/// that is not zero has the sum's sign. No product may overflow, nor its rounding error underflow.
+template <std::size_t capacity>
+class Expansion {
+ public:
+  /// Takes two components.
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(std::fma(a, b, -product));
+    add(product);
+  }
+  /// Takes four components.
+  void add_product(double a, double b, double c) {
+    const double product = a * b;
+    add_product(std::fma(a, b, -product), c);
+    add_product(product, c);
+  }
+  /// −1, 0 or 1.
+  int sign() const {
+    for (std::size_t i = count_; i-- > 0;)
+      if (parts_[i] != 0) return parts_[i] > 0 ? 1 : -1;
+    return 0;
+  }
+
+ private:
+  void add(double value) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double sum = value + parts_[i], part = sum - value;
+      parts_[i] = (value - (sum - part)) + (parts_[i] - part);
+      value = sum;
+    }
+    parts_[count_++] = value;
+  }
+  std::array<double, capacity> parts_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace ogc::compare

@@ -1,0 +1,56 @@
+// Numbers: r, k_c, friction, steps and h from the paper's Table 1 and Fig. 19; size and material from IPC's mat scene
+// (Li et al. 2020); the rate of each end decided here (the paper says π/2 and not of what).
+#include "experiments/scenes/mat_twist.hpp"
+
+#include <numbers>
+
+#include "experiments/scenes/solid_box.hpp"
+
+namespace ogc::experiments {
+namespace {
+
+constexpr double thickness = 8.333e-3, radius = 2e-3;  ///< [m], at the spacing of 88 vertices on 1 m
+constexpr double young = 2e4, poisson = 0.4;           ///< [Pa], [1]
+
+/// The energies of a surface are left at their defaults: a solid's has none.
+compare::Material soft_solid() {
+  compare::Material material;
+  material.solid_density = 1000;
+  material.solid_mu = young / (2 * (1 + poisson));
+  material.solid_lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  material.contact_stiffness = 100;
+  material.friction = 0.2;
+  return material;
+}
+
+/// All vertices of column `column` of 2 × `across`, turned about the x axis.
+compare::PrescribedMotion handle(const char* name, compare::Index column, compare::Index across,
+                                 double angular_velocity) {
+  compare::PrescribedMotion motion;
+  motion.name = name;
+  for (compare::Index k = 0; k < 2 * across; ++k) motion.vertices.push_back(column * 2 * across + k);
+  motion.axis = {1, 0, 0};
+  motion.angular_velocity = angular_velocity;
+  return motion;
+}
+
+}  // namespace
+
+compare::Scene mat_twist(const MatTwistSizes& sizes) {
+  const double coarser = 87.0 / (sizes.along - 1), half = thickness * coarser / 2;
+  compare::Scene scene;
+  scene.name = "mat_twist";
+  append_body(scene, {.name = "mat", .material = soft_solid()},
+              solid_box({sizes.along, 2, sizes.across}, {-0.5, -half, -0.5}, {0.5, half, 0.5}));
+  scene.motions.push_back(handle("left", 0, sizes.across, std::numbers::pi / 2));
+  scene.motions.push_back(handle("right", sizes.along - 1, sizes.across, -std::numbers::pi / 2));
+  scene.gravity = {};
+  scene.settings.time_step = 1.0 / 240;
+  scene.settings.steps = sizes.steps;
+  scene.settings.iterations = 20;
+  scene.settings.contact_radius = radius * coarser;
+  scene.settings.friction_velocity = 1e-2;
+  return scene;
+}
+
+}  // namespace ogc::experiments

@@ -1,0 +1,75 @@
+// The searches of a detection whose pairs get planes: every pair within r_q is noted, whatever else is near its two
+// partners, because only then is it known which pairs a vertex has without a plane.
+#pragma once
+
+#include "fast/kernels/detect_edge_edge.hpp"
+#include "fast/kernels/detect_vertex_facet.hpp"
+
+namespace ogc::fast {
+
+/// The searches of all vertices; a Query of search.hpp.
+struct NearVertexFacet : DetectVertexFacet {
+  const float* query_radius;  ///< r_q [m], on the backend
+
+  OGC_HD bool is_off() const { return *lists.overflow != 0; }
+
+  OGC_HD Search begin(int i) const {
+    const int v = vertex_order[i];
+    const Vec x = positions[v];
+    return {{x, x}, v, 0, gap_limit(*query_radius), 0};
+  }
+
+  OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
+    if (offer.gap > search.limit) return -1.0F;
+    const int v = search.owner;
+    const Facet& facet = surface.facets[offer.primitive];
+    if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet))
+      return -1.0F;
+    return search.limit;
+  }
+
+  OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
+    if (candidate_limit(search, offer) < 0) return false;
+    return !is_beyond(separation(search.box.lower, corners(surface.facets[offer.primitive])), search.limit);
+  }
+
+  OGC_HD float meet(const Search& search, int t, float) const {
+    const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
+    if (d.may_be_within(*query_radius)) lists.note({~search.owner, t}, d.is_surely_within(contact_radius));
+    return search.limit;
+  }
+};
+
+/// The searches of all edges; each pair once, as in DetectEdgeEdge.
+struct NearEdgeEdge : DetectEdgeEdge {
+  const float* query_radius;
+
+  OGC_HD bool is_off() const { return *lists.overflow != 0; }
+
+  OGC_HD Search begin(int i) const {
+    const Lane lane = tree.node(0, i / 4).lane[i % 4];
+    return {lane.box(), lane.primitive, i + 1, gap_limit(*query_radius), 0};
+  }
+
+  OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
+    if (offer.gap > search.limit) return -1.0F;
+    const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
+    if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
+    return search.limit;
+  }
+
+  OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
+    if (candidate_limit(search, offer) < 0) return false;
+    return !is_beyond(separation(ends(surface.edges[search.owner]), ends(surface.edges[offer.primitive])),
+                      search.limit);
+  }
+
+  OGC_HD float meet(const Search& search, int other, float) const {
+    const int low = search.owner < other ? search.owner : other, high = search.owner < other ? other : search.owner;
+    const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
+    if (d.may_be_within(*query_radius)) lists.note({low, high}, d.is_surely_within(contact_radius));
+    return search.limit;
+  }
+};
+
+}  // namespace ogc::fast

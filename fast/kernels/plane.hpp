@@ -1,0 +1,296 @@
+// Planes between pairs (method.md §5.6): where a ball takes from a vertex the freedom to slide along a neighbour and to
+// leave it, a half-space takes the approach alone. A pair has one normal n and two offsets: all vertices of its first
+// side keep n·x ≤ o₁, all of its second n·x ≥ o₂, with o₁ < o₂. So do the convex hulls of both sides, at every instant
+// of a straight motion between two positions that keep it: the pair cannot meet. n may be any vector, as long as all
+// vertices of the pair read the same bits.
+#pragma once
+
+#include "fast/kernels/closest_face.hpp"
+#include "fast/kernels/closest_points.hpp"
+#include "fast/kernels/solve3.hpp"
+#include "fast/kernels/truncate.hpp"
+
+namespace ogc::fast {
+
+/// n·x ≤ o: a plane as one of its vertices sees it.
+struct alignas(8) HalfSpace {
+  Vec normal;
+  double offset = 0;  ///< [m], n being nearly a unit vector
+};
+
+/// n·x − o, and the sum of the moduli of its terms.
+struct Excess {
+  double value = 0, size = 0;
+};
+
+OGC_HD inline Excess excess(const Vec& n, double offset, const Vec& x) {
+  const double a = mul(static_cast<double>(n.x), static_cast<double>(x.x)),
+               b = mul(static_cast<double>(n.y), static_cast<double>(x.y)),
+               c = mul(static_cast<double>(n.z), static_cast<double>(x.z));
+  return {sub(add(add(a, b), c), offset), add(add(add(modulus(a), modulus(b)), modulus(c)), modulus(offset))};
+}
+
+/// n·x ≤ o for certain. The three products of floats are exact in double; two sums and the difference err by at most
+/// 2⁻⁵³ of the size S = Σ|n_k x_k| + |o| each, and S is short by 3 roundings of itself: under 2⁻⁵¹ S together. The sign
+/// of a rounded sum is that of the exact one. False where x is not finite.
+OGC_HD inline bool is_behind(const HalfSpace& plane, const Vec& x) {
+  const Excess e = excess(plane.normal, plane.offset, x);
+  return add(e.value, mul(0x1p-51, e.size)) <= 0;
+}
+
+/// The plane of a pair, or the smallest distance that is known of one that has none.
+struct alignas(8) PairPlane {
+  Vec normal;                    ///< from the first side to the second; 0: there is no plane
+  float below = 0;               ///< not above the pair's distance [m]
+  double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
+
+  OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
+  OGC_HD HalfSpace of_first() const { return {normal, first}; }
+  OGC_HD HalfSpace of_second() const { return {-normal, -second}; }
+};
+
+/// The points of both sides of a pair, and which sides do not move.
+template <int first_count, int second_count>
+struct PairPoints {
+  Vec first[first_count], second[second_count];
+  bool is_first_fixed, is_second_fixed;
+};
+
+/// The gap of the shadows of both sides on `direction`, over its length; from points relative to one of them.
+template <int m, int n>
+OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Real (&second)[n]) {
+  double top = dot(direction, first[0]).value, bottom = dot(direction, second[0]).value;
+  for (int k = 1; k < m; ++k) top = larger(top, dot(direction, first[k]).value);
+  for (int k = 1; k < n; ++k) bottom = smaller(bottom, dot(direction, second[k]).value);
+  return divide(sub(bottom, top), square_root(squared(direction)));
+}
+
+/// The better of two directions: two convex sets are no nearer than the gap of their shadows, and between the closest
+/// points that gap is the distance. So nobody has to decide which faces hold them.
+template <int m, int n>
+OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
+                            const Real (&second)[n]) {
+  const double gap = shadow_gap(direction, first, second);
+  if (!(gap > best_gap)) return;
+  best = direction;
+  best_gap = gap;
+}
+
+/// From the point at the origin to the segment from a along e.
+OGC_HD inline Real to_segment(const Real& a, const Real& e) { return a + Rounded{segment_parameter(-a, e)} * e; }
+
+/// From the closest point of the first side, a vertex, to that of the second, a triangle; 0 where they touch.
+OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
+  const Real first[1] = {};
+  const Real second[3] = {difference<Rounded>(pair.second[0], pair.first[0]),
+                          difference<Rounded>(pair.second[1], pair.first[0]),
+                          difference<Rounded>(pair.second[2], pair.first[0])};
+  Real best;
+  double gap = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Real e = difference<Rounded>(pair.second[(k + 1) % 3], pair.second[k]);
+    offer_direction(best, gap, to_segment(second[k], e), first, second);
+  }
+  const Real n = cross(difference<Rounded>(pair.second[1], pair.second[0]),
+                       difference<Rounded>(pair.second[2], pair.second[0]));
+  offer_direction(best, gap, n, first, second);
+  offer_direction(best, gap, -n, first, second);
+  return best;
+}
+
+/// The same of two edges.
+OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
+  const Real e = difference<Rounded>(pair.first[1], pair.first[0]),
+             f = difference<Rounded>(pair.second[1], pair.second[0]),
+             w = difference<Rounded>(pair.second[0], pair.first[0]);
+  const Real first[2] = {Real{}, e}, second[2] = {w, difference<Rounded>(pair.second[1], pair.first[0])};
+  Real best;
+  double gap = 0;
+  offer_direction(best, gap, to_segment(w, f), first, second);
+  offer_direction(best, gap, to_segment(w - e, f), first, second);
+  offer_direction(best, gap, -to_segment(-w, e), first, second);
+  offer_direction(best, gap, -to_segment(-second[1], e), first, second);
+  const Real n = cross(e, f);
+  offer_direction(best, gap, n, first, second);
+  offer_direction(best, gap, -n, first, second);
+  return best;
+}
+
+OGC_HD inline Distance distance_of(const PairPoints<1, 3>& pair) {
+  return point_triangle_distance(pair.first[0], {pair.second[0], pair.second[1], pair.second[2]});
+}
+OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
+  return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
+}
+
+/// The plane of a pair at its positions, which is not nearer than `below`, with γ_p = `share`: each side may approach
+/// by γ_p of the gap, where the other is fixed by 2γ_p. Offsets are taken from the points themselves, so n need not be
+/// exact; whether every point keeps its own is tested as it will be tested later, and a pair that fails has no plane.
+/// The offset of a fixed side lies half way from it to the other's.
+template <int m, int n>
+OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share) {
+  PairPlane plane;
+  plane.below = below;
+  const Real direction = separating_direction(pair);
+  const double length = square_root(squared(direction));
+  if (!(length > 0)) return plane;
+  const auto stored = [length](Rounded a) { return static_cast<float>(divide(a.value, length)); };
+  const Vec normal{stored(direction.x), stored(direction.y), stored(direction.z)};
+  double top = excess(normal, 0, pair.first[0]).value, bottom = excess(normal, 0, pair.second[0]).value;
+  for (int k = 1; k < m; ++k) top = larger(top, excess(normal, 0, pair.first[k]).value);
+  for (int k = 1; k < n; ++k) bottom = smaller(bottom, excess(normal, 0, pair.second[k]).value);
+  const double gap = sub(bottom, top), own = static_cast<double>(share);
+  const auto approach = [own](bool is_fixed, bool is_other_fixed) {
+    return is_fixed ? sub(0.5, own) : (is_other_fixed ? add(own, own) : own);
+  };
+  PairPlane placed{normal, below, add(top, mul(approach(pair.is_first_fixed, pair.is_second_fixed), gap)),
+                   sub(bottom, mul(approach(pair.is_second_fixed, pair.is_first_fixed), gap))};
+  bool separates = placed.first < placed.second;
+  for (const Vec& x : pair.first) separates = separates && is_behind(placed.of_first(), x);
+  for (const Vec& x : pair.second) separates = separates && is_behind(placed.of_second(), x);
+  return separates ? placed : plane;
+}
+
+/// Where a vertex may be until the next detection: K_v, a ball about X_prev and half-spaces. Convex.
+struct FeasibleRegion {
+  Vec centre;
+  float radius = 0;
+  const HalfSpace* planes = nullptr;
+  int count = 0;
+
+  /// Decided on the stored numbers: in it for certain.
+  OGC_HD bool holds(const Vec& x) const {
+    for (int k = 0; k < count; ++k)
+      if (!is_behind(planes[k], x)) return false;
+    return is_within_bound(centre, x, radius);
+  }
+};
+
+/// The direction in which a vertex leaves a half-space with the least increase of its energy: H⁻¹ n.
+struct BlockMetric {
+  Symmetric3 block;
+  float fallback = 0;  ///< as of solve_symmetric
+
+  OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
+};
+/// The same of a vertex that inertia alone holds.
+struct InertiaMetric {
+  OGC_HD Vec operator()(const Vec& n) const { return n; }
+};
+
+namespace slide {
+
+using Point = Vector<double>;
+inline constexpr int passes = 4, nudges = 3;
+
+OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
+OGC_HD inline Vec stored(const Point& a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+/// How far y lies beyond the plane, and as much farther as storing it in single precision can move it. Guides the
+/// search for a position; whether that one is taken `FeasibleRegion::holds` decides.
+OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
+  const Point n = wide(plane.normal);
+  const double size = modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z);
+  return dot(n, y) - plane.offset + 0x1p-24 * size;
+}
+
+/// Along the violated half-spaces in their order, then into the ball.
+template <class Metric>
+OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric) {
+  const Point centre = wide(region.centre);
+  for (int pass = 0; pass < passes; ++pass) {
+    bool moved = false;
+    for (int k = 0; k < region.count; ++k) {
+      const double out = beyond(region.planes[k], y);
+      if (!(out > 0)) continue;
+      const Point n = wide(region.planes[k].normal);
+      Point u = wide(metric(region.planes[k].normal));
+      if (!(dot(n, u) > 0)) u = n;
+      y -= (out / dot(n, u)) * u;
+      moved = true;
+    }
+    const Point away = y - centre;
+    const double length = std::sqrt(dot(away, away)), radius = static_cast<double>(region.radius) * (1 - 0x1p-22);
+    if (length > radius) y = centre + (radius / length) * away, moved = true;
+    if (!moved) break;
+  }
+  return y;
+}
+
+/// One coordinate by one float towards the inside of what x violates first.
+OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
+  Vec outward = x - region.centre;
+  for (int k = 0; k < region.count; ++k) {
+    if (is_behind(region.planes[k], x)) continue;
+    outward = region.planes[k].normal;
+    break;
+  }
+  const float a = fabsf(outward.x), b = fabsf(outward.y), c = fabsf(outward.z);
+  float& coordinate = a >= b && a >= c ? x.x : (b >= c ? x.y : x.z);
+  const float along = a >= b && a >= c ? outward.x : (b >= c ? outward.y : outward.z);
+  coordinate = along > 0 ? nextafterf(coordinate, -3.40282347e38f) : nextafterf(coordinate, 3.40282347e38f);
+  return x;
+}
+
+/// The share of the way from `from`, which is in the region, to y that stays in it.
+OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y) {
+  const Point step = y - from, away = from - wide(region.centre);
+  double share = 1;
+  for (int k = 0; k < region.count; ++k) {
+    const Point n = wide(region.planes[k].normal);
+    const double out = beyond(region.planes[k], y), rise = dot(n, step);
+    if (out > 0 && rise > 0) share = smaller(share, larger(0.0, 1 - out / rise));
+  }
+  const double bb = dot(step, step), ab = dot(away, step),
+               left = static_cast<double>(region.radius) * region.radius - dot(away, away);
+  if (bb > 0 && ab + ab + bb > left)
+    share = smaller(share, left > 0 ? (std::sqrt(ab * ab + bb * left) - ab) / bb * (1 - 0x1p-22) : 0.0);
+  return share;
+}
+
+/// The farthest stored position of the region on the way to y, or just short of it; `from` where there is none.
+OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y) {
+  const Point start = wide(from);
+  double share = share_inside(region, start, y);
+  for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share *= 0.5) {
+    const Vec x = stored(start + share * (y - start));
+    if (region.holds(x)) return x;
+  }
+  return from;
+}
+
+}  // namespace slide
+
+/// A position of the region near a finite proposal outside it: along the half-spaces, nudged where storing took it out,
+/// scaled towards `current` where it is still outside; in the worst case `current`, which the region holds.
+template <class Metric>
+OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
+  const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);
+  Vec x = slide::stored(y);
+  for (int nudge = 0; nudge < slide::nudges && !region.holds(x); ++nudge) x = slide::nudged(region, x);
+  return {region.holds(x) ? x : slide::scaled(region, current, y), true};
+}
+
+/// The same on the straight way from `current`: for prescribed vertices, whose groups shall stay rigid.
+OGC_HD OGC_OUT_OF_LINE inline Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal) {
+  return {slide::scaled(region, current, slide::wide(proposal)), true};
+}
+
+/// The proposal of a free vertex as its region allows it; `exceeded`: it was changed.
+template <class Metric>
+OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric) {
+  if (region.count == 0) return truncate(region.centre, proposal, region.radius);
+  if (region.holds(proposal)) return {proposal, false};
+  return slide_into(region, current, proposal, metric);
+}
+
+/// The same of a prescribed vertex.
+OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
+  if (region.count == 0) return truncate(region.centre, target, region.radius);
+  if (region.holds(target)) return {target, false};
+  return scale_into(region, current, target);
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,122 @@
+// Memory and launches of the planes of a detection (fast/kernels/plane_lists.hpp). Where nobody asked for planes there
+// is none of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compare/problem/settings.hpp"
+#include "compare/stages/plane.hpp"
+#include "fast/kernels/near_pairs.hpp"
+#include "fast/kernels/plane_lists.hpp"
+#include "fast/stages/backend.hpp"
+
+namespace ogc::fast {
+
+template <class Backend>
+class Planes {
+ public:
+  /// `is_fixed`: by vertex, whether it never moves; read where bounds are planes.
+  Planes(compare::Bounds bounds, const std::vector<std::uint8_t>& is_fixed)
+      : is_used_(bounds == compare::Bounds::planes), is_off_(bounds == compare::Bounds::off) {
+    if (!is_used_) return;
+    const std::size_t vertices = is_fixed.size();
+    is_fixed_.upload(is_fixed.data(), vertices);
+    for (Buffer<int>* counts : {&pair_counts_, &pair_filled_, &counts_}) {
+      counts->resize(vertices);
+      counts->fill_zero();
+    }
+    pair_offsets_.resize(vertices + 1), no_sum_.resize(1);
+    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_}) by_vertex->resize(vertices);
+    rows_.resize(vertices * most_planes), pairs_.resize(vertices * most_planes);
+  }
+
+  bool is_used() const { return is_used_; }
+
+  /// Host only: room for so many noted pairs.
+  void reserve(int noted_capacity) {
+    if (!is_used_) return;
+    planes_.resize(static_cast<std::size_t>(noted_capacity));
+    pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
+  }
+
+  RegionView regions() const {
+    return is_used_ ? RegionView{rows_.data(), counts_.data()} : RegionView{nullptr, nullptr, is_off_};
+  }
+  const float* nearest() const { return nearest_.data(); }
+  const PairPlane* planes() const { return planes_.data(); }
+
+  /// After the searches: planes and balls (`bound`) of `vertices` vertices from the pairs that `noted` has. Where there
+  /// was no room for all pairs nobody may use what comes of it.
+  void make(Backend& backend, const SurfaceView& surface, Places positions, const ListsView& noted, float share,
+            const float* query_radius, float* bound) {
+    const PlaneListsView lists{surface,
+                               positions,
+                               is_fixed_.data(),
+                               share,
+                               query_radius,
+                               noted.noted,
+                               planes_.data(),
+                               pair_counts_.data(),
+                               pair_offsets_.data(),
+                               pair_filled_.data(),
+                               pair_rows_.data(),
+                               threshold_.data(),
+                               nearest_.data(),
+                               unplaned_.data(),
+                               rows_.data(),
+                               pairs_.data(),
+                               counts_.data(),
+                               bound};
+    const int vertices = surface.vertex_count, capacity = noted.noted_capacity;
+    backend.for_each(vertices, PreparePlanes{lists});
+    backend.for_each_counted(noted.noted_count, capacity, MeasurePairs{lists});
+    backend.exclusive_scans({lists.pair_counts, lists.pair_offsets, vertices}, {lists.pair_counts, no_sum_.data(), 0});
+    backend.for_each_counted(noted.noted_count, capacity, FillPairRows{lists});
+    backend.for_each(vertices, ChooseThreshold{lists});
+    backend.for_each_counted(noted.noted_count, capacity, PlacePlanes{lists});
+    backend.for_each(vertices, WriteHalfSpaces{lists});
+  }
+
+  /// Host only: what the vertices bear since the last detection; empty where bounds are no planes.
+  compare::VertexPlanes download() const {
+    compare::VertexPlanes planes;
+    if (!is_used_) return planes;
+    std::vector<int> counts(counts_.size());
+    std::vector<HalfSpace> rows(rows_.size());
+    std::vector<NotedPair> pairs(pairs_.size());
+    counts_.download(counts.data(), counts.size());
+    rows_.download(rows.data(), rows.size());
+    pairs_.download(pairs.data(), pairs.size());
+    planes.offsets.push_back(0);
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      for (int k = 0; k < counts[v]; ++k) {
+        const std::size_t i = v * most_planes + static_cast<std::size_t>(k);
+        const Vec& n = rows[i].normal;
+        planes.items.push_back({primitives(pairs[i]), {n.x, n.y, n.z}, rows[i].offset});
+      }
+      planes.offsets.push_back(static_cast<compare::Index>(planes.items.size()));
+    }
+    return planes;
+  }
+
+ private:
+  static compare::PrimitivePair primitives(const NotedPair& pair) {
+    using Kind = compare::PrimitivePair::Kind;
+    if (pair.first < 0) return {Kind::vertex_triangle, ~pair.first, pair.second};
+    return {Kind::edge_edge, pair.first, pair.second};
+  }
+
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  bool is_used_, is_off_;
+  Buffer<std::uint8_t> is_fixed_;
+  Buffer<PairPlane> planes_;
+  Buffer<int> pair_counts_, pair_offsets_, pair_filled_, pair_rows_, counts_, no_sum_;
+  Buffer<float> threshold_, nearest_, unplaned_;
+  Buffer<HalfSpace> rows_;
+  Buffer<NotedPair> pairs_;
+};
+
+}  // namespace ogc::fast

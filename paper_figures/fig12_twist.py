@@ -1,8 +1,0 @@
-"""Fig. 12 as far as it exists: a square cloth twisted by its two ends; time, contacts, distances, and four frames over the run."""
-
-from paper_figures.common import main
-
-CAMERA = ((0.7, 1.15, 2.15), (0, 0, 0), (0, 1, 0))
-
-if __name__ == "__main__":
-    main("twist", frames=(0, 3200, 6400, 9600), camera=CAMERA)

@@ -1,8 +1,0 @@
-"""Fig. 18 as far as it exists: time and detections a step of VBD-OGC on one layer of cloth on a sphere, and frames 0, 25, 50, 75."""
-
-from paper_figures.common import main
-
-CAMERA = ((1.34, 0.8, 1.62), (-0.05, -0.06, 0.0), (0, 1, 0))
-
-if __name__ == "__main__":
-    main("cloth_on_sphere", frames=(0, 25, 50, 75), camera=CAMERA)

@@ -1,0 +1,388 @@
+"""Fig. 21 and the ablation that the paper does not have: a cloth falls onto a sphere and the ground, 40 steps solved to
+convergence with each contact energy.
+
+All five energies are solved with Newton's method; one that does not converge (Eq. 19 as printed has a force that
+jumps at τ) keeps its row. Step 40 is then taken again from each energy's own state 39: by Newton with the condition
+number of each matrix, of it without friction and without contact, and, for the paper's two energies, by VBD in double
+and single precision, whose convergence is the paper's panel c. Both energies' states are compared vertex by vertex.
+
+Two choices are varied that the paper leaves open. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c so
+small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy is the stiffest beside OGC's
+at equal force. How hard contacts push, and at how many IPC's is the softer energy there, is counted at each last
+state. With --without all but the paper's two at κ = 1 can be left out; picture and table then name what was not run,
+and `accept` takes them with --incomplete only.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.workflow import commands
+from paper_figures.figures import contact_forces
+from paper_figures.workflow.accept import not_run
+from paper_figures.workflow.runs import iterations, provenance, run_job, write_table
+from plots import render, style
+from plots.run_folder import Run, RunError, commits_in_words
+from plots.scene_figure import bodies_of
+
+SCENE, STEPS, VARIANTS = commands.ACTIVATIONS, commands.ACTIVATION_STEPS, commands.VARIANTS
+OGC, IPC = PAPER = commands.PRINTED[:2]
+ABOVE_HALF = commands.WEAK[0]
+CAMERA = ((1.6, 0.9, 1.9), (-0.08, -0.12, 0.0), (0, 1, 0))
+LEVELS = {"1e-2": 1e-2, "1e-3": 1e-3, "1e-4": 1e-4}
+CONDITIONS = {
+    "condition_number": "with friction",
+    "condition_without_friction": "without friction",
+    "condition_without_contact": "without contact",
+}
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The runs of a variant: all steps; the last one by Newton, by VBD in double and by VBD in single precision, None
+    where it is not done."""
+
+    run: Run
+    newton: Run = None
+    double: Run = None
+    single: Run = None
+
+    @property
+    def all(self):
+        return [run for run in (self.run, self.newton, self.double, self.single) if run]
+
+
+def solved(folder, ogc, scale, variant, backend):
+    run = run_job(ogc, commands.ablation(scale, variant), folder)
+    if run.status != "finished":
+        if variant in PAPER:
+            raise RunError(f"{run.folder} is not finished ({run.status}); its last lines say why")
+        return Solved(run)
+    newton = run_job(ogc, commands.by_newton(scale, variant), folder)
+    if not commands.compared(variant):
+        return Solved(run, newton)
+    return Solved(
+        run,
+        newton,
+        run_job(ogc, commands.by_vbd(scale, variant), folder),
+        run_job(ogc, commands.by_vbd_on(scale, variant, backend), folder),
+    )
+
+
+def curves(folder, ogc):
+    """The panels of `ogc illustrate fig21d`: {panel: {layer: (x, y)}}."""
+    path = folder / "fig21d.json"
+    if (
+        subprocess.run([str(ogc), "illustrate", "fig21d", "--out", str(folder)], stdout=subprocess.DEVNULL).returncode
+        != 0
+    ):
+        raise RunError("ogc illustrate fig21d failed; its last lines say why")
+    panels = json.loads(path.read_text())["panels"]
+    return {
+        panel["name"]: {layer["name"]: np.array(layer["points"])[:, :2].T for layer in panel["layers"]}
+        for panel in panels
+    }
+
+
+def largest_distance(first, second):
+    a, b = (run.frame(run.frames[-1]).positions.astype(float) for run in (first, second))
+    return np.linalg.norm(a - b, axis=1).max()
+
+
+def first_below(rows, level):
+    """The first iteration whose state has this residual, with the contacts of the last detection, or "never"."""
+    below = np.flatnonzero(rows["residual"] <= level)
+    return int(rows["iteration"][below[0]]) if len(below) else "never"
+
+
+def iterations_to(prefix, run, step):
+    """Columns of a solver: the iterations of the last step to each level, empty where it was not done."""
+    rows = iterations(run, step) if run else None
+    return {
+        f"{prefix}_iterations_to_{name} [1]": first_below(rows, level) if rows else "" for name, level in LEVELS.items()
+    }
+
+
+def conditions(newton, step):
+    """Columns of the last matrix of the step, and the median over its iterations; empty where Newton made none or gave
+    up: its last matrix is then of a state far from the end."""
+    rows = iterations(newton, step) if newton and newton.status == "finished" else None
+    known = np.flatnonzero(np.isfinite(rows["condition_number"])) if rows else []
+    if not len(known):
+        return {**{f"{name}_at_end [1]": "" for name in CONDITIONS}, "median_condition_number [1]": ""}
+    ends = {f"{name}_at_end [1]": f"{rows[name][known[-1]]:.4g}" for name in CONDITIONS}
+    return {**ends, "median_condition_number [1]": f"{np.median(rows['condition_number'][known]):.4g}"}
+
+
+def pushing(forces):
+    """Columns about the contacts of the last state; empty for an energy that none of the two curves is about."""
+    if forces is None:
+        return dict.fromkeys(
+            ("contacts [1]", "median_force [k_c r]", "share_above_half [1]", "share_where_ipc_is_softer [1]"), ""
+        )
+    return {
+        "contacts [1]": len(forces.force),
+        "median_force [k_c r]": f"{np.median(forces.force):.3g}",
+        "share_above_half [1]": f"{forces.share_above_half:.3g}",
+        "share_where_ipc_is_softer [1]": f"{forces.share_softer:.3g}",
+    }
+
+
+def largest_residual(run):
+    """Of the steps with contacts: in free flight the force that VBD begins with, f*, is nothing but rounding."""
+    touching = run.column("vertex_facet_contacts") + run.column("edge_edge_contacts") > 0
+    return run.column("residual")[touching].max()
+
+
+def row_of(variant, found, forces, like, scale):
+    """`like`: the runs of OGC's energy with the same contact."""
+    run, step, newton = found.run, STEPS[scale], found.newton
+    whole = run.status == "finished"
+    return {
+        "activation": variant.label,
+        "kappa [1]": variant.ratio,
+        "contact_stiffness [N/m]": f"{variant.stiffness(scale):g}",
+        "status": run.status.partition(":")[0],
+        "steps [1]": len(run.column("step")),
+        "newton_iterations_of_all_steps [1]": "" if variant.weak else int(run.column("iterations").sum()),
+        "newton_iterations_of_last_step [1]": int(newton.column("iterations")[-1]) if newton else "",
+        **iterations_to("newton", newton, step),
+        **iterations_to("vbd", found.double, step),
+        **iterations_to("single_vbd", found.single, step),
+        **conditions(newton, step),
+        **pushing(forces),
+        "steps_above_tolerance [1]": "" if variant.weak else int((run.column("residual") > 1e-6).sum()),
+        "largest_residual [1]": f"{largest_residual(run):.3g}",
+        "smallest_distance [mm]": f"{1e3 * run.column('smallest_distance').min():.4g}",
+        "median_step [ms]": f"{np.median(run.column('wall')):.4g}",
+        "largest_distance_from_ogc [mm]": f"{1e3 * largest_distance(like.run, run):.4g}" if whole and like else "",
+        **provenance(run),
+    }
+
+
+def ratio_rows(ratio):
+    """The table of curvature ratios: a row a force, a column a κ."""
+    chosen = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 100)
+    return [
+        {
+            "force [k_c r]": f"{force:g}",
+            **{
+                f"curvature_ratio_kappa_{name} [1]": f"{contact_forces.ratio_at(force, curve):.3g}"
+                for name, curve in ratio.items()
+            },
+        }
+        for force in chosen
+    ]
+
+
+def colour(variant):
+    """By κ, black for OGC."""
+    return (
+        style.COLOURS[-1] if variant.energy == "ogc" else style.COLOURS[commands.STIFFNESS_RATIOS.index(variant.ratio)]
+    )
+
+
+def draw_state(axes, run, title):
+    axes.axis("off")
+    axes.set_title(title)
+    usable, reason = render.available()
+    if usable:
+        axes.imshow(render.picture(bodies_of(run, run.frame(run.frames[-1])), CAMERA))
+    else:
+        axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
+
+
+def draw_residual(axes, run, step, dash, shade, label):
+    rows = iterations(run, step)
+    axes.plot(rows["iteration"], np.maximum(rows["residual"], 1e-16), dash, color=shade, linewidth=1, label=label)
+
+
+def draw_convergence(axes, results, step):
+    for number, variant in enumerate(PAPER):
+        found = results[variant]
+        names = (
+            (found.double, "-", "VBD, double"),
+            (found.single, ":", f"VBD, single, {found.single.manifest['backend']}"),
+            (found.newton, "--", "Newton"),
+        )
+        for run, dash, name in names:
+            draw_residual(axes, run, step, dash, style.COLOURS[number], f"{variant.label}, {name}")
+    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title=f"Step {step}")
+    axes.legend(fontsize=7)
+
+
+def draw_forces(axes, force):
+    for number, energy in enumerate(commands.ENERGIES):
+        axes.plot(
+            *force[energy],
+            color=style.COLOURS[number],
+            linestyle=style.DASHES[number % len(style.DASHES)],
+            label=energy,
+        )
+    axes.set(
+        ylim=(0, 5),
+        xlim=(0, 1.1),
+        xlabel="distance [r]",
+        ylabel="force [k_c r]",
+        title="Force over distance (r = 1, k_c = 1)",
+    )
+    axes.legend(fontsize=7)
+
+
+def draw_ratios(axes, ratio):
+    for number, (name, curve) in enumerate(ratio.items()):
+        axes.plot(*curve, color=style.COLOURS[number], label=f"κ = {name}")
+    axes.axhline(1, color="black", linewidth=0.8)
+    axes.set(
+        xscale="log",
+        yscale="log",
+        ylim=(0.05, 30),
+        xlabel="force [k_c r]",
+        ylabel="curvature, IPC's over OGC's [1]",
+        title="Curvature ratio at equal force: below 1 IPC's energy is the softer one",
+    )
+    axes.legend(fontsize=7)
+
+
+def draw_histogram(axes, states):
+    centres = np.sqrt(contact_forces.EDGES[1:] * contact_forces.EDGES[:-1])
+    for variant, forces in states.items():
+        if variant.ratio == 1:
+            axes.step(
+                centres,
+                forces.counts / max(1, len(forces.force)),
+                where="mid",
+                color=colour(variant),
+                linestyle="--" if variant.weak else "-",
+                label=f"{variant.label}: IPC's softer at {100 * forces.share_softer:.0f} %",
+            )
+    axes.axvline(contact_forces.HALF, color="black", linewidth=0.8, linestyle=":")
+    axes.set(
+        xscale="log",
+        xlabel="force [k_c r]",
+        ylabel="share of contacts [1]",
+        title="Contacts of the last state by force (dotted: k_c r/2)",
+    )
+    axes.set_ylim(0, 1.5 * axes.get_ylim()[1])  # room for the legend
+    axes.legend(fontsize=7)
+
+
+def draw_by_ratio(axes, results, step):
+    for variant, found in results.items():
+        if found.double:
+            draw_residual(axes, found.double, step, "--" if variant.weak else "-", colour(variant), variant.label)
+    axes.set(
+        yscale="log",
+        xlabel="iteration",
+        ylabel="residual (Eq. 29) [1]",
+        title=f"VBD in double, step {step}, by κ and contact stiffness",
+    )
+    axes.legend(fontsize=6, ncols=2)
+
+
+def draw_conditions(axes, rows):
+    shown = [row for row in rows if row["condition_number_at_end [1]"]]
+    places = np.arange(len(shown))
+    for number, (name, words) in enumerate(CONDITIONS.items()):
+        axes.barh(
+            places + 0.27 * (number - 1),
+            [float(row[f"{name}_at_end [1]"]) for row in shown],
+            0.27,
+            color=style.COLOURS[number],
+            label=words,
+        )
+    axes.set_yticks(places, [row["activation"] for row in shown], fontsize=7)
+    axes.invert_yaxis()
+    largest = max((float(row["condition_number_at_end [1]"]) for row in shown), default=1)
+    axes.set(xscale="log", xlim=(1, 100 * largest), xlabel="condition number [1]", title="Newton's last matrix")
+    axes.legend(fontsize=7)
+
+
+def over(rows, column, top=IPC, bottom=OGC):
+    """The quotient of two cells in words; a dash where one is no number."""
+    cells = {row["activation"]: row[column] for row in rows}
+    try:
+        return f"{float(cells[top.label]) / float(cells[bottom.label]):.3g}"
+    except (KeyError, ValueError):
+        return "–"
+
+
+def headline(results, rows):
+    left_out = [variant.label for variant in VARIANTS if variant not in results]
+    missing = f"\nNOT RUN: {'; '.join(left_out)}" if left_out else ""
+    columns = ("condition_number_at_end [1]", "vbd_iterations_to_1e-3 [1]")
+    shown = [variant for variant in (IPC, *commands.RATIOS) if variant in results]
+    quotients = [(variant, *(over(rows, column, variant) for column in columns)) for variant in shown]
+    by_ratio = ", ".join(f"{condition} × and {sweeps} × (κ = {variant.ratio})" for variant, condition,
+                         sweeps in quotients)
+    runs = [run for found in results.values() for run in found.all]
+    apart = rows[1]["largest_distance_from_ogc [mm]"]
+    return (
+        f"the paper's two states are at most {apart} mm apart. Of ipc_log over ogc, condition number and VBD's "
+        f"iterations to 10⁻³ (paper: 5 × and 2 ×):\n{by_ratio}; {commits_in_words(runs)}{missing}"
+    )
+
+
+def draw(results, panels, states, rows, scale, out):
+    plt, step = style.use(), STEPS[scale]
+    figure, axes = plt.subplots(4, 2, figsize=(9.5, 13))
+    for panel, variant in zip(axes[0], PAPER):
+        draw_state(panel, results[variant].run, f"{variant.label}, step {step}")
+    draw_convergence(axes[1, 0], results, step)
+    draw_forces(axes[1, 1], panels["force"])
+    draw_ratios(axes[2, 0], panels["ratio"])
+    draw_histogram(axes[2, 1], states)
+    draw_by_ratio(axes[3, 0], results, step)
+    draw_conditions(axes[3, 1], rows)
+    figure.suptitle(f"{SCENE} ({scale}): {headline(results, rows)}", fontsize=8)
+    style.save(figure, out)
+
+
+def main(folder, ogc, scale="small", backend="cpu", without=()):
+    """Does the runs that are missing in `folder`, and writes fig21.png and the tables there; `backend`: of VBD in
+    single precision, `without`: names of variants that are neither run nor drawn. Returns the picture's path."""
+    folder = Path(folder)
+    panels = curves(folder, ogc)
+    results = {v: solved(folder, ogc, scale, v, backend) for v in VARIANTS if v.name not in without}
+    states = {
+        v: contact_forces.forces_of(ogc, found.run, v, panels["ratio"][str(v.ratio)])
+        for v, found in results.items()
+        if found.double
+    }
+    rows = [
+        row_of(v, found, states.get(v), results.get(ABOVE_HALF if v.weak else OGC), scale)
+        for v, found in results.items()
+    ]
+    write_table(
+        folder / "fig21.csv", [*rows, *(not_run("activation", v.label, rows[0]) for v in VARIANTS if v not in results)]
+    )
+    write_table(folder / "fig21_forces.csv", list(contact_forces.table(states)))
+    write_table(folder / "fig21_ratios.csv", ratio_rows(panels["ratio"]))
+    draw(results, panels, states, rows, scale, folder / "fig21.png")
+    return folder / "fig21.png"
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", help="where the runs are, or go, and the figure")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=STEPS)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of VBD in single precision")
+    parser.add_argument(
+        "--without",
+        nargs="+",
+        default=(),
+        choices=[v.name for v in VARIANTS if v not in PAPER],
+        help="what is left out; the figure says so",
+    )
+    arguments = parser.parse_args()
+    try:
+        print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend, arguments.without))
+    except (RunError, csv.Error) as error:
+        sys.exit(f"fig21: {error}")

@@ -1,0 +1,151 @@
+"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads
+of the CPU: runs, table and picture. Not in the paper.
+
+Timed are the steps from FIRST on; those before let lists grow and contacts settle. The exponent is the slope of a
+straight line through the logarithms of the medians, by least squares, over all sizes and over the larger half.
+"""
+
+import argparse
+import math
+import os
+import statistics
+import sys
+from pathlib import Path
+
+from paper_figures.workflow import commands
+from paper_figures.workflow.device_memory import taken
+from paper_figures.workflow.evidence import run_at
+from paper_figures.workflow.jobs import MEMORY, RunFailure
+
+FIRST = 5
+
+
+def row_of(name, run, memory):
+    """Numbers of one run over its timed steps."""
+    m = run.manifest
+    timed = [i for i, step in enumerate(run.column("step")) if step >= FIRST]
+    names = ("wall", "discrete_detections", "vertex_facet_contacts", "edge_edge_contacts", "repeats")
+    wall, detections, facets, edges, repeats = ([run.column(column)[i] for i in timed] for column in names)
+    pairs = [a + b for a, b in zip(facets, edges)]
+    free = sum(body["vertex_count"] for body in m["scene"]["bodies"] if not body["fixed"])
+    number = int(name.partition("_")[2])
+    alone = name.startswith("threads")
+    return {"over": "threads" if alone else "vertices", "backend": m["backend"], "vertices": free,
+            "threads": number if alone else "",
+            "median [ms]": round(statistics.median(wall), 4), "mean [ms]": round(statistics.fmean(wall), 4),
+            "worst [ms]": round(max(wall), 4),
+            "contacts a vertex": round(statistics.fmean(pairs) / free, 4), "contacts": round(statistics.fmean(pairs)),
+            "detections a step": round(statistics.fmean(detections), 3), "repeated steps": sum(n > 0 for n in repeats),
+            "device memory [MiB]": memory,
+            "audit": {True: "no intersection", False: "FAILED"}.get(m.get("guarantee_kept"), "not audited"),
+            "final_hash": m["final_hash"],
+            "device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else "")}
+
+
+def table(folder):
+    """Rows of the finished runs, sizes and numbers of threads ascending."""
+    rows = []
+    for path in sorted(folder.glob("*/run.json"),
+                       key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
+        run = run_at(path.parent)
+        if run and run.manifest["status"] == "finished":
+            rows.append(row_of(path.parent.name, run, taken(folder / f"{path.parent.name}{MEMORY}")))
+    return rows
+
+
+def exponent(rows):
+    """(p, factor) of median = factor · vertices^p, by least squares on logarithms."""
+    x, y = ([math.log(row[name]) for row in rows] for name in ("vertices", "median [ms]"))
+    slope, intercept = statistics.linear_regression(x, y)
+    return slope, math.exp(intercept)
+
+
+def in_words(rows):
+    """A line a backend and one of the threads."""
+    lines = []
+    for backend in dict.fromkeys(row["backend"] for row in rows if row["over"] == "vertices"):
+        line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
+        if len(line) > 1:
+            density = [row["contacts a vertex"] for row in line]
+            upper = line[len(line) // 2 - 1:] if len(line) > 3 else line
+            lines.append(f"{backend}: time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to "
+                         f"{line[-1]['vertices']:,}, "
+                         f"^{exponent(upper)[0]:.3f} from {upper[0]['vertices']:,} on; {min(density):.3g} to "
+                         f"{max(density):.3g} contacts a vertex")
+    alone = [row for row in rows if row["over"] == "threads"]
+    if len(alone) > 1:
+        first, last = alone[0], alone[-1]
+        same = "with the same bits" if len({row["final_hash"] for row in alone}) == 1 else "NOT with the same bits"
+        gain = first["median [ms]"] / last["median [ms]"]
+        lines.append(f"{last['threads']} threads are {gain:.3g} times as fast as {first['threads']} "
+                     f"({last['vertices']:,} vertices), {same}")
+    return lines
+
+
+def draw(rows, out):
+    from plots import style  # here, so that runs and table need no matplotlib
+    plt = style.use()
+    alone = [row for row in rows if row["over"] == "threads"]
+    widths = [1.6, 1] + [1.2] * bool(alone)
+    figure, panels = plt.subplots(1, len(widths), figsize=(3.2 * sum(widths), 4), width_ratios=widths)
+    time, density = panels[:2]
+    for backend, colour in zip(("cuda", "cpu"), style.COLOURS):
+        line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
+        if line:
+            x = [row["vertices"] for row in line]
+            time.plot(x, [row["median [ms]"] for row in line], "o", color=colour,
+                      label=f"{backend} ({line[-1]['device']})")
+            density.plot(x, [row["contacts a vertex"] for row in line], "o-", color=colour, label=backend)
+        if len(line) > 1:
+            slope, factor = exponent(line)
+            time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1,
+                      label=f"∝ vertices^{slope:.3f}")
+    time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]",
+             title="Time a step at one contact density")
+    density.set(xscale="log", xlabel="free vertices", ylabel="contacts a vertex", title="The density, measured")
+    density.set_ylim(0, 1.1 * density.get_ylim()[1])
+    if alone:
+        cores = panels[2]
+        cores.set(xlabel="threads", ylabel="median time a step [ms]", title=f"CPU, {alone[0]['vertices']:,} vertices")
+        numbers, times = [row["threads"] for row in alone], [row["median [ms]"] for row in alone]
+        best = times[0] * numbers[0]
+        cores.plot(numbers, times, "o-", label="measured")
+        cores.plot(numbers, [best / n for n in numbers], ":", color="black", label="shared out perfectly")
+        cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers, yticks=times,
+                  yticklabels=[f"{t:.3g}" for t in times])
+        cores.minorticks_off()
+    for axes in panels:
+        if axes.has_data():
+            axes.legend(fontsize=7)
+    figure.suptitle("\n".join([*in_words(rows), "commit " + ", ".join(sorted({row["commit"] for row in rows}))]),
+                    fontsize=8)
+    style.save(figure, out)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=commands.SIDES)
+    parser.add_argument("--backend", action="append", choices=["cpu", "cuda"], help="repeatable (default: cpu)")
+    parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
+    options = parser.parse_args()
+    try:
+        if not options.made:
+            over_sizes = [job for backend in dict.fromkeys(options.backend or ["cpu"])
+                          for job in commands.sizes(options.scale, backend)]
+            for job in [*over_sizes, *commands.threads(options.scale, os.cpu_count() or 1)]:
+                job.make(options.ogc, options.folder)
+        rows = table(options.folder)
+        if not rows:
+            raise RunFailure(f"{options.folder} holds no finished run; leave --made out, and they are made")
+        from paper_figures.workflow.runs import write_table
+        write_table(options.folder / "growth.csv", rows)
+        draw(rows, options.folder / "growth.png")
+        print("\n".join(in_words(rows)))
+    except RunFailure as error:
+        sys.exit(f"growth: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,258 @@
+"""Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with
+a row in provenance.csv (command, program, device, digest) and the time it took in durations.csv. `experiments/reproduce
+… --accept MACHINE` calls it.
+
+What is kept is small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
+
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the
+runs of several commits.
+"""
+
+import argparse
+import csv
+import gzip
+import hashlib
+import json
+import re
+import subprocess
+import sys
+from fnmatch import fnmatch
+from pathlib import Path
+
+from paper_figures.workflow import recipes
+from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
+from paper_figures.workflow.kept import AcceptError, bytes_of, run_files
+
+COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
+LARGEST = 2**20  # bytes of a file; tests hold the folder as a whole to 10 MB
+
+
+def manifests(folder):
+    """(run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts as one
+    beside it."""
+    paths = sorted(folder.rglob("run.json"))
+    return [("_".join(path.parent.relative_to(folder).parts), manifest_at(path)) for path in paths]
+
+
+def manifest_at(path):
+    run, manifest = run_at(path.parent), json.loads(path.read_text())
+    return {**manifest, "guarantee_kept": run.guarantee_kept} if run and run.afterwards else manifest
+
+
+def check(name, manifest):
+    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they
+    failed, but no audit did."""
+    if manifest.get("dirty") is not False:
+        raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
+    if manifest.get("guarantee_kept") is False:
+        raise AcceptError(f"{name} failed its audit: that is a finding for compare/deviations.md, not an accepted "
+                          "result")
+    if not str(manifest.get("status", "unknown")).startswith(("finished", "failed: Newton")):
+        raise AcceptError(f"{name} is not finished (status: {manifest.get('status', 'unknown')}): run "
+                          "experiments/reproduce again, it goes on where it was")
+
+
+def program(ogc):
+    """Commit and compiler of the program, as it says itself."""
+    said = subprocess.run([ogc, "--version"], capture_output=True, text=True, check=True).stdout
+    words = dict(line.split(" ", 1) for line in said.splitlines() if line.startswith(("commit ", "compiler ")))
+    if "dirty" in words["commit"] or words["commit"] == "unknown":
+        raise AcceptError(f"{ogc} was built from uncommitted changes: commit, build, and run again")
+    return words
+
+
+def origin(recipe, folder, ogc, backend=None):
+    """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by
+    `backend`, where there is one: windows on the CPU beside it are not what the picture shows."""
+    runs = manifests(folder) if "illustration" not in recipe.body else []
+    for name, manifest in runs:
+        check(f"{folder.name}/{name}", manifest)
+    if not runs:
+        return {**program(ogc), "device": "exact reference", "ended": ""}
+    commits = sorted({manifest["commit"] for _, manifest in runs})
+    if len(commits) > 1:
+        raise AcceptError(f"{folder} mixes runs of commits {', '.join(commit[:10] for commit in commits)}: remove it "
+                          "and run again")
+    last = max((manifest for _, manifest in runs),
+               key=lambda manifest: (manifest.get("backend") == backend, manifest["ended"]))
+    return {key: last[key] for key in ("commit", "compiler", "device", "ended")}
+
+
+def not_run(key, name, columns):
+    """The row about a run that was left out of a figure: its name, that it was not run, and nothing else."""
+    return {**dict.fromkeys(columns, ""), key: name, "status": NOT_RUN, "commit": "-"}
+
+
+def left_out(folder):
+    """The names in such rows of a figure's tables: it is not whole."""
+    for path in sorted(folder.glob("*.csv")):
+        with path.open(newline="") as file:
+            rows = [row for row in csv.DictReader(file) if row.get("status") == NOT_RUN]
+        yield from (next(text for key, text in row.items() if text and key not in ("status", "commit")) for row in rows)
+
+
+def pieces(recipe, scale, backend, runs, incomplete=False):
+    """(name in results, bytes) of what is kept of a figure; `incomplete`: it may lack its movie, which too few frames
+    were brought home for."""
+    folder, picture = runs / recipe.folder(scale, backend), runs / recipe.picture(scale, backend)
+    if not picture.is_file():
+        raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
+    if "illustration" in recipe.body:
+        return [(picture.name, bytes_of(picture)),
+                (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
+    outputs = [runs / path for path in recipe.outputs(scale, backend)]
+    missing = [path for path in outputs if not path.is_file()]
+    if missing and not incomplete:
+        raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, "
+                          "or keep the figure without it by --incomplete")
+    found = [(f"{recipe.name}_{scale}{path.suffix}", bytes_of(path)) for path in outputs if path not in missing]
+    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv"))
+              if not path.stem.endswith(f"_{scale}")]
+    if "vary" not in recipe.body:  # a sweep's table is its data
+        paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
+        for path in paths:  # one run lies beside its picture, several in a folder
+            apart = f"/{run_name(path, folder)}" if len(paths) > 1 else ""
+            found += run_files(path, f"{recipe.name}_{scale}{apart}")
+    return found
+
+
+def keeps(recipe, name):
+    """Whether the files of the run of this name are kept; of others the row in the figure's table is."""
+    return "kept" not in recipe.body or any(fnmatch(name, pattern) for pattern in recipe.body["kept"])
+
+
+def run_name(path, folder):
+    """The folders from the figure's to the run's, but for those that every run lies in."""
+    return "_".join(part for part in path.parent.relative_to(folder).parts if part != "runs")
+
+
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
+    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of
+    them can't be accepted; `incomplete`: one that says itself that runs were left out can be; `by_hand`: the command
+    that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes the picture
+    alone: they keep what was said of them."""
+    folder, kept, rows, scenes = Path(results) / machine, [], [], {}
+    before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
+    shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
+    for recipe in chosen:
+        missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
+        if missing:
+            raise AcceptError(f"{recipe.name} was drawn without {', '.join(missing)}: run them, or keep it as it is "
+                              "with --incomplete and say so in the README")
+        words = origin(recipe, Path(runs) / recipe.folder(scale, backend), ogc,
+                       backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
+        for name, data in unlike_others(pieces(recipe, scale, backend, Path(runs), incomplete), folder, recipe.name,
+                                        rows):
+            if name.startswith(f"../{SCENES}/"):
+                scenes[folder / name] = data
+                continue
+            if len(data) > LARGEST:
+                raise AcceptError(f"{name} has {len(data) / 2**20:.2g} MiB: accepted results are small data")
+            drawn = "illustration" in recipe.body
+            options = f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else "")
+            redo = f"experiments/reproduce {recipe.name}{'' if drawn else options}"
+            digest = hashlib.sha256(data).hexdigest()[:16]
+            if by_hand:
+                redo = by_hand if recipe.name not in shown else before.get((name, digest), redo)
+            rows.append({"file": name, "figure": recipe.name, "scale": "-" if drawn else scale,
+                         "backend": "-" if drawn else backend, "redo": redo, **words,
+                         "sha256": digest})
+            kept.append((folder / name, data))
+    twice = {path.name for path, _ in kept if sum(other == path for other, _ in kept) > 1}
+    if twice:
+        raise AcceptError(f"two files would both be called {', '.join(sorted(twice))}")
+    outdated = earlier_files(folder / "provenance.csv", rows)
+    for name in outdated:
+        (folder / name).unlink(missing_ok=True)
+    for path, data in (*kept, *scenes.items()):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+    merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
+    drop_scenes(Path(results))
+    merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"),
+          list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
+    return rows
+
+
+def unlike_others(found, folder, figure, rows):
+    """The (name, bytes) of `found` without the runs that another figure keeps: in the folder, or in `rows`, about those
+    accepted with it."""
+    others = {row["sha256"] for row in (*rows_of(folder / "provenance.csv"), *rows) if row["figure"] != figure}
+    twice = [name.removesuffix("run.json") for name, data in found
+             if name.endswith("run.json") and hashlib.sha256(data).hexdigest()[:16] in others]
+    run_file = re.compile("|".join(re.escape(stem) + r"[a-z_]+\.(json|csv)(\.gz)?" for stem in twice) or r"(?!)")
+    return [(name, data) for name, data in found if not run_file.fullmatch(name)]
+
+
+def drop_scenes(results):
+    """Removes the scenes that no accepted manifest names any more."""
+    named = {json.loads(path.read_text())["scene"].get("sha256") for path in results.glob("*/**/*run.json")}
+    for path in results.glob(f"{SCENES}/*.json"):
+        if path.stem not in named:
+            path.unlink()
+
+
+def composed(recipe, chosen, scale, backend, runs, ogc):
+    """Origin of a picture of other figures' runs: theirs, if it is one."""
+    found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen
+             if other.name in recipe.body["of"]]
+    if len({words["commit"] for words in found}) > 1:
+        raise AcceptError(f"{recipe.name} mixes runs of several commits: run experiments/reproduce "
+                          f"{' '.join(recipe.body['of'])} anew")
+    return max(found, key=lambda words: words["ended"])
+
+
+def rows_of(table):
+    """The rows of a table, none where there is no such file."""
+    if not table.is_file():
+        return []
+    with table.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def earlier_files(provenance, rows):
+    """The files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that have no
+    successor there."""
+    about = {tuple(row[key] for key in ("figure", "scale", "backend")) for row in rows}
+    names = {row["file"] for row in rows}
+    return [row["file"] for row in rows_of(provenance) if (row["figure"], row["scale"], row["backend"]) in about
+            and row["file"] not in names]
+
+
+def merge(path, columns, rows, key, gone=()):
+    """Rows of a table replaced by those of the same key, without those `gone`; sorted, so that a new acceptance changes
+    its own lines alone."""
+    old = {tuple(row[name] for name in key): row for row in rows_of(path)}
+    old = {name: row for name, row in old.items() if name not in gone}
+    old.update({tuple(row[name] for name in key): row for row in rows})
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(old[name] for name in sorted(old))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("machine", help="folder below paper_figures/results, named after the machine")
+    parser.add_argument("figures", nargs="*")
+    parser.add_argument("--scale", default="small", choices=recipes.SCALES)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
+    parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    parser.add_argument("--redo", metavar="COMMAND",
+                        help="that makes the figure again, where the workflow's does not (options of its script)")
+    parser.add_argument("--incomplete", action="store_true",
+                        help="also a figure that says itself which runs it was drawn without, or that has no movie")
+    options = parser.parse_args()
+    try:
+        chosen = recipes.choose(options.figures, recipes.load(), options.backend)
+        rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc),
+                      incomplete=options.incomplete, by_hand=options.redo)
+    except (AcceptError, recipes.RecipeError) as error:
+        sys.exit(f"accept: {error}")
+    print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m "
+          "paper_figures.workflow.verdicts --write, and look at what changed")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,296 @@
+"""The runs of figures and tables that are made of several, as data: their scripts draw them, the runner makes them
+where nothing but Python itself is installed.
+
+Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are
+those of `ogc run`; `backend` is that of VBD in single precision, all else runs on the CPU.
+"""
+
+from dataclasses import dataclass
+
+from paper_figures.workflow import layers
+from paper_figures.workflow.audited import Audit
+from paper_figures.workflow.jobs import Command, Job, Share, Step
+
+TWIST, THREE_CLOTHS = "large_radius_twist", "three_cloths_on_sphere"
+ONE_ITERATION, ACTIVATIONS = "one_iteration_drop", "activation_drop"
+NEO_HOOKEAN = "stable_neo_hookean"  # of IPC's runs and of those beside them (compare/deviations.md)
+
+TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and paper
+
+THREE_CLOTHS_STEP = {"smoke": 24, "small": 40, "paper": 50}
+THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # of which the start stores the states before
+# The paper draws 500 and 50.
+THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 1000, "newton": 150},
+                           "paper": {"vbd": 1000, "newton": 150}}
+ANY = ("--set", "redetect_fraction=0")
+SLOW = ("--set", "friction_velocity=1e-4")
+NEWTON = ("--solver", "newton", "--residual",
+          *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
+                                               for word in ("--set", value)))
+
+ACTIVATION_STEPS = {"smoke": 30, "small": 40, "paper": 40}
+ENERGIES = ("ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed")
+PAPER_ENERGIES = ENERGIES[:2]
+# The scene's limit of 200 iterations cut off step 35 at the paper's size two short of its end.
+TOLERANCE = ("--set", "newton_tolerance=1e-6", "--set", "newton_iterations=2000")
+WEAK_TOLERANCE = ("--set", "newton_tolerance=1e-4", "--set", "newton_iterations=500")  # 308 at small
+FRAMES = ("--set", "frame_steps=1", "--audit", "end")
+ABLATION = ("--solver", "newton", *TOLERANCE, *FRAMES)
+BY_VBD = ("--set", "redetect_every=10")  # γ_e = 0 is the scene's
+# κ: k_c of IPC's energy over k_c of OGC's. In the paper's drawing (Fig. 21d) both are 1.
+STIFFNESS_RATIOS = (1, 2, 7, 40)
+PRINTED_STIFFNESS = 10  # N/m
+# 16 N/m² r, rounded: a contact carries the weight of a cell, whose area goes as r²; k_c r must follow.
+WEAK_STIFFNESS = {"smoke": 0.5, "small": 0.2, "paper": 0.08}
+
+
+def shared(scale, membrane=NEO_HOOKEAN):
+    """Options that all runs beside IPC's share."""
+    return ("--scale", scale, *(() if membrane == "st_venant_kirchhoff" else ("--set", f"membrane={membrane}")))
+
+
+def on(backend):
+    return () if backend == "cpu" else ("--backend", backend)
+
+
+def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
+    """OGC's run and IPC's of Fig. 2 and 20."""
+    base, profile = (scene, *shared(scale, membrane), "--audit", "frame"), ("--profile",) if scene == TWIST else ()
+    return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc", *profile))
+
+
+def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=20):
+    """IPC on windows of so many steps from states of the run `whole`, which ends at step `last`, where it is too slow
+    for the run itself."""
+    return [Job(f"ipc_{start}", (scene, *shared(scale, membrane), "--solver", "ipc", "--profile", "--steps",
+                                 min(last, start + steps)), (whole, Step(start)))
+            for start in starts]
+
+
+def three_cloths(scale, backends, start_iterations=None):
+    """Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that step by VBD in
+    single precision; and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which the paper may
+    have printed in cm/s, and other steps, because the paper does not say which it draws. `start_iterations`: of each
+    step before, where the scene's own take too long."""
+    step, iterations = THREE_CLOTHS_STEP[scale], THREE_CLOTHS_ITERATIONS[scale]
+    base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
+    before = ("--set", f"iterations={start_iterations or iterations['vbd']}")
+    start = Job("start", (*base, "--backend", backends[-1], "--steps", step - 1, *ANY, *before))
+    solve = (*base, "--steps", step, "--iterations", "--profile")
+    vbd = ("--set", f"iterations={iterations['vbd']}")
+    newton = (*NEWTON, "--set", f"newton_iterations={iterations['newton']}")
+    state = ("start", -1)
+    variants = (("", ()), ("_any", ANY))
+    slow = ("_any_slow", (*ANY, *SLOW))
+    with_slow = (*variants, *([] if scale == "smoke" else [slow]))
+    single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *vbd, *more), state) for backend in backends
+              for suffix, more in (with_slow if backend == backends[-1] else variants)]
+    again = (*base, "--iterations", "--profile", "--backend", backends[-1], *vbd, *ANY)
+    single += [Job(f"vbd_{backends[-1]}_any_at_{other}", (*again, "--steps", other), ("start", Step(other - 1)))
+               for other in THREE_CLOTHS_OTHERS.get(scale, ())]
+    double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *vbd), state),
+              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in with_slow)]
+    return [start, *single], double
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A run of Fig. 21: the energy, how many times the contact stiffness is that of OGC's run beside it (κ), and
+    whether that one is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
+
+    energy: str
+    ratio: int = 1
+    weak: bool = False
+
+    @property
+    def label(self):
+        ratio = f", κ = {self.ratio}" if self.ratio != 1 else ""
+        return self.energy + ratio + (", weak contact" if self.weak else "")
+
+    @property
+    def name(self):
+        return self.energy + (f"_kappa{self.ratio}" if self.ratio != 1 else "") + ("_weak" if self.weak else "")
+
+    def stiffness(self, scale):
+        """k_c [N/m]."""
+        return self.ratio * (WEAK_STIFFNESS[scale] if self.weak else PRINTED_STIFFNESS)
+
+    def options(self, scale):
+        return (*(("--set", f"contact_stiffness={self.stiffness(scale):g}") if self.ratio != 1 or self.weak else ()),
+                "--set", f"activation={self.energy}")
+
+
+PRINTED = tuple(map(Variant, ENERGIES))
+RATIOS = tuple(Variant("ipc_log", ratio) for ratio in STIFFNESS_RATIOS[1:])
+WEAK = (Variant("ogc", weak=True), *(Variant("ipc_log", ratio, True) for ratio in STIFFNESS_RATIOS))
+VARIANTS = (*PRINTED, *RATIOS, *WEAK)
+
+
+def compared(variant):
+    """Whether the variant is one of the paper's two energies: VBD, too, solves its last step."""
+    return variant.energy in PAPER_ENERGIES
+
+
+def ablation(scale, variant):
+    """Fig. 21: all steps, by Newton, as `ogc ablate` runs them; a run that does not converge is a result, too. With
+    weak contact by VBD: layers come so near there that Newton takes thousands of iterations for a step."""
+    steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
+    solver = (*BY_VBD, "--residual", *FRAMES) if variant.weak else ABLATION
+    return Job(f"runs/activation={variant.name}", (*steps, *solver, *variant.options(scale)), may_fail=not variant.weak)
+
+
+def last_step(scale, variant, name, options, may_fail=False):
+    """Fig. 21: the last step again from the variant's own state before it."""
+    steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
+    arguments = (*steps, *variant.options(scale), "--iterations", "--audit", "end", *options)
+    return Job(f"{name}_{variant.name}", arguments, (f"runs/activation={variant.name}", -2), may_fail=may_fail)
+
+
+def by_newton(scale, variant):
+    tolerance = WEAK_TOLERANCE if variant.weak else TOLERANCE
+    return last_step(scale, variant, "newton", ("--solver", "newton", *tolerance, "--condition"), variant.weak)
+
+
+def by_vbd(scale, variant):
+    return last_step(scale, variant, "vbd", ("--solver", "reference_vbd", *BY_VBD))
+
+
+def by_vbd_on(scale, variant, backend):
+    return last_step(scale, variant, f"vbd_{backend}", ("--backend", backend, *BY_VBD))
+
+
+def activations(scale, backend):
+    """Fig. 21: a chain a variant."""
+    for variant in VARIANTS:
+        solved = [by_vbd(scale, variant), by_vbd_on(scale, variant, backend)] if compared(variant) else []
+        yield [ablation(scale, variant), by_newton(scale, variant), *solved]
+
+
+# Table 1: each row's whole run, its audit, one step from five of its states, and windows on the CPU from the same.
+# Steps between stored, audited states: as many as go into 1/60 s, one where a step is longer than half of that.
+FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
+               "robot_shirt": 10}
+SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
+
+
+def of_data(row, data):
+    """The dress is a stand-in without the data of Codimensional IPC."""
+    return ("--set", f"data={data}") if data and row == "dress" else ()
+
+
+def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data=""):
+    """So many times the row's scene to its end, or to step `steps`; the audit comes after the run, in time of its own,
+    or beside it (`audit`: every, frame, end, off)."""
+    beside = "off" if audit == "afterwards" else audit
+    options = (*(("--steps", steps) if steps else ()), *of_data(row, data), "--set", f"frame_steps={FRAME_STEPS[row]}")
+    for number in range(1, runs + 1):
+        name = f"{row}/whole" + (f"_{number}" if number > 1 else "")
+        yield Job(name, (row, "--scale", scale, "--backend", backend, "--audit", beside, *options))
+        if audit == "afterwards":
+            yield Audit(name)
+
+
+def from_states(row, kind, more_steps, scale, options, data=""):
+    """So many steps from five states of the row's whole run, without frames of their own."""
+    every = ("--audit", "off", "--set", "frame_steps=1000000", *of_data(row, data), *options)
+    for share in SHARES:
+        state = (f"{row}/whole", Share(share, FRAME_STEPS[row]))
+        yield Job(f"{row}/{kind}_{share}", (row, "--scale", scale, *every), state, more_steps, pictured=False)
+
+
+def residuals(row, scale, backend, data=""):
+    """One step whose residual is measured. A row an iteration has the contacts of the last detection, and takes the
+    reference a second at 100,000 vertices; of the million vertices nothing is measured."""
+    if row == "fifty_layers_1m":
+        return []
+    options = ("--backend", backend, "--residual", *(() if row == "fifty_layers" else ("--iterations",)))
+    return from_states(row, "residual", 1, scale, options, data)
+
+
+def cpu_windows(row, steps, scale, data=""):
+    return from_states(row, "cpu", steps, scale, ("--backend", "cpu"), data)
+
+
+# Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball
+# it would never slow down. OGC's force jumps at block boundaries, so that a step may never get there: after 100
+# iterations it ends as it is, as a step of VBD does.
+NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "redetect_fraction=0", "newton_iterations=100")
+SOLVERS = {"ipc": ("--solver", "ipc", "--profile"),  # the baseline
+           "newton": ("--solver", "newton", "--profile",
+                      *(word for value in NEWTON_AS_IPC for word in ("--set", value))),
+           "vbd": (), "vbd_cuda": ("--backend", "cuda")}
+
+
+def solvers(scale, cuda=False, membrane=NEO_HOOKEAN):
+    """Fig. 18: the same run by each solver, with its processor time; one after the other, because each wants all
+    cores."""
+    base = ("cloth_on_sphere", *shared(scale, membrane), "--audit", "end")
+    return [Job(name, (*base, *options), processor_time=True) for name, options in SOLVERS.items()
+            if cuda or name != "vbd_cuda"]
+
+
+# Growth: time a step over the number of vertices at one contact density, and over threads.
+SIDES = {"smoke": (6, 8, 12), "small": (10, 15, 22, 32), "paper": (32, 46, 68, 100, 147, 215, 316)}
+SIDE_OF_THREADS = {"smoke": 8, "small": 22, "paper": 46}
+GROWTH_STEPS = 14
+
+
+def sizes(scale, backend):
+    """A run a size, audited at its end."""
+    return [Job(f"{backend}_{layers.vertices(side)}", ("--backend", backend, "--audit", "end"),
+                scene=layers.Stack(side, GROWTH_STEPS)) for side in SIDES[scale]]
+
+
+def threads(scale, cores):
+    """The same run by one thread, two, four … up to all cores; nothing but the time may differ."""
+    numbers = sorted({*(2**k for k in range(cores.bit_length()) if 2**k <= cores), cores})
+    scene = layers.Stack(SIDE_OF_THREADS[scale], GROWTH_STEPS)
+    return [Job(f"threads_{n}", ("--threads", n, "--audit", "off"), scene=scene) for n in numbers]
+
+
+# Distances to Newton's minimiser, of the state after this step: cloths in the middle of their impact and at Fig. 17's
+# step, twist after its first turn, before triangles collapse (fast/PERFORMANCE.md): afterwards the energy is not convex
+# between the two states.
+MINIMISER_STEPS = {"smoke": {"cloth_on_sphere": 22, "three_cloths_on_sphere": 22, "twist": 600},
+                   "small": {"cloth_on_sphere": 40, "three_cloths_on_sphere": 39, "twist": 1200},
+                   "paper": {"cloth_on_sphere": 50, "three_cloths_on_sphere": 49, "twist": 1200}}
+
+
+def minimiser(scale, backend):
+    """Runs to the state that is looked at, profiled, so that nobody takes their times for a result, and the table."""
+    steps = MINIMISER_STEPS[scale]
+    for scene, step in steps.items():
+        options = ("--steps", step, "--set", f"frame_steps={step}", "--audit", "end", "--profile")
+        yield Job(scene, (scene, "--scale", scale, "--backend", backend, *options))
+    frames = [f"{{root}}/{scene}/frames/frame_{step:06d}.h5" for scene, step in steps.items()]
+    words = ("minimise", *frames, "--backend", backend, "--csv", "{root}/minimiser.csv")
+    yield Command("minimiser", words, "minimiser.csv", tuple(steps))
+
+
+# Smaller measurements beside Table 1 (fast/PERFORMANCE.md).
+def sphere(scale, backend):
+    """Fig. 18's scene audited twice, which must give the same bits, then timed, by stage, too, and on the CPU."""
+    base = ("cloth_on_sphere", "--scale", scale, "--set", "frame_steps=5")
+    kinds = {"audited": ("--audit", "every"), "audited_again": ("--audit", "every"), "timed": ("--audit", "off"),
+             "profiled": ("--audit", "off", "--profile")}
+    yield from (Job(kind, (*base, "--backend", backend, *options)) for kind, options in kinds.items())
+    yield Job("on_the_cpu", (*base, "--backend", "cpu", "--audit", "off"))
+
+
+def beginning_of_twist(scale, backend, steps=1200):
+    base = ("twist", "--scale", scale, "--steps", steps, "--backend", backend)
+    yield Job("audited", (*base, "--audit", "frame"))
+    yield Job("timed", (*base, "--audit", "off", "--set", "frame_steps=100"))
+
+
+def strict(scale, backends):
+    """By a program of the strict build: the same bits on every backend (python3 -m plots.agreement RUN RUN)."""
+    base = ("cloth_on_sphere", "--scale", scale, "--set", "frame_steps=1", "--audit", "off")
+    return [Job(backend, (*base, "--backend", backend)) for backend in backends]
+
+
+def sanitized(backend):
+    """A short run watched by each tool of CUDA's."""
+    words = ("cloth_on_sphere", "--scale", "smoke", "--steps", 12, "--profile", "--audit", "off", "--backend", backend)
+    return [Job(tool, words, under=("compute-sanitizer", "--tool", tool, "--error-exitcode", "9"))
+            for tool in ("memcheck", "racecheck", "initcheck")]

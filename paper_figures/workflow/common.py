@@ -1,0 +1,75 @@
+"""What the figure scripts share: arguments, claims, and an error in words instead of a traceback."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from paper_figures.workflow import commands
+from paper_figures.workflow.evidence import CLAIMS
+from paper_figures.workflow.runs import run_job
+from plots.run_folder import Run, RunError
+from plots.scene_figure import draw, draw_movie, load_claims
+
+
+def label(run):
+    """A solver as the paper names it, and where it ran."""
+    names = {"ipc": "IPC", "newton": "Newton-OGC", "vbd": "VBD-OGC", "reference_vbd": "VBD-OGC in double"}
+    solver, backend = run.manifest["solver"], run.manifest["backend"]
+    return names.get(solver, solver) + (", CUDA" if backend == "cuda" else "")
+
+
+def baseline_arguments(description, scales=("smoke", "small", "paper"), backends=("cpu",)):
+    """Parser of the figures that compare IPC with OGC: a folder for the runs and the figure, the program, the scale,
+    the membrane of all solvers."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folder", help="where the runs are, or go, and the figure")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=scales)
+    parser.add_argument("--membrane", default=commands.NEO_HOOKEAN,
+                        help="of all solvers alike; st_venant_kirchhoff is that of the scenes")
+    if len(backends) > 1:
+        parser.add_argument("--backend", default="cpu", choices=backends, help="of OGC's run; IPC's is on the CPU")
+    return parser
+
+
+def options_of(arguments):
+    """Options of `ogc run` that all runs of such a figure share."""
+    return list(commands.shared(arguments.scale, arguments.membrane))
+
+
+def ipc_windows(arguments, scene, whole, starts, steps=20):
+    """IPC on windows of so many steps from states of the run `whole`, where it is too slow for the run itself."""
+    last = int(whole.column("step")[-1])
+    jobs = commands.ipc_windows(scene, whole.folder.name, [start for start in starts if start < last], last,
+                                arguments.scale, arguments.membrane, steps)
+    return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
+
+
+def main(scene, frames, camera, driven=False):
+    """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last
+    of them. `camera`: eye, target, up, or a function that says so of a run. `driven`: by a motion that may be faster
+    than bounds allow; its lag is shown in place of detections."""
+    parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
+    parser.add_argument("run", help="run folder, made by: ogc run " + scene)
+    parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
+    parser.add_argument("--movie", help="MP4 to write instead of the figure")
+    parser.add_argument("--profiled", help="run folder of the same scene, made with --profile, for the times by stage")
+    arguments = parser.parse_args()
+    try:
+        run = Run(arguments.run)
+        found = run.manifest["scene"]["name"]
+        if found != scene:
+            raise RunError(f"{arguments.run} is a run of '{found}', not of '{scene}'")
+        camera = camera(run) if callable(camera) else camera
+        if arguments.movie:
+            draw_movie(run, camera, arguments.movie)
+            sys.exit()
+        last = int(run.column("step")[-1])
+        claims = load_claims(CLAIMS / f"{scene}.json",
+                             run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
+        out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
+        draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out,
+             Run(arguments.profiled) if arguments.profiled else None, driven)
+    except RunError as error:
+        sys.exit(f"{Path(sys.argv[0]).name}: {error}")
+    print(out)

@@ -1,0 +1,414 @@
+"""What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a
+judgement needs no package.
+
+A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`; of an accepted
+result `X_steps.csv`, of a long one `X_hundreds.csv`, see thinned.py; compressed ones end in `.gz`); a table is
+`figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit and a device in each row. An accepted manifest names its scene by
+the hash of `results/scenes/HASH.json`. Runs that are unfinished, of a changed tree, or that failed their audit are no
+evidence.
+"""
+
+import copy
+import csv
+import gzip
+import json
+import math
+import statistics
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from pathlib import Path
+
+from paper_figures.workflow.jobs import AUDIT
+from paper_figures.workflow.thinned import Hundreds
+from plots.columns import column_and_unit
+
+ROOM = Path(__file__).parent.parent  # paper_figures
+RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
+SCENES = "scenes"  # folder below the results: the scenes of accepted manifests, each named by its hash
+ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
+NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
+
+
+class EvidenceError(Exception):
+    """A result that can't be read as its claim wants it; the message says which, what and what to do."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number and where it comes from; `source` is a path below the folder of the results, `about` what else must be
+    known to read it."""
+
+    value: float
+    source: str
+    device: str
+    commit: str
+    ended: str
+    about: str = ""
+
+
+class Columns(Mapping):
+    """Columns of a file of rows by name without unit; numbers are made of a column when it is asked for."""
+
+    def __init__(self, path):
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="") as file:
+            names, *rows = [row for row in csv.reader(file) if row]
+        rows = [row for row in rows if len(row) == len(names)]
+        names = [column_and_unit(name)[0] for name in names]
+        self.texts = dict(zip(names, zip(*rows) if rows else [()] * len(names)))
+        self._numbers = {}
+
+    def __getitem__(self, name):
+        if name not in self._numbers:
+            self._numbers[name] = [float(text or "nan") for text in self.texts[name]]
+        return self._numbers[name]
+
+    def __iter__(self):
+        return iter(self.texts)
+
+    def __len__(self):
+        return len(self.texts)
+
+
+@lru_cache(maxsize=None)
+def columns_of(path, stamp):
+    """The columns of a file; `stamp` tells its versions apart."""
+    return Columns(path)
+
+
+def is_driven(body):
+    """Whether nothing of the body is simulated: it is fixed, or all of it follows a prescribed motion."""
+    return body["fixed"] or body.get("prescribed_vertices") == body["vertex_count"]
+
+
+def manifest_at(path):
+    """The manifest with its scene, wherever that is kept. Throws EvidenceError where it is not."""
+    manifest = json.loads(path.read_text())
+    digest = manifest.get("scene", {}).get("sha256")
+    if digest is None:
+        return manifest
+    scene = next((way for folder in path.parents if (way := folder / SCENES / f"{digest}.json").is_file()), None)
+    if scene is None:
+        raise EvidenceError(f"{path}: its scene {digest}.json is in no folder {SCENES} above it: accept the run again")
+    return {**manifest, "scene": json.loads(scene.read_text())}
+
+
+class RunEvidence:
+    """A run: its manifest, and the columns of its rows without units."""
+
+    def __init__(self, manifest, rows, source):
+        self.manifest, self.rows, self.source = manifest_at(Path(manifest)), Path(rows), source
+        afterwards = Path(manifest).with_name(Path(manifest).name.removesuffix("run.json") + AUDIT)
+        self.afterwards = json.loads(afterwards.read_text()) if afterwards.is_file() else {}
+
+    @cached_property
+    def columns(self):
+        about = self.rows.stat()
+        return columns_of(self.rows, (about.st_mtime_ns, about.st_size))
+
+    @cached_property
+    def thinned(self):
+        """Statistics of a run whose rows are thinned; None where every row is there."""
+        if ROWS[1] not in self.rows.name:
+            return None
+        return Hundreds(self.columns.texts, self.manifest["whole_run"])
+
+    def column(self, name):
+        """A number for each step. Throws EvidenceError where there is no such column, or no row of every step."""
+        if self.thinned:
+            raise EvidenceError(f"{self.source} keeps a row of each hundred steps: ask for its mean, largest or course")
+        return self._checked(name, self.columns)[name]
+
+    def _checked(self, name, columns):
+        if name not in columns:
+            raise EvidenceError(f"{self.source} has no column '{name}'; it has: {', '.join(self.columns)}")
+        return columns
+
+    @property
+    def step_count(self):
+        return self.thinned.count if self.thinned else len(self.column("step"))
+
+    @property
+    def first_step(self):
+        """The number of the first row's step; None where there is no row. A thinned run begins at 1 or says so."""
+        if self.thinned:
+            return self.thinned.of("smallest", "step")[0]
+        return next(iter(self.column("step")), None)
+
+    def mean(self, name):
+        return self._checked(name, self.thinned).mean(name) if self.thinned else statistics.fmean(self.column(name))
+
+    def largest(self, name):
+        return self._checked(name, self.thinned).largest(name) if self.thinned else max(self.column(name))
+
+    def course(self, name):
+        """(steps, values): of every row, or of each hundredth."""
+        if self.thinned:
+            return self.thinned.of("row", "step"), self._checked(name, self.thinned).of("row", name)
+        return self.column("step"), self.column(name)
+
+    @property
+    def usable(self):
+        return self.sound and self.manifest.get("dirty") is False
+
+    @property
+    def sound(self):
+        """Usable but for what made it: a program with uncommitted changes, maybe."""
+        return self.manifest.get("status") == "finished" and self.guarantee_kept is not False
+
+    @property
+    def failed_audit(self):
+        """A run of which an audit found an intersection: evidence against the guarantee, and for nothing else."""
+        return self.manifest.get("dirty") is False and self.guarantee_kept is False
+
+    @property
+    def audited_states(self):
+        """How many states were audited exactly, while the run went on or afterwards."""
+        return int(self.manifest.get("audited_states", 0)) + self.afterwards.get("states", 0)
+
+    @property
+    def guarantee_kept(self):
+        """False where any audit found an intersection, True where one looked and none did, else None."""
+        found = [self.manifest.get("guarantee_kept"), self.afterwards.get("clean")]
+        return False if False in found else True if True in found and self.audited_states else None
+
+    @property
+    def audit_in_words(self):
+        return f"{self.audited_states} states audited, {self.step_count} steps"
+
+    def matches(self, wanted):
+        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
+        membrane, activation, redetect_fraction (rounded to single precision in the manifest), and steps: so many from
+        the scene's start, not a window."""
+        m = self.manifest
+        special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
+                   "profiled": lambda yes: bool(m.get("stages")) == yes,
+                   "membrane": lambda name: self.membranes == {name},
+                   "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
+                   "redetect_fraction":
+                       lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
+                   "audited": lambda yes: (self.guarantee_kept is not None) == yes,
+                   "scene": lambda name: m["scene"]["name"] == name}
+        return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
+
+    def first(self, steps):
+        """The run up to this step: beyond the end of its scene a run is no evidence of it."""
+        if self.step_count <= steps:
+            return self
+        cut = copy.copy(self)
+        if self.thinned:
+            cut.thinned = self._cut(steps)
+            return cut
+        cut.columns = {name: self.columns[name][:steps] for name in self.columns}
+        return cut
+
+    def _cut(self, steps):
+        try:
+            return self.thinned.first(steps)
+        except ValueError as error:
+            raise EvidenceError(f"{self.source}: {error}: accept a run of {steps} steps") from error
+
+    @property
+    def membranes(self):
+        """Of the moving bodies: two figures may have one scene with different materials."""
+        return {body["material"]["membrane"] for body in self.manifest["scene"]["bodies"] if not is_driven(body)}
+
+    def measured(self, value, about=""):
+        m = self.manifest
+        return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"], about)
+
+
+def run_at(folder):
+    """The run in a run folder; None where it has no manifest or no rows."""
+    manifest, rows = folder / "run.json", folder / "steps.csv"
+    return RunEvidence(manifest, rows, folder.as_posix()) if manifest.is_file() and rows.is_file() else None
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of results: name (figNN, tableN), scale, rows; `ended`: when its runs did, empty where nobody says so."""
+
+    name: str
+    scale: str
+    rows: tuple
+    source: str
+    ended: str = ""
+
+
+def table_name(path):
+    """(figure, scale) of `figNN_SCALE.csv`, or of `figNN.csv` in the folder FIGURE-SCALE-BACKEND of a figure's runs."""
+    name, _, scale = path.stem.rpartition("_")
+    folder = path.parent.name.split("-")
+    return (name, scale) if name else (scale, folder[1] if len(folder) == 3 else "")
+
+
+def runs_in(folder):
+    """Every run below `folder` that has rows, finished or not, by the name of its manifest."""
+    found = []
+    for path in sorted(Path(folder).rglob("*run.json")):
+        stem = path.name.removesuffix("run.json")
+        ways = (path.with_name(stem + rows + suffix) for rows in ROWS for suffix in ("", ".gz"))
+        kept = [way for way in ways if way.is_file()]
+        if kept:
+            found.append(RunEvidence(path, kept[0], path.relative_to(folder).as_posix()))
+    return found
+
+
+def ended_of(path):
+    """When the runs of an accepted table ended, as the provenance beside it says; empty where there is none."""
+    provenance = path.with_name("provenance.csv")
+    if not provenance.is_file():
+        return ""
+    with provenance.open(newline="") as file:
+        return next((row["ended"] for row in csv.DictReader(file) if row["file"] == path.name), "")
+
+
+class Evidence:
+    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program
+    too."""
+
+    def __init__(self, folder=RESULTS, changed=False):
+        folder = Path(folder)
+        self.runs, self.tables = sorted(runs_in(folder), key=lambda run: run.manifest.get("ended", "")), []
+        self.failed = [run for run in self.runs if run.failed_audit]
+        self.runs = [run for run in self.runs if run.usable or changed and run.sound]
+        found = ((ended_of(path), path) for path in (*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")))
+        for ended, path in sorted(found):
+            name, scale = table_name(path)
+            with path.open(newline="") as file:
+                rows = tuple(csv.DictReader(file))
+            self.tables.append(Table(name, scale, rows, path.relative_to(folder).as_posix(), ended))
+        self._earlier = {}
+
+    def before(self, moment):
+        """What of this was there at a moment, as manifests write it (2026-11-21T12:40:00Z)."""
+        if moment not in self._earlier:
+            earlier = self._earlier[moment] = copy.copy(self)
+            was_there = lambda run: run.manifest.get("ended", "") < moment  # noqa: E731
+            earlier.runs, earlier.failed = list(filter(was_there, self.runs)), list(filter(was_there, self.failed))
+            earlier.tables = [table for table in self.tables if table.ended and table.ended < moment]
+        return self._earlier[moment]
+
+    def measure(self, spec, wanted):
+        """The number that `spec` describes from the newest run that is as `wanted`, or the newest table, or None where
+        there is none."""
+        if isinstance(spec, list):
+            return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
+        if "table" in spec:
+            return self._of_table(spec, wanted.get("scale"))
+        if "ratio" in spec:
+            return self._ratio(spec, wanted)
+        wanted = {**wanted, **spec.get("run", {})}
+        runs = self.runs_as(wanted)
+        if "guarantee" in spec:
+            # One failed audit outweighs every run that kept the guarantee, whatever its last step and its material.
+            alike = {key: value for key, value in wanted.items() if key not in ("steps", "membrane")}
+            runs += [run for run in self.failed if run.matches(alike)]
+        if not runs:
+            return None
+        return runs[-1].measured(value_of(runs[-1], spec), runs[-1].audit_in_words if "guarantee" in spec else "")
+
+    def runs_as(self, wanted):
+        found = [run for run in self.runs if run.matches(wanted)]
+        return [run.first(wanted["steps"]) for run in found] if "steps" in wanted else found
+
+    def _ratio(self, spec, wanted):
+        """Of two runs of one commit and of the same materials, and of one machine unless the ratio is about two."""
+        over, under = (self.runs_as({**wanted, **part.get("run", {})}) for part in spec["ratio"])
+        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"]
+                 and a.membranes == b.membranes
+                 and (spec.get("devices") == "differ" or a.manifest["device"] == b.manifest["device"])]
+        if not alike:
+            return None
+        a, b = alike[-1]
+        first, second = value_of(a, spec["ratio"][0]), value_of(b, spec["ratio"][1])
+        found = a.measured(first / second)
+        devices = found.device, b.manifest["device"]
+        on = f"each on {devices[0]}" if len(set(devices)) == 1 else " over ".join(devices)
+        ended = max(a.manifest["ended"], b.manifest["ended"])
+        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on)
+
+    def _of_table(self, spec, scale):
+        for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
+            rows = [_row(table, spec[key]) for key in (("over", "under") if "over" in spec else ("where",))]
+            if any(row is None for row in rows):
+                continue
+            cells = [_cell(table, row, spec["column"]) for row in rows]
+            if len({row["commit"] for row in rows}) > 1:
+                raise EvidenceError(f"{table.source} mixes commits "
+                                    f"{', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one "
+                                    "program")
+            if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
+                continue
+            value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
+            on = f"each on {rows[0]['device']}" if len(cells) > 1 and "[ms]" in spec["column"] else ""
+            return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on)
+        return None
+
+
+def _row(table, wanted):
+    rows = [row for row in table.rows if all(row.get(key) == value for key, value in wanted.items())
+            and "dirty" not in row["commit"] and row.get("status") != NOT_RUN]
+    return rows[0] if rows else None
+
+
+def _cell(table, row, column):
+    if column not in row:
+        raise EvidenceError(f"{table.source} has no column '{column}'; it has: {', '.join(row)}")
+    try:
+        return float(row[column])
+    except ValueError:
+        return math.nan
+
+
+def value_of(run, spec):
+    """A number of one run: statistics of its rows, a setting, a count of its scene."""
+    m = run.manifest
+    if "steps" in spec:
+        return _statistic(run, spec) * spec.get("times", 1)
+    if "setting" in spec:
+        return m["settings"][spec["setting"]]["value"]
+    moving = [body for body in m["scene"]["bodies"] if not is_driven(body)]
+    if "material" in spec:
+        values = {body["material"][spec["material"]]["value"] for body in moving}
+        return values.pop() if len(values) == 1 else math.nan
+    if "scene" in spec:
+        return _count(m["scene"], moving, spec["scene"])
+    if "guarantee" in spec:
+        return 0 if run.guarantee_kept else 1
+    if "simulated" in spec:
+        return run.step_count * m["settings"]["time_step"]["value"]
+    if "real_time" in spec:
+        return 1e3 * m["settings"]["time_step"]["value"] / run.mean(spec["real_time"])
+    raise EvidenceError(f"a claim measures {json.dumps(spec)}, which nobody knows how to")
+
+
+def _count(scene, moving, what):
+    driven = [body for body in scene["bodies"] if is_driven(body)]
+    counts = {"vertices": (moving, "vertex_count"), "triangles": (moving, "triangle_count"),
+              "fixed_vertices": (driven, "vertex_count"), "fixed_triangles": (driven, "triangle_count")}
+    if what in counts:
+        bodies, key = counts[what]
+        return sum(body[key] for body in bodies)
+    if what == "moving_bodies":
+        return len(moving)
+    if what not in scene:
+        raise EvidenceError(f"the manifest of {scene['name']} has no count of {what}")
+    return scene[what]
+
+
+def _statistic(run, spec):
+    names = spec["steps"] if isinstance(spec["steps"], list) else [spec["steps"]]
+    mean = sum(run.mean(name) for name in names)
+    kind = spec["statistic"]
+    if kind in ("max", "max over mean"):
+        largest = _largest(run, names)
+        return largest if kind == "max" else largest / mean
+    return {"mean": mean, "sum": mean * run.step_count}[kind] if kind != "sum over" else mean / run.mean(spec["over"])
+
+
+def _largest(run, names):
+    """The largest of the sums of columns."""
+    if len(names) == 1:
+        return run.largest(names[0])
+    return max(sum(row) for row in zip(*(run.column(name) for name in names)))

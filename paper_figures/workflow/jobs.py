@@ -1,0 +1,322 @@
+"""Jobs of `ogc` under a limit of time: what is finished is kept, what was cut off goes on from its checkpoint, and at
+the limit a job is asked to stop. Python's own library is enough.
+
+A job is a command with a folder or a file of its own below the folder of its part. `make` makes it, or goes on with it,
+and returns how that ended (KEPT, FINISHED, STOPPED); it throws RunFailure. `results` yields the files that are packed.
+"""
+
+import contextlib
+import json
+import math
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+SECONDS_TO_STOP = 60  # for the step at hand, and its checkpoint
+KEPT, FINISHED, STOPPED, FAILED = "kept", "finished", "stopped at the limit; call again to go on", "FAILED"
+CALL_AGAIN = 75  # exit status where a limit came first (EX_TEMPFAIL of sysexits.h)
+LINES = 5
+PROCESSOR_TIME = "processor_time.json"  # beside the manifest of a run whose processor time was asked for [s]
+MEMORY = "_device_memory.json"  # ends the name of what was sampled while a run was on a device
+AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.workflow.audited)
+
+
+class RunFailure(Exception):
+    """A job that did not end as it should, or that can't begin; the message has its command and the log's last
+    lines."""
+
+
+class Limit:
+    """A moment on the clock, not after that of `within`; without seconds it never comes."""
+
+    def __init__(self, seconds=None, within=None):
+        self.end = time.monotonic() + seconds if seconds is not None else math.inf
+        self.within = within
+
+    def left(self):
+        own = max(0.0, self.end - time.monotonic())
+        return min(own, self.within.left()) if self.within else own
+
+    def stop(self):
+        """It comes now."""
+        self.end = time.monotonic()
+
+
+@dataclass(frozen=True)
+class Step:
+    """The frame after this step."""
+
+    number: int
+
+
+@dataclass(frozen=True)
+class Share:
+    """The frame at so many hundredths of a run's steps, rounded down to one that is stored every `frame_steps` steps;
+    the last one at 100."""
+
+    percent: int
+    frame_steps: int
+
+
+def last_step(run):
+    """The step of the last row of a run. Throws RunFailure where it has none."""
+    rows = run / "steps.csv"
+    last = rows.read_text().splitlines()[-1].partition(",")[0] if rows.is_file() else ""
+    if not last.isdigit():
+        raise RunFailure(f"{run} has no step yet: make that run first")
+    return int(last)
+
+
+def frame_of(run, place):
+    """(path, step) of a run's frame: a place in their order, a Step or a Share. Throws RunFailure where it is
+    missing."""
+    if isinstance(place, Share):
+        last = last_step(run)
+        place = Step(last if place.percent == 100
+                     else last * place.percent // 100 // place.frame_steps * place.frame_steps)
+    frames = sorted((run / "frames").glob("frame_*.h5"))
+    if isinstance(place, Step):
+        frames, place = [frame for frame in frames if frame.stem == f"frame_{place.number:06d}"], 0
+    if len(frames) < (place + 1 if place >= 0 else -place):
+        raise RunFailure(f"a run begins with a frame of {run}, which does not have it: make that run first")
+    return frames[place], int(frames[place].stem.removeprefix("frame_"))
+
+
+@dataclass(frozen=True)
+class Job:
+    """`ogc run ARGUMENTS --out FOLDER/name`.
+
+    `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
+    that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
+    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed."""
+
+    name: str
+    arguments: tuple
+    state: tuple = ()
+    more_steps: int = 0
+    scene: object = None
+    may_fail: bool = False
+    processor_time: bool = False
+    under: tuple = ()
+    pictured: bool = True
+
+    def words(self, root):
+        """What follows the program's name. Throws RunFailure where the state that it begins with is missing."""
+        words = ["run", *([str(root / self.scene.path)] if self.scene else []), *map(str, self.arguments)]
+        if self.state:
+            frame, step = frame_of(root / self.state[0], self.state[1])
+            words += ["--from-state", str(frame)]
+            words += ["--steps", str(step + self.more_steps)] if self.more_steps else []
+        return [*words, "--out", str(root / self.name)]
+
+    @property
+    def on_device(self):
+        return ("--backend", "cuda") in zip(self.arguments, self.arguments[1:])
+
+    def done(self, root):
+        """Whether the folder holds the run of this command by this program, at its end."""
+        status = manifest_of(root / self.name).get("status", "")
+        ended = status == "finished" or self.may_fail and status.startswith("failed")
+        return bool(ended) and same_command(root / self.name, self.words(root))
+
+    def goes_on(self, program, root):
+        """Whether the folder holds a part of this run from which this program can go on."""
+        folder = root / self.name
+        status = manifest_of(folder).get("status", "failed")
+        return (not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
+                and same_command(folder, self.words(root)) and is_of(folder, program))
+
+    def make(self, program, root, limit=Limit(), shown=False):
+        """`shown`: with its progress on the screen."""
+        folder = root / self.name
+        if self.done(root):
+            return KEPT
+        if limit.left() == 0:
+            return STOPPED
+        goes_on = self.goes_on(program, root)
+        if not goes_on:
+            self.begin_anew(program, root)
+        words = ["run", "--resume", str(folder)] if goes_on else self.words(root)
+        command = [*self.under, str(program), *words]
+        log = None if shown else root / f"{self.name}.log"
+        if shown:
+            print(" ".join(command), file=sys.stderr, flush=True)
+        used_before = taken_before(folder) if goes_on and self.processor_time else {}
+        code, used = command_in(command, limit, log)
+        if self.processor_time and used_before is not None and folder.is_dir():
+            together = {name: used_before.get(name, 0) + seconds for name, seconds in used.items()}
+            (folder / PROCESSOR_TIME).write_text(json.dumps(together) + "\n")
+        return self.end(folder, code, limit, command, log)
+
+    def begin_anew(self, program, root):
+        folder = root / self.name
+        if manifest_of(folder):
+            print(f"{folder}: of another command or program, failed, or without a checkpoint: run again",
+                  file=sys.stderr, flush=True)
+        remove(folder)
+        if self.scene:
+            self.scene.write(program, root)
+
+    def end(self, folder, code, limit, command, log):
+        status = manifest_of(folder).get("status", "")
+        if code == 0 and status == "finished":
+            return FINISHED
+        if limit.left() == 0 and not status.startswith("failed"):
+            return STOPPED
+        if self.may_fail and status.startswith("failed"):
+            return FINISHED
+        if self.under and status == "finished":  # what watched it found something: its log says what, the run nothing
+            shutil.rmtree(folder)
+        raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
+
+    def results(self, root, frames, last):
+        """Manifest, rows and so many frames, evenly over the run, and the last ones; of a run that has ended alone."""
+        folder = root / self.name
+        if not manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton")):
+            return
+        names = ("run.json", "steps.csv", "iterations.csv", PROCESSOR_TIME, AUDIT)
+        chosen = chosen_frames(folder, frames, last) if self.pictured else []
+        beside = [root / f"{self.name}{MEMORY}", *(folder / name for name in names)]
+        yield from (path for path in beside if path.is_file())
+        yield from chosen
+        if chosen:
+            yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())
+
+
+@dataclass(frozen=True)
+class Command:
+    """`ogc WORDS`, which makes the file `output` of the part out of the runs `of`: whole, or not at all. "{root}" in
+    the words is the part's folder."""
+
+    name: str
+    words: tuple
+    output: str
+    of: tuple = ()
+    on_device = False
+
+    def done(self, root):
+        output, stamp = root / self.output, Path(os.environ.get("OGC_STAMP") or "/nonexistent")
+        inputs = [*(root / name / "run.json" for name in self.of), *([stamp] if stamp.is_file() else [])]
+        return output.is_file() and all(path.is_file() and path.stat().st_mtime <= output.stat().st_mtime
+                                        for path in inputs)
+
+    def make(self, program, root, limit=Limit(), shown=False):
+        if self.done(root):
+            return KEPT
+        if limit.left() == 0:
+            return STOPPED
+        command = [str(program), *(str(word).format(root=root) for word in self.words)]
+        log = None if shown else root / f"{self.name}.log"
+        code, _ = command_in(command, limit, log)
+        if code == 0 and (root / self.output).is_file():
+            return FINISHED
+        (root / self.output).unlink(missing_ok=True)
+        if limit.left() == 0:
+            return STOPPED
+        raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
+
+    def results(self, root, _frames, _last):
+        yield from [root / self.output] if (root / self.output).is_file() else []
+
+
+def manifest_of(folder):
+    path = Path(folder) / "run.json"
+    return json.loads(path.read_text()) if path.is_file() else {}
+
+
+def remove(folder):
+    """A run folder as a whole, or a link to one."""
+    if folder.is_symlink():
+        folder.unlink()
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def without_paths(words):
+    """Words without the folders that their files lie in."""
+    return [str(word).rpartition("/")[2] for word in words]
+
+
+def same_command(folder, words):
+    """Whether `folder` holds a run of these words by this program. The workflow names in OGC_STAMP a file that is
+    rewritten when the program changes."""
+    manifest, stamp = folder / "run.json", os.environ.get("OGC_STAMP", "")
+    changed = stamp and Path(stamp).is_file() and Path(stamp).stat().st_mtime > manifest.stat().st_mtime
+    command = manifest_of(folder)["command"]
+    said = command.split() if isinstance(command, str) else command
+    return not changed and without_paths(said[1:]) == without_paths(words)
+
+
+def is_of(folder, program):
+    """Whether this program's commit made the run: no other can go on with it."""
+    said = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=False).stdout
+    return f"commit {manifest_of(folder)['commit']}" in said
+
+
+def taken_before(folder):
+    """Processor time of a run's earlier attempts [s], taken out of its file until it is added to; None where one of
+    them was killed with whoever measured it."""
+    path = folder / PROCESSOR_TIME
+    if not path.is_file():
+        return None
+    used = json.loads(path.read_text())
+    path.unlink()
+    return used
+
+
+def chosen_frames(folder, frames, last):
+    """So many frames of a run, the first, evenly on to the last, and the `last` ones."""
+    found = sorted((folder / "frames").glob("frame_*.h5"))
+    spread = {round(i * (len(found) - 1) / (frames - 1)) for i in range(frames)} if frames > 1 and found else set()
+    return [frame for i, frame in enumerate(found) if i in spread or i >= len(found) - last]
+
+
+def command_in(command, limit=Limit(), log=None, out=None):
+    """(exit status, processor time) of a command that is asked to stop at the limit and killed a minute later. What it
+    prints goes to the file `log`; its standard output to `out` where that is named; without both, errors and progress
+    to the screen."""
+    command = list(map(str, command))
+    apart = {"start_new_session": True}  # an interrupt of ours, told once: a second one kills
+    if log is None:
+        return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit)
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("w") as errors, (out.open("w") if out else contextlib.nullcontext(errors)) as output:
+        return waited(subprocess.Popen(command, stdout=output, stderr=errors, **apart), limit)
+
+
+def waited(process, limit):
+    """(exit status, processor time by kind [s]) of a process, which is asked to stop at the limit."""
+    for stop, until in ((None, limit), (signal.SIGINT, Limit(SECONDS_TO_STOP)), (signal.SIGKILL, Limit())):
+        if stop is not None:
+            os.kill(process.pid, stop)
+        try:
+            found = ended(process, until)
+        except KeyboardInterrupt:
+            os.kill(process.pid, signal.SIGINT)
+            ended(process, Limit(SECONDS_TO_STOP))
+            raise
+        if found:
+            return found
+    raise AssertionError("a killed process ends")
+
+
+def ended(process, limit):
+    """What `waited` returns, or None where the process goes on at the limit."""
+    pause = 1e-3
+    while True:
+        pid, status, used = os.wait4(process.pid, os.WNOHANG)
+        if pid:
+            process.returncode = os.waitstatus_to_exitcode(status)
+            return process.returncode, {"user [s]": used.ru_utime, "system [s]": used.ru_stime}
+        if limit.left() == 0:
+            return None
+        pause = min(2 * pause, 0.05)
+        time.sleep(pause)
+
+
+def last_lines(log, lines=LINES):
+    return "\n  ".join(log.read_text(errors="replace").splitlines()[-lines:]) if log else "its last lines say why"

@@ -1,0 +1,94 @@
+"""How results keep the files of a run and pictures: rows of a long run thinned (thinned.py), a scene once for all
+manifests that name its hash, settings without what they mean, pictures with a palette.
+"""
+
+import gzip
+import hashlib
+import io
+import json
+import re
+
+from paper_figures.workflow import thinned
+from paper_figures.workflow.evidence import ROWS, SCENES, EvidenceError, run_at
+from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
+
+LONG = 2**15  # bytes of rows; more are kept compressed
+COLOURS = 256  # of a picture's palette
+
+
+class AcceptError(Exception):
+    """Why a figure's files can't become accepted results; the message says which, and what to do."""
+
+
+def relative(text):
+    """A command without the folders of absolute paths: they say nothing on another machine."""
+    return re.sub(r"(?<![^\s=])/\S*/", "", text)
+
+
+def compressed(name, data):
+    """(name, data) as they are kept: long rows with gzip, which evidence.py reads as well."""
+    return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
+
+
+def bytes_of(path):
+    """What is kept of a figure's file: of a picture one with a palette."""
+    return in_palette(path.read_bytes()) if path.suffix == ".png" else path.read_bytes()
+
+
+def in_palette(picture):
+    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: a quarter of the size.
+    Throws AcceptError."""
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        image = Image.open(io.BytesIO(picture)).convert("RGB")
+    except UnidentifiedImageError as error:
+        raise AcceptError(f"a picture is no PNG ({error}): draw it again") from error
+    out = io.BytesIO()
+    image.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+def run_files(path, stem):
+    """Manifest, scene, rows, iterations and processor time of the run whose manifest is `path`."""
+    rows = path.with_name("steps.csv")
+    text = rows.read_text() if rows.is_file() else ""
+    manifest, scene = compact(json.loads(path.read_text()))
+    found = [*scene]
+    if thinned.is_long(text):
+        manifest["whole_run"] = {**thinned.whole_run(text), **costs_of(path.parent)}
+        found.append(compressed(f"{stem}_{ROWS[1]}", thinned.hundreds(text).encode()))
+    elif text:
+        found.append(compressed(f"{stem}_{ROWS[0]}", text.encode()))
+    kept = ("iterations.csv", PROCESSOR_TIME)
+    found += [compressed(f"{stem}_{name}", path.with_name(name).read_bytes()) for name in kept
+              if path.with_name(name).is_file()]
+    if path.with_name(AUDIT).is_file():
+        audit = json.loads(path.with_name(AUDIT).read_text())
+        audit.pop("steps", None)  # `states` counts them
+        found.append((f"{stem}_{AUDIT}", (json.dumps(audit) + "\n").encode()))
+    return [(f"{stem}_run.json", (json.dumps(manifest, indent=1) + "\n").encode()), *found]
+
+
+def compact(manifest):
+    """The manifest without folders of the machine, what settings mean, and the scene, which the file beside it holds:
+    (manifest, [(name, bytes)])."""
+    manifest = dict(manifest)
+    manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
+    manifest["settings"] = {name: {key: value for key, value in entry.items() if key != "meaning"}
+                            for name, entry in manifest.get("settings", {}).items()}
+    data = (json.dumps(manifest["scene"]) + "\n").encode()
+    digest = hashlib.sha256(data).hexdigest()[:16]
+    manifest["scene"] = {"name": manifest["scene"]["name"], "sha256": digest}
+    return manifest, [(f"../{SCENES}/{digest}.json", data)]
+
+
+def costs_of(folder):
+    """Where the time of the run's steps goes, which the thinned rows can't tell any more; nothing where every row
+    can't."""
+    from paper_figures.workflow.step_costs import costs
+
+    try:
+        return {"step_costs": costs(run_at(folder))}
+    except EvidenceError:
+        return {}

@@ -1,0 +1,151 @@
+"""What the runner can be asked for, by name: the runs of a figure, a row of Table 1 or a measurement, as chains of
+jobs.
+
+A chain's jobs are made one after the other; chains of one part may go on side by side. Folders below that of the runs
+are those of the workflow (FIGURE-SCALE-BACKEND).
+"""
+
+import os
+from dataclasses import dataclass
+
+from paper_figures.workflow import commands
+from paper_figures.workflow.judge_counts import STAGES, Counts
+
+# Rows of Table 1, the most wanted first: the figure of the row's scene, and the frames that are packed of its run.
+ROWS = {"twist": ("fig12", 40), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
+        "fifty_layers": ("fig10", 3),
+        "knot": ("fig11", 17), "dress": ("fig13", 20), "robot_shirt": ("fig14", 20)}
+WINDOW = {"smoke": 20, "small": 20, "paper": 200}  # steps on the CPU
+
+
+@dataclass(frozen=True)
+class Part:
+    """`recipe`: the figure that its runs are of. Of each run `frames` are packed, evenly over it, and the `last` ones.
+    `shown_as`: the folder where the figure's workflow looks for the run of the part's first job."""
+
+    folder: str
+    chains: tuple
+    recipe: str = ""
+    frames: int = 4
+    last: int = 0
+    shown_as: str = ""
+
+    @property
+    def jobs(self):
+        return [job for chain in self.chains for job in chain]
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What all parts are made of; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `share`, `seed` and
+    `stages` (none: all) the judge's counts."""
+
+    scale: str = "paper"
+    backend: str = "cuda"
+    window: int = 0
+    runs: int = 1
+    steps: int = 0
+    audit: str = "afterwards"
+    data: str = ""
+    share: float = 1
+    seed: int = 1
+    stages: tuple = ()
+
+    @property
+    def backends(self):
+        return list(dict.fromkeys(["cpu", self.backend]))
+
+    def folder(self, name, backend=None):
+        return f"{name}-{self.scale}-{backend or self.backend}"
+
+
+def book(wanted):
+    """name -> Part, the most wanted first; what times a CPU, and so wants the machine for itself, comes last."""
+    figures, rows = of_figures(wanted), of_table(wanted)
+    first = {name: figures.pop(name) for name in ("fig02", "fig20", "fig17")}
+    return {"twist": rows.pop("twist"), **first, **rows, **of_growth(wanted), **figures, **whole_figures(wanted),
+            **windows(wanted), **measurements(wanted)}
+
+
+def of_figures(wanted):
+    """Those that are made of several runs."""
+    scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
+    single, double = commands.three_cloths(scale, wanted.backends)
+    half_turn, half_turn_ipc = commands.beside_ipc(commands.TWIST, scale, backend)
+    begins = half_turn.name, commands.TWIST_WINDOWS, commands.TWIST_STEPS, scale
+    by_ipc = [half_turn_ipc] if scale != "paper" else commands.ipc_windows(commands.TWIST, *begins)
+    drop, ipc = commands.beside_ipc(commands.ONE_ITERATION, scale, backend)
+    on_cpu = tuple(job for job in single if "cpu" in job.name and backend != "cpu")
+    on_device = tuple(job for job in single if job not in on_cpu)
+    one_by_one = lambda jobs: tuple((job,) for job in jobs)  # noqa: E731
+    solvers = tuple(commands.solvers(scale, cuda=backend == "cuda"))
+    minimiser = tuple(commands.minimiser(scale, backend))
+    return {
+        "fig02": Part(folder("fig02"), ((half_turn,),), "fig02", frames=13),
+        "fig20": Part(folder("fig20"), ((drop,),), "fig20", frames=25),
+        "fig17": Part(folder("fig17"), (on_device,), "fig17", frames=0, last=1),
+        "fig17_cpu": Part(folder("fig17"), (on_cpu,), "fig17", frames=0, last=1),
+        "fig21": Part(folder("fig21"), tuple(map(tuple, commands.activations(scale, backend))), "fig21", frames=0,
+                      last=2),
+        "fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=2),
+        "fig20_ipc": Part(folder("fig20"), ((ipc,),), "fig20", frames=25),
+        "fig17_double": Part(folder("fig17"), one_by_one(double), "fig17", frames=0, last=1),
+        # A figure of the CPU, as its recipe says: a ratio is of the same cores, and of nothing beside them.
+        "fig18_solvers": Part(folder("fig18_solvers", "cpu"), (solvers,), "fig18_solvers", frames=21),
+        "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0),
+    }
+
+
+def whole(row, wanted):
+    return commands.whole_runs(row, wanted.scale, wanted.backend, wanted.runs, wanted.steps, wanted.audit, wanted.data)
+
+
+def of_table(wanted):
+    """A row's whole runs, and one step from their states."""
+    jobs = {row: (*whole(row, wanted), *commands.residuals(row, wanted.scale, wanted.backend, wanted.data))
+            for row in ROWS}
+    folder = wanted.folder("table1")
+    return {row: Part(folder, (jobs[row],), "table1", frames) for row, (_, frames) in ROWS.items()}
+
+
+def whole_figures(wanted):
+    """Figures of a row's scene, whose picture is drawn of the row's whole run."""
+    folder = wanted.folder("table1")
+    return {figure: Part(folder, (tuple(whole(row, wanted)),), figure, frames, shown_as=f"{wanted.folder(figure)}/run")
+            for row, (figure, frames) in ROWS.items() if figure}
+
+
+def windows(wanted):
+    """Steps on the CPU from states of whole runs; the million vertices come last."""
+    steps, folder = wanted.window or WINDOW[wanted.scale], wanted.folder("table1")
+    rows = sorted(ROWS, key="fifty_layers_1m".__eq__)
+    return {f"windows_{row}": Part(folder, (tuple(commands.cpu_windows(row, steps, wanted.scale, wanted.data)),),
+                                   "table1")
+            for row in rows}
+
+
+def of_growth(wanted):
+    over = {f"growth_{backend}": commands.sizes(wanted.scale, backend) for backend in reversed(wanted.backends)}
+    over["threads"] = commands.threads(wanted.scale, os.cpu_count() or 1)
+    return {name: Part(wanted.folder("growth"), (tuple(jobs),), "growth", frames=0) for name, jobs in over.items()}
+
+
+def measurements(wanted):
+    """What belongs to no figure."""
+    scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
+    counts = Counts(backend, wanted.share, wanted.seed, wanted.stages or tuple(STAGES))
+    return {"sphere": Part(folder("sphere"), (tuple(commands.sphere(scale, backend)),)),
+            "twist_beginning": Part(folder("twist_beginning"), (tuple(commands.beginning_of_twist(scale, backend)),)),
+            "strict": Part(folder("strict"), (tuple(commands.strict(scale, wanted.backends)),), frames=21),
+            "sanitizer": Part(folder("sanitizer"), (tuple(commands.sanitized(backend)),), frames=0),
+            "judge": Part(f"judge-{backend}", ((counts,),))}
+
+
+def chosen(parts, names=(), figures=()):
+    """The parts of these names, then those of these figures; without both, those of all figures. Throws KeyError with a
+    name that is neither."""
+    there = {part.recipe for part in parts.values()}
+    for name in [*(name for name in names if name not in parts), *(name for name in figures if name not in there)]:
+        raise KeyError(name)
+    of_figures = {name: part for name, part in parts.items() if part.recipe in (figures or there - {""})}
+    return {**{name: parts[name] for name in names}, **(of_figures if figures or not names else {})}

@@ -1,0 +1,316 @@
+"""Figures as steps: which command makes which file out of which. One YAML file a figure (figNN.yaml) says what is run
+and drawn; Snakemake (paper_figures/workflow/Snakefile) runs the steps, or `in_order` where Snakemake can't be had.
+Paths are relative to the folder of the runs.
+
+Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of
+paper_figures.figures) and `run` (options of `ogc run`; without it the script makes its runs itself, with `options`), or
+`scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes` where
+the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense; `kept` where results hold
+only the runs whose names match one of these patterns, and of the others their rows in the figure's table. A figure that
+is not there yet has `title`, `scene` and `missing`: what the program lacks for it.
+"""
+
+import argparse
+import csv
+import hashlib
+import itertools
+import json
+import sys
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+import yaml
+
+from paper_figures.workflow import parts
+
+HERE = Path(__file__).parent
+ROOM = HERE.parent
+FIGURES, RESULTS, ROOT = ROOM / "figures", ROOM / "results", ROOM.parent
+SCALES = ("smoke", "small", "paper")
+PROGRAM = "program.txt"
+REPRESENTATIVE = "fig18"
+RUNS = ("commands.py", "layers.py")  # what runs are made of, where a figure has several
+# What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
+SOURCES = ("compare", "reference", "fast", "experiments")
+KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends",
+        "missing", "kept"}
+
+
+class RecipeError(Exception):
+    """A figure that does not exist or can't be made so; the message says what there is."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A command (list of words) that makes `output` out of `inputs`; `gpu`: how many devices it needs; `all_cores`: it
+    uses every core that there is."""
+
+    name: str
+    output: str
+    inputs: tuple
+    command: tuple
+    gpu: int = 0
+    all_cores: bool = False
+
+    @property
+    def log(self):
+        return f"{Path(self.output).parent}/{self.name}.log"
+
+
+@dataclass(frozen=True)
+class Recipe:
+    name: str
+    title: str
+    scene: str
+    backends: tuple
+    body: dict
+
+    @property
+    def file(self):
+        """The YAML file that says all this."""
+        return "illustrations.yaml" if "illustration" in self.body else f"{self.name}.yaml"
+
+    def folder(self, scale, backend):
+        return "illustrations" if "illustration" in self.body else f"{self.name}-{scale}-{backend}"
+
+    def picture(self, scale, backend):
+        """The last file that the recipe makes."""
+        return f"{self.folder(scale, backend)}/{self.name}" + (f"_{scale}.csv" if "rows" in self.body else ".png")
+
+    def movie(self, scale, backend):
+        """The movie that the recipe makes besides, or None."""
+        return f"{self.folder(scale, backend)}/{self.name}.mp4" if self.body.get("movie") else None
+
+    def outputs(self, scale, backend):
+        """Every file that the workflow is asked for."""
+        if "missing" in self.body:
+            return []
+        return [path for path in (self.picture(scale, backend), self.movie(scale, backend)) if path]
+
+
+def load(folder=FIGURES):
+    """name -> Recipe. Throws RecipeError where a file has a key that nobody reads."""
+    bodies = {}
+    for path in sorted(Path(folder).glob("*.yaml")):
+        body = yaml.safe_load(path.read_text())
+        unknown = set(body) - KEYS
+        if unknown:
+            known = ", ".join(sorted(KEYS))
+            raise RecipeError(f"{path.name}: unknown key {', '.join(sorted(unknown))}; there are: {known}")
+        drawn = body.get("illustrations", {})
+        bodies.update({name: {"title": title, "illustration": name} for name, title in drawn.items()}
+                      or {path.stem: body})
+    return {name: Recipe(name, body["title"], body.get("scene", ""), tuple(body.get("backends", ("cpu", "cuda"))), body)
+            for name, body in sorted(bodies.items())}
+
+
+def choose(names, recipes, backend):
+    """Recipes by figure, scene, `illustrations` or `all`. Throws RecipeError for a name that is none of these, is not
+    there yet, or has no such backend."""
+    chosen = []
+    for name in names or [REPRESENTATIVE]:
+        found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
+        if name == "all":
+            found = [r for r in recipes.values() if backend in r.backends and not {"vary", "missing"} & set(r.body)]
+        elif name == "illustrations":
+            found = [r for r in recipes.values() if "illustration" in r.body]
+        there = [r.name for r in recipes.values() if "missing" not in r.body]
+        if not found:
+            raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(there)}, illustrations, all")
+        if "missing" in found[0].body:
+            missing = found[0]
+            raise RecipeError(f"{missing.name} ({missing.scene}) is not there yet: the program has no "
+                              f"{missing.body['missing']}. "
+                              f"There are: {', '.join(there)}")
+        if backend not in found[0].backends:
+            raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave "
+                              "--backend out")
+        chosen += [r for r in found if r not in chosen]
+    needed = [recipes[name] for r in chosen for name in r.body.get("of", [])]
+    # what draws other figures' runs comes after them
+    return sorted([*chosen, *(r for r in needed if r not in chosen)], key=lambda r: "of" in r.body)
+
+
+def steps(recipe, scale, backend, ogc, python=sys.executable):
+    """The steps of a figure, in an order in which they can be done; none of one that is not there yet."""
+    if "missing" in recipe.body:
+        return []
+    here, gpu = recipe.folder(scale, backend), int(backend == "cuda")
+    picture = recipe.picture(scale, backend)
+    drawing = (python, "-m", f"paper_figures.figures.{recipe.body.get('script', 'illustrations')}")
+    plots = tuple(str(path) for path in sorted((ROOT / "plots").glob("*.py")))
+    script = (str(FIGURES / f"{recipe.body['script']}.py"),) if "script" in recipe.body else ()
+    if "illustration" in recipe.body:
+        data = f"{here}/{recipe.name}.json"
+        return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
+                Step(recipe.name, picture, (data, str(FIGURES / "illustrations.py"), *plots),
+                     (*drawing, here, recipe.name))]
+    if "vary" in recipe.body:
+        return _sweep(recipe, scale, backend, ogc, python, plots)
+    if "rows" in recipe.body:
+        return _table(recipe, scale, backend, ogc, python)
+    if "run" in recipe.body:
+        run, movie = f"{here}/run", recipe.movie(scale, backend)
+        command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]),
+                   "--out", run)
+        inputs = (f"{run}/run.json", *script, *plots)
+        return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True),
+                Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
+                *([Step(f"{recipe.name}_movie", movie, inputs, (*drawing, run, "--movie", movie))] if movie else [])]
+    if "of" in recipe.body:
+        drawn = [f"{name}-{scale}-{backend}/run" for name in recipe.body["of"]]
+        return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots),
+                     (*drawing, picture, *drawn))]
+    options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
+    made_by = (*script, *(str(HERE / name) for name in RUNS))
+    return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots),
+                 (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
+
+
+def _sweep(recipe, scale, backend, ogc, python, plots):
+    here, vary = recipe.folder(scale, backend), recipe.body["vary"]
+    points = []
+    for values in itertools.product(*vary.values()):
+        name = ",".join(f"{key}={value}" for key, value in zip(vary, values))
+        options = [word for key, value in zip(vary, values) for word in ("--vary", f"{key}={value}")]
+        command = (ogc, "ablate", recipe.scene, "--scale", scale, "--backend", backend, "--audit", "end", *options,
+                   "--out", f"{here}/{name}")
+        points.append(Step(f"{recipe.name}_{len(points) + 1:02d}", f"{here}/{name}/{name}/run.json", (PROGRAM,),
+                           command, int(backend == "cuda")))
+    gather = Step(recipe.name, recipe.picture(scale, backend),
+                  (*(point.output for point in points), str(FIGURES / "sweep.py"), *plots),
+                  (python, "-m", "paper_figures.figures.sweep", here, recipe.picture(scale, backend)))
+    return [*points, gather]
+
+
+def _table(recipe, scale, backend, ogc, python):
+    """A row's last run is its output: the others are gone on with where they were cut off."""
+    here, scripts = recipe.folder(scale, backend), tuple(str(HERE / name) for name in RUNS)
+    runner = (python, "-m", "paper_figures.workflow.runner", "--program", ogc, "--out", ".", "--scale", scale)
+    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100/run.json", (PROGRAM, *scripts),
+                 (*runner, "--backend", backend, row, f"windows_{row}"), int(backend == "cuda"), all_cores=True)
+            for row in recipe.body["rows"]]
+    gather = Step(recipe.name, recipe.picture(scale, backend),
+                  (*(row.output for row in rows), str(FIGURES / "table1.py")),
+                  (python, "-m", "paper_figures.figures.table1", here))
+    return [*rows, gather]
+
+
+def program_stamp(runs, ogc):
+    """Writes PROGRAM into the folder of the runs, rewritten only where it changed: a digest of the sources, so that a
+    new build of the same sources reruns nothing, or of the program itself where it was not built here."""
+    digest, ogc = hashlib.sha256(), Path(ogc).resolve()
+    ours = ogc.is_relative_to(ROOT / "build")
+    files = sorted(p for room in SOURCES for p in (ROOT / room).rglob("*")
+                   if p.suffix in (".cpp", ".hpp", ".h", ".cu", ".cuh")) if ours else [ogc]
+    for path in files:
+        digest.update((path.relative_to(ROOT) if ours else path).as_posix().encode() + b"\0" + path.read_bytes())
+    stamp = Path(runs) / PROGRAM
+    if not stamp.is_file() or stamp.read_text() != digest.hexdigest():
+        stamp.parent.mkdir(parents=True, exist_ok=True)
+        stamp.write_text(digest.hexdigest())
+
+
+def seconds_of(recipe, scale, backend, runs):
+    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that
+    found them done was quick. Unpacked runs have no logs of steps: what they took alone."""
+    logs = [log for log in (runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc"))
+            if log.is_file()]
+    of_runs = sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json")))
+    if 0 < len(logs) < len(steps(recipe, scale, backend, "ogc")) or not (logs or of_runs):
+        return None
+    return max(sum(json.loads(log.read_text())["seconds"] for log in logs), of_runs)
+
+
+def seconds_of_run(path):
+    """From a run's start to its end [s]; 0 where it has not ended."""
+    manifest = json.loads(path.read_text())
+    if "ended" not in manifest:
+        return 0.0
+    return (datetime.fromisoformat(manifest["ended"]) - datetime.fromisoformat(manifest["started"])).total_seconds()
+
+
+def durations(chosen, scale, backend, runs, machine):
+    """Rows of results/MACHINE/durations.csv: what the finished ones of the `chosen` figures took here."""
+    for recipe in chosen:
+        took, drawn = seconds_of(recipe, scale, backend, runs), "illustration" in recipe.body
+        if took is not None:
+            yield {"figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend,
+                   "seconds": f"{took:.1f}", "machine": machine}
+
+
+def measured_times():
+    """(figure, scale, backend) -> (seconds, machine) of results/*/durations.csv."""
+    result = {}
+    for path in sorted(RESULTS.glob("*/durations.csv")):
+        with path.open(newline="") as file:
+            for row in csv.DictReader(file):
+                result[row["figure"], row["scale"], row["backend"]] = (float(row["seconds"]), row["machine"])
+    return result
+
+
+def in_words(seconds):
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+
+
+def table(recipes, scale, backend, runs):
+    """Lines of --list."""
+    times, lines = measured_times(), [f"{'figure':14} {'scene':23} {'scale':6} {'time (measured on)':34} done  title"]
+    for recipe in recipes.values():
+        used = backend if backend in recipe.backends else recipe.backends[0]
+        drawn = "illustration" in recipe.body
+        known = times.get((recipe.name, "-" if drawn else scale, "-" if drawn else used))
+        time = f"{in_words(known[0])} ({known[1]})" if known else "not measured"
+        if "missing" in recipe.body:
+            time = "not there yet"
+        drawn_here = (Path(runs) / recipe.picture(scale, used)).is_file()
+        done = "-" if "missing" in recipe.body else "yes" if drawn_here else "no"
+        lines.append(f"{recipe.name:14} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} "
+                     f"{recipe.title}")
+    return lines
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description="Lists the figures (used by experiments/reproduce).")
+    parser.add_argument("--scale", default="small", choices=SCALES)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--runs", default=ROOT / "runs", type=Path)
+    parser.add_argument("--check-names", nargs="*", help="only say whether there are such figures")
+    parser.add_argument("--pictures", nargs="*", help="the file that each figure ends in")
+    parser.add_argument("--with-runs", nargs="*", help="those of the figures whose runs the runner makes")
+    parser.add_argument("--stamp", metavar="OGC", help="only say in the folder of the runs which program it is")
+    return parser.parse_args()
+
+
+def asked(options):
+    """Lines that answer what main was asked. Throws RecipeError."""
+    book, scale, backend = load(), options.scale, options.backend
+    if options.stamp:
+        program_stamp(options.runs, options.stamp)
+        return []
+    if options.check_names is not None:
+        choose(options.check_names, book, backend)
+        return []
+    if options.pictures is not None:
+        return [str(options.runs / recipe.picture(scale, backend))
+                for recipe in choose(options.pictures, book, backend)]
+    if options.with_runs is not None:
+        there = {part.recipe for part in parts.book(parts.Wanted(scale, backend)).values()}
+        return [recipe.name for recipe in choose(options.with_runs, book, backend) if recipe.name in there]
+    return table(book, scale, backend, options.runs)
+
+
+def main():
+    try:
+        for line in asked(arguments()):
+            print(line)
+    except RecipeError as error:
+        print(f"reproduce: {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,172 @@
+"""Makes the runs of figures, of Table 1 and of measurements, with a limit of time: what is finished is kept, what was
+cut off goes on from its checkpoint at the next call. Needs Python's own library and a program `ogc`
+(experiments/bundle).
+
+Exit status: 0 all is finished, 75 the limit came first (call again to go on), 1 a job failed or did not fit into the
+archive, 2 wrong words. An interrupt, or SIGTERM, as a cluster sends it, is a limit that comes now. A job that is asked
+to stop has a minute for the step at hand and its checkpoint: leave it that.
+
+  python3 -m paper_figures.workflow.runner --program bundle/ogc --out runs --time-limit 500 --pack packed twist fig02
+  python3 -m paper_figures.workflow.runner --program build/default/ogc --out runs --unpack packed    # where it is drawn
+"""
+
+import argparse
+import os
+import shutil
+import signal
+import sys
+import textwrap
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from paper_figures.workflow import packing, parts
+from paper_figures.workflow.device_memory import DeviceMemory
+from paper_figures.workflow.jobs import (CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure,
+                                         manifest_of)
+from paper_figures.workflow.judge_counts import STAGES
+from paper_figures.workflow.unpacking import UnpackError
+
+
+class Runner:
+    """Makes parts of a book below one folder, by one program."""
+
+    def __init__(self, program, out, limit, part_limit=None, jobs=1):
+        self.program, self.out, self.limit, self.part_limit, self.jobs = program, out, limit, part_limit, jobs
+
+    def chain(self, part, chain, limit):
+        """How its jobs ended, the worst of them; one that begins with the state of a run that failed is left out."""
+        root, ends = self.out / part.folder, [KEPT]
+        for job in chain:
+            state = getattr(job, "state", ())
+            if state and manifest_of(root / state[0]).get("status", "").startswith("failed"):
+                continue
+            wanted = job.on_device and not job.done(root)
+            with DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
+                ends.append(job.make(self.program, root, limit))
+            if ends[-1] == STOPPED:
+                return STOPPED
+        return FINISHED if FINISHED in ends else KEPT
+
+    def part(self, part):
+        """How a part ended. Throws RunFailure with what its chains say, when all have ended."""
+        limit = Limit(self.part_limit, self.limit)
+        with ThreadPoolExecutor(max_workers=self.jobs) as pool:
+            tasks = [pool.submit(self.chain, part, chain, limit) for chain in part.chains]
+        problems = [task.exception() for task in tasks if task.exception()]
+        unexpected = next((problem for problem in problems if not isinstance(problem, RunFailure)), None)
+        if unexpected:
+            raise unexpected
+        if problems:
+            raise RunFailure("\n  ".join(map(str, problems)))
+        ends = [task.result() for task in tasks] or [KEPT]
+        self.show(part)
+        return next(end for end in (STOPPED, FINISHED, KEPT) if end in ends)
+
+    def show(self, part):
+        """Links the run of the part's first job to where the workflow looks for it, if nothing is there."""
+        link, run = self.out / part.shown_as, self.out / part.folder / part.chains[0][0].name if part.shown_as else None
+        if run and manifest_of(run).get("status") == "finished" and not link.exists():
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.unlink(missing_ok=True)
+            link.symlink_to(os.path.relpath(run, link.parent))
+
+    def make(self, name, part):
+        """Makes a part, prints its line, and returns how it ended."""
+        begun, words = time.monotonic(), ""
+        if self.limit.left() == 0:
+            print(f"{name:24} not begun: no time is left; call again to go on", flush=True)
+            return STOPPED
+        try:
+            end = self.part(part)
+        except RunFailure as problem:
+            end, words = FAILED, f"\n  {problem}"
+        print(f"{name:24} {time.monotonic() - begun:7.1f} s  {end}{words}", flush=True)
+        return end
+
+
+def arguments():
+    names = textwrap.fill(" ".join(parts.book(parts.Wanted())), 110, initial_indent="  ", subsequent_indent="  ")
+    figures = " ".join(sorted({part.recipe for part in parts.book(parts.Wanted()).values()} - {""}))
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=f"Parts, the most wanted first:\n{names}\nFigures: {figures}")
+    add = parser.add_argument
+    add("parts", nargs="*", metavar="PART", help="what is made, in this order (default: all figures)")
+    add("--figures", nargs="+", default=(), metavar="FIGURE", help="all parts of these")
+    add("--program", default="build/default/ogc", help="ogc (default: build/default/ogc)")
+    add("--out", type=Path, default=Path("runs"), help="where the runs are, or go (default: runs)")
+    add("--scale", default="paper", choices=("smoke", "small", "paper"))
+    add("--backend", default="cuda", choices=("cpu", "cuda"), help="of VBD in single precision (default: cuda)")
+    add("--time-limit", type=float, metavar="SECONDS", help="of the whole call")
+    add("--part-limit", type=float, metavar="SECONDS", help="of each part")
+    add("--jobs", type=int, default=1, help="chains of a part that go on side by side (default: 1)")
+    add("--pack", type=Path, metavar="FOLDER", help="after each part, pack what is finished and was not packed before")
+    add("--piece-size", type=int, default=0, metavar="MIB", help="cut the archive into pieces of so much")
+    add("--pack-size", type=int, default=0, metavar="MIB", help="the most that one call packs; the rest is named")
+    add("--unpack", type=Path, metavar="FOLDER", help="unpack what --pack packed, and run nothing")
+    table = parser.add_argument_group("Table 1")
+    add = table.add_argument
+    add("--window", type=int, default=0, metavar="N",
+        help="steps of a window on the CPU (default: 200; 20 below scale paper)")
+    add("--runs", type=int, default=1, metavar="N", help="whole runs, of which the table takes the median (default: 1)")
+    add("--steps", type=int, default=0, metavar="N", help="end whole runs at this step (default: the scene's end)")
+    add("--audit", default="afterwards", choices=("afterwards", "every", "frame", "end", "off"),
+        help="of whole runs: afterwards in time of its own (default), or beside them")
+    add("--data", default="", metavar="FOLDER", help="of Codimensional IPC's dress and dancer (default: a stand-in)")
+    counts = parser.add_argument_group("the judge's counts (part judge)")
+    add = counts.add_argument
+    add("--share", type=float, default=1, help="of the cases wanted (default: 1)")
+    add("--seed", type=int, default=1, help="default: 1")
+    add("--stages", nargs="+", default=(), choices=tuple(STAGES), metavar="STAGE", help="default: all")
+    return parser
+
+
+def unpacked(options):
+    """Exit status."""
+    try:
+        for path in packing.unpack(options.unpack, options.out, options.program):
+            print(path)
+    except UnpackError as error:
+        print(f"runner: {options.unpack}: {error}; nothing is unpacked", file=sys.stderr)
+        return 1
+    return 0
+
+
+def made(options, chosen):
+    """Exit status."""
+    limit = Limit(options.time_limit)
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, lambda *_: limit.stop())
+    runner = Runner(options.program, options.out, limit, options.part_limit, options.jobs)
+    sizes = options.piece_size, options.pack_size
+    archive = packing.Archive(options.pack, options.out, *sizes) if options.pack else None
+    ends, lines = [], []
+    for name, part in chosen.items():
+        ends.append(runner.make(name, part))
+        if archive:
+            lines = archive.write(chosen)
+    print("\n".join(lines), end="\n" if lines else "")
+    if FAILED in ends or archive and archive.left_out:
+        return 1
+    return CALL_AGAIN if STOPPED in ends else 0
+
+
+def main():
+    parser = arguments()
+    options = parser.parse_intermixed_args()
+    if options.unpack:
+        sys.exit(unpacked(options))
+    keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "share", "seed")
+    wanted = parts.Wanted(**{key: getattr(options, key) for key in keys}, stages=tuple(options.stages))
+    try:
+        chosen = parts.chosen(parts.book(wanted), options.parts, options.figures)
+    except KeyError as word:
+        parser.error(f"no part or figure {word}; --help lists them")
+    if not shutil.which(options.program):
+        parser.error(f"no program at '{options.program}': build it first, or name it with --program")
+    sys.exit(made(options, chosen))
+
+
+if __name__ == "__main__":
+    main()

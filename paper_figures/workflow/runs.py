@@ -1,0 +1,69 @@
+"""Runs of `ogc` that a figure needs, each done once: a folder that holds a finished run is used as it is."""
+
+import csv
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.workflow.jobs import Job, RunFailure
+from plots.columns import column_and_unit
+from plots.run_folder import Run, RunError
+
+
+@dataclass
+class Iterations:
+    """iterations.csv of one step: column name without unit -> array."""
+
+    columns: dict
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+
+def run_once(ogc, arguments, folder):
+    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already; one that was cut off goes
+    on. Throws RunError where ogc fails."""
+    return run_job(ogc, Job(Path(folder).name, tuple(arguments)), Path(folder).parent)
+
+
+def run_job(ogc, job, folder):
+    """The run of a job (paper_figures.workflow.commands) below `folder`. Throws RunError."""
+    try:
+        job.make(ogc, Path(folder), shown=True)
+    except RunFailure as error:
+        raise RunError(str(error)) from error
+    return Run(Path(folder) / job.name)
+
+
+def iterations(run, step):
+    """Rows of one step. Throws RunError where the run has none."""
+    path = run.folder / "iterations.csv"
+    if not path.is_file():
+        raise RunError(f"{path} is missing: run with --iterations")
+    with path.open(newline="") as file:
+        rows = list(csv.reader(file))
+    names = [column_and_unit(title)[0] for title in rows[0]]
+    values = np.array([[float(text) for text in row] for row in rows[1:] if row and int(row[0]) == step])
+    if not len(values):
+        raise RunError(f"{path} has no row of step {step}")
+    return Iterations({name: values[:, i] for i, name in enumerate(names)})
+
+
+def provenance(run):
+    """What a row of an accepted result must say about where it comes from. Of paths in the command the last part is
+    kept."""
+    m = run.manifest
+    command = m["command"] if isinstance(m["command"], str) else " ".join(m["command"])
+    return {"solver": m["solver"], "backend": m["backend"], "device": m["device"],
+            "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
+            "command": "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])}
+
+
+def write_table(path, rows):
+    """Rows (dictionaries with the same keys, units in their names) as CSV."""
+    with Path(path).open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)

@@ -1,0 +1,268 @@
+"""Judges every claim of claims/*.json by the accepted results, or by run folders. The verdict is computed, never
+written by hand.
+
+Of a result, which a program computes and which may come out otherwise:
+  reproduced      the number lies within the claim's band
+  refuted         it lies outside; the evidence is named
+Of a setting or a count of a mesh, which whoever sets the run up decides, so that it proves nothing:
+  as printed      what was set is what the paper prints
+  not as printed  it is not
+Of both:
+  not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable
+    is named
+  not yet run     no accepted run is of the kind that the claim needs
+
+`python3 -m paper_figures.workflow.verdicts` prints all, `--write` keeps them in results/verdicts.csv, `--runs FOLDER`
+judges run folders instead.
+"""
+
+import argparse
+import csv
+import io
+import json
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from paper_figures.workflow.evidence import CLAIMS, RESULTS, Evidence, EvidenceError
+
+KEPT = RESULTS / "verdicts.csv"
+RESULT, SETTING, MESH_COUNT = KINDS = ("result", "setting", "mesh count")
+# What a claim is about follows from what is measured (evidence.value_of). How long a run simulates is its number of
+# steps times the time step: both are set.
+KIND_OF_MEASURE = {"setting": SETTING, "material": SETTING, "simulated": SETTING, "scene": MESH_COUNT,
+                   "steps": RESULT, "guarantee": RESULT, "real_time": RESULT, "ratio": RESULT, "table": RESULT}
+COLUMNS_THAT_ARE_SET = ("steps [1]",)
+UNDECIDED = ("not comparable", "not yet run")
+VERDICTS = ("reproduced", "refuted", *UNDECIDED)
+AS_SET = ("as printed", "not as printed", *UNDECIDED)
+STATES = ("smoke", "small")
+# Relative rounding of a number stored in single precision.
+SINGLE = 2.0**-24
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A claim (as its file has it, with scene, figures and kind), its verdict, our number or None, and what else must
+    be said; `late`: whether a run that answers it was known when its band was set."""
+
+    claim: dict
+    verdict: str
+    measured: object
+    note: str
+    late: bool = False
+
+
+def load(folder=CLAIMS):
+    """All claims; each knows its scene, its figures and when its band was set. Throws EvidenceError where a file is
+    wrong."""
+    result = []
+    for path in sorted(Path(folder).glob("*.json")):
+        document = json.loads(path.read_text())
+        for claim in document["claims"]:
+            _check(claim, path)
+            common = {"scene": document["scene"], "figures": document["figures"], "kind": kind_of(claim)}
+            result.append({**claim, **common, "band_set": claim.get("band_set", document["bands_set"])})
+    twice = {claim["id"] for claim in result if sum(other["id"] == claim["id"] for other in result) > 1}
+    unknown = {claim["instead"] for claim in result if "instead" in claim} - {claim["id"] for claim in result}
+    if twice or unknown:
+        raise EvidenceError(f"claims: {', '.join(sorted(twice)) or 'none'} twice; named as comparable, but missing: "
+                            f"{', '.join(sorted(unknown)) or 'none'}")
+    return result
+
+
+def kind_of(claim):
+    """One of KINDS, by what is measured; where nothing is, the claim says it itself. Throws EvidenceError."""
+    specs = claim.get("measure", [])
+    kinds = {_kind_of_measure(spec) for spec in (specs if isinstance(specs, list) else [specs])} or {claim.get("kind")}
+    if len(kinds) != 1 or not kinds <= set(KINDS):
+        raise EvidenceError(f"claim {claim.get('id', '?')}: what it measures is not one of {', '.join(KINDS)}: "
+                            "say it by a `measure`, or by `kind` where nothing is measured")
+    return kinds.pop()
+
+
+def _kind_of_measure(spec):
+    if spec.get("column") in COLUMNS_THAT_ARE_SET:
+        return SETTING
+    return next((kind for key, kind in KIND_OF_MEASURE.items() if key in spec), None)
+
+
+def _check(claim, path):
+    missing = [key for key in ("id", "value", "unit", "place", "says", "why") if key not in claim]
+    if missing:
+        raise EvidenceError(f"{path.name}: claim {claim.get('id', '?')} lacks {', '.join(missing)}")
+    if "kind" in claim and "measure" in claim:
+        raise EvidenceError(f"{path.name}: claim {claim['id']}: its kind follows from what is measured; remove `kind`")
+    if "band" in claim and "measure" not in claim:
+        raise EvidenceError(f"{path.name}: claim {claim['id']} has a band, but nothing is measured")
+    if "band" not in claim and "instead" not in claim and "devices" not in json.dumps(claim.get("measure", "")):
+        raise EvidenceError(f"{path.name}: claim {claim['id']} has no band, so it must name the claim that is "
+                            "comparable (instead)")
+
+
+def within(value, printed, band):
+    """Whether `value` lies in the band; "stored" is the printed number rounded to single precision, None an open
+    end."""
+    if band == "stored":
+        return abs(value - printed) <= SINGLE * abs(printed)
+    low, high = band
+    return (low is None or value >= low) and (high is None or value <= high)
+
+
+def judge(claim, evidence):
+    if "measure" not in claim:
+        return Judgement(claim, "not comparable", None, claim["why"])
+    wanted = {"scene": claim["scene"], **claim.get("run", {})}
+    measured = evidence.measure(claim["measure"], wanted)
+    if measured is None:
+        return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence))
+    if "band" not in claim:
+        return Judgement(claim, "not comparable", measured,
+                         f"ours over the paper's: {measured.value / claim['value']:.3g}")
+    also = [other for other in claim.get("also", []) if "band" in other]
+    hit = within(measured.value, claim["value"], claim["band"])
+    others = [other["place"] for other in also if within(measured.value, other["value"], other["band"])]
+    known = _known_before(claim, evidence, wanted)
+    note = [measured.about] if measured.about else []
+    note += [f"as in {', '.join(others)}; the paper says it in two ways"] if others and not hit else []
+    note += [f"the band was set on {claim['band_set'][:10]}, when this was known: {known}"] if known else []
+    note += _other_choices(claim, evidence, wanted) if not hit else []
+    yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
+    return Judgement(claim, yes if hit or others else no, measured, "; ".join(note), bool(known))
+
+
+def _other_choices(claim, evidence, wanted):
+    """What the measure gives where a choice that the paper leaves open is made otherwise (`choices` of the claim:
+    `says`, and what is other in the measure): no verdict, but a claim that fails as printed may hold so."""
+    made = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
+    made = [(says, value) for says, value in made if value is not None]
+    hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
+    misses = [each for each in made if each not in hits]
+    words = [f"{head} {'; '.join(f'{says}: {value:.3g}' for says, value in found)}"
+             for head, found in (("with", hits), ("not with" if hits else "nor with", misses)) if found]
+    return [f"not with the printed parameters, {', '.join(words)}"] if words else []
+
+
+def _measured_with(choice, claim, evidence, wanted):
+    """A number, or None where no run made this choice."""
+    try:
+        otherwise = {key: other for key, other in choice.items() if key != "says"}
+        printed = claim["measure"][0] if isinstance(claim["measure"], list) else claim["measure"]
+        found = evidence.measure({**printed, **otherwise}, wanted)
+    except EvidenceError:  # a table older than the column
+        return None
+    return found.value if found and not math.isnan(found.value) else None
+
+
+def _known_before(claim, evidence, wanted):
+    """The number that a run had given when the claim's band was set, in words; empty where there was none, or where the
+    band leaves no choice."""
+    if claim["band"] == "stored":
+        return ""
+    earlier = evidence.before(claim["band_set"])
+    found = earlier.measure(claim["measure"], wanted)
+    return f"{found.value:.9g} ({found.source})" if found else claim.get("band_after", "")
+
+
+def _elsewhere(claim, evidence):
+    """What the same measure gives at a smaller scale: no verdict, but worth knowing."""
+    notes = [claim["waits_for"]] if "waits_for" in claim else []
+    for scale in STATES:
+        found = at_another_scale(claim, evidence, scale)
+        if found and claim.get("band") != "stored" and claim.get("unit") == "1":
+            notes.append(f"at {scale}, not judged: {found.value:.3g}")
+    return "; ".join(notes)
+
+
+def at_another_scale(claim, evidence, scale):
+    """What the claim's measure gives at another scale than the claim is about, or None: no verdict."""
+    wanted = {"scene": claim["scene"], **claim.get("run", {}), "scale": scale}
+    wanted = {key: value for key, value in wanted.items() if key not in ("steps", "device")}
+    try:
+        return evidence.measure(claim["measure"], wanted)
+    except EvidenceError:  # a table older than the column
+        return None
+
+
+def judge_all(evidence=None, claims=None):
+    evidence = evidence or Evidence()
+    return [judge(claim, evidence) for claim in claims or load()]
+
+
+def counts(judgements, names=VERDICTS):
+    return {verdict: sum(j.verdict == verdict for j in judgements) for verdict in names}
+
+
+def apart(judgements):
+    """(about results, about what was set)."""
+    return [[j for j in judgements if (j.claim["kind"] == RESULT) == wanted] for wanted in (True, False)]
+
+
+def headline(judgements):
+    """The first line of the report: results alone count; what was set stands beside them."""
+    results, given = apart(judgements)
+    found, settings = counts(results), counts(given, AS_SET)
+    late = sum(j.late for j in results if j.verdict == "reproduced")
+    mark = f" ({late} by a band set after a run)" if late else ""
+    undecided = ", ".join(f"{found[name]} {name}" for name in UNDECIDED)
+    beside = ", ".join(f"{settings[name]} {name}" for name in AS_SET)
+    return (f"{found['reproduced']} of {len(results)} claims about results are reproduced{mark}, "
+            f"{found['refuted']} refuted, {undecided}. "
+            f"Beside them stand {len(given)} settings and counts of meshes, which are no results: {beside}.")
+
+
+def unjudged(judgements):
+    """Claims not yet run of a scene that has accepted results, unless they say what they wait for; and claims that wait
+    although they are judged."""
+    judged = {j.claim["scene"] for j in judgements if j.measured or "not judged" in j.note}
+    silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
+              and "waits_for" not in j.claim]
+    stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run" and "waits_for" in j.claim]
+    return silent, stale
+
+
+def band_in_words(claim):
+    band = claim.get("band")
+    if band is None:
+        return "none"
+    if band == "stored":
+        return "rounded to single precision"
+    low, high = band
+    if low == high:
+        return f"exactly {low:g}"
+    return f"at least {low:g}" if high is None else f"at most {high:g}" if low is None else f"{low:g} to {high:g}"
+
+
+def as_table(judgements):
+    """CSV with a row a claim: results first, settings and counts of meshes below them."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["claim", "kind", "verdict", "paper", "unit", "band", "band set after a run",
+                     "ours", "device", "commit", "source", "note"])
+    for j in (j for group in apart(judgements) for j in group):
+        m = j.measured
+        paper = (f"{j.claim['value']:g}", j.claim["unit"], band_in_words(j.claim), "yes" if j.late else "")
+        ours = (f"{m.value:.6g}", m.device, m.commit, m.source) if m else ("",) * 4
+        writer.writerow([j.claim["id"], j.claim["kind"], j.verdict, *paper, *ours, j.note])
+    return out.getvalue()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="keep the table in results/verdicts.csv")
+    parser.add_argument("--runs", help="judge the run folders below this folder instead of the accepted results")
+    arguments = parser.parse_args()
+    try:
+        judgements = judge_all(Evidence(arguments.runs) if arguments.runs else None)
+    except EvidenceError as error:
+        sys.exit(f"verdicts: {error}")
+    if arguments.write:
+        KEPT.write_text(as_table(judgements))
+    else:
+        sys.stdout.write(as_table(judgements))
+    print(headline(judgements), file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

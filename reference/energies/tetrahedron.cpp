@@ -1,0 +1,139 @@
+#include "reference/energies/tetrahedron.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reference/energies/inputs.hpp"
+#include "reference/energies/parallel.hpp"
+#include "reference/energies/solid_terms.hpp"
+
+namespace ogc::reference {
+namespace {
+
+/// The elastic part as numbers that know their inputs; the corner asked about is the origin.
+struct Elastic {
+  Inputs inputs;
+  std::array<Triple<Input>, 4> corner;
+  std::array<Input, 3> weight;
+  Input inverse, lambda, mu;
+
+  explicit Elastic(const compare::TetrahedronCase& q)
+      : corner(inputs.stencil(q.corner, 0)),
+        weight{inputs.number(q.weight[0]), inputs.number(q.weight[1]), inputs.number(q.weight[2])},
+        inverse(inputs.number(q.inverse)),
+        lambda(inputs.number(q.lame_lambda)),
+        mu(inputs.number(q.lame_mu)) {}
+
+  /// J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀).
+  template <class T>
+  T ratio(const std::array<Triple<T>, 4>& x) const {
+    return inverse * dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]));
+  }
+  /// Of what depends on x₀ in the energy.
+  VertexSystemOf<Input> system() const {
+    using T = ByOwnTwice<Input>;
+    const std::array<Triple<T>, 4> x = with_own<T>(corner, 0);
+    const Input volume = Input(1.0) / (Input(6.0) * inverse);
+    const T grown = ratio(x) - T(1.0);
+    T stretch;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triple<T> to = x[k + 1] - x[0];
+      stretch = stretch - 0.5 * weight[k] * dot(to, to);
+    }
+    VertexSystemOf<Input> sum;
+    add_exactly(mu * (stretch - volume * grown) + 0.5 * (lambda + mu) * volume * (grown * grown), sum);
+    return sum;
+  }
+};
+
+/// What of J and of the normal is lost where both nearly vanish, beyond the first order: their errors, of 12 and 6
+/// units (compare/stages/tetrahedron.hpp), meet. `resisted`: k ‖moved‖ of damping by vertex, whose block is `grown`
+/// times the elastic one.
+compare::ForceAnswer with_second_order(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
+                                       double grown = 1) {
+  constexpr double u = compare::unit_roundoff, ratio_units = 12, normal_units = 6;
+  const auto& x = elastic.corner;
+  const double normal = normal_units * u * elastic.inputs.condition(cross(x[2] - x[1], x[3] - x[1]));
+  const Input ratio = elastic.ratio(x);
+  const double of_ratio = ratio_units * u * elastic.inputs.condition({&ratio, 1});
+  const double bulk = (elastic.lambda.value + elastic.mu.value) / 6;
+  const double block = bulk * elastic.inverse.value * normal * normal;
+  answer.force_scale += (bulk * of_ratio * normal + resisted * block) / (compare::tetrahedron_force_tolerance * u);
+  answer.block_scale += grown * block / (compare::tetrahedron_block_tolerance * u);
+  return answer;
+}
+
+using Gradients = std::array<std::array<Input, 3>, 4>;
+
+Gradients gradients_of(const compare::TetrahedronCase& q, Inputs& inputs) {
+  Gradients gradient;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 1; k < 4; ++k) {
+      gradient[k][axis] = inputs.number(q.gradient[k - 1][axis]);
+      gradient[0][axis] = gradient[0][axis] - gradient[k][axis];
+    }
+  return gradient;
+}
+
+/// Gᵗ, each component with the unit of its error.
+std::array<std::pair<double, double>, 6> strain_at_start(const compare::TetrahedronCase& q) {
+  Inputs inputs;
+  const std::array<Triple<Input>, 4> x = inputs.stencil(q.start, 0);
+  const SolidStrain<Input> strain = solid_strain(solid_deformation<Input>(x, gradients_of(q, inputs)));
+  std::array<std::pair<double, double>, 6> result;
+  for (std::size_t i = 0; i < 6; ++i)
+    result[i] = {strain[i].value, std::max(std::abs(strain[i].value), inputs.condition({&strain[i], 1}))};
+  return result;
+}
+
+/// V k ϕ(G − Gᵗ) and its block.
+compare::ForceAnswer damping_of_strain(const compare::TetrahedronCase& q) {
+  Inputs inputs;
+  const std::array<Triple<Input>, 4> corner = inputs.stencil(q.corner, 0);
+  TetrahedronTermOf<Input> term;
+  term.gradient = gradients_of(q, inputs);
+  term.volume = inputs.number(q.volume);
+  term.lambda = inputs.number(q.lame_lambda);
+  term.mu = inputs.number(q.lame_mu);
+  term.damping = inputs.number(q.damping);
+  const auto start = strain_at_start(q);
+  for (std::size_t i = 0; i < 6; ++i) term.start[i] = inputs.number(start[i].first, start[i].second);
+  VertexSystemOf<Input> sum;
+  add_damping(term, TetrahedronCorner<Input>(term, 0, corner), sum);
+  return with_units(answer(inputs, sum),
+                    compare::tetrahedron_damping_force_tolerance / compare::tetrahedron_force_tolerance,
+                    compare::tetrahedron_damping_block_tolerance / compare::tetrahedron_block_tolerance);
+}
+
+compare::ForceAnswer damped_by_motion(Elastic& elastic, const compare::TetrahedronCase& q) {
+  const Triple<Input> moved = elastic.inputs.vector(q.corner[0], q.start[0]);
+  const Input damping = elastic.inputs.number(q.damping);
+  const double units = (compare::tetrahedron_block_tolerance + compare::per_vertex_additions) /
+                       compare::tetrahedron_force_tolerance;
+  const double distance = std::hypot(moved[0].value, moved[1].value, moved[2].value);
+  return with_second_order(elastic,
+                           with_units(damped_by_vertex(elastic.inputs, elastic.system(), damping, moved), units, 1),
+                           q.damping * distance, 1 + q.damping);
+}
+
+}  // namespace
+
+compare::ForceAnswer tetrahedron(const compare::TetrahedronCase& q) {
+  Elastic elastic(q);
+  compare::ForceAnswer result;
+  switch (q.damping_form) {
+    case compare::DampingForm::strain:
+      result = with_second_order(elastic, answer(elastic.inputs, elastic.system()));
+      if (q.damping > 0) result = sum(result, damping_of_strain(q));
+      break;
+    case compare::DampingForm::per_vertex: result = damped_by_motion(elastic, q); break;
+  }
+  return result;
+}
+
+compare::ForceTruth tetrahedron(const compare::TetrahedronIn& in) {
+  return for_all(in.cases, [](const compare::TetrahedronCase& question) { return std::vector{tetrahedron(question)}; });
+}
+
+}  // namespace ogc::reference

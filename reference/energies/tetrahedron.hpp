@@ -1,0 +1,14 @@
+// Stage tetrahedron by automatic differentiation of its energy.
+#pragma once
+
+#include "compare/stages/tetrahedron.hpp"
+
+namespace ogc::reference {
+
+/// The exact answer.
+compare::ForceAnswer tetrahedron(const compare::TetrahedronCase& question);
+
+/// All cases, in parallel over them.
+compare::ForceTruth tetrahedron(const compare::TetrahedronIn& in);
+
+}  // namespace ogc::reference

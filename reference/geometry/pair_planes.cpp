@@ -1,0 +1,206 @@
+// Directions and offsets are made in long double and stored; whether the stored plane holds both sides is then decided
+// exactly, by the same comparison that judges planes (plane.hpp).
+#include "reference/geometry/pair_planes.hpp"
+
+#include <tbb/combinable.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "reference/geometry/bound.hpp"
+#include "reference/geometry/closest_face.hpp"
+#include "reference/geometry/edge_parameters.hpp"
+#include "reference/geometry/near_pairs.hpp"
+#include "reference/geometry/plane.hpp"
+#include "reference/geometry/separation.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::PlaneIn;
+using compare::PlaneOut;
+using compare::PrimitivePair;
+using compare::VertexPlane;
+using Long = long double;
+using Direction = std::array<Long, 3>;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Direction minus(const Vec3f& a, const Vec3f& b) { return {Long{a.x} - b.x, Long{a.y} - b.y, Long{a.z} - b.z}; }
+Direction minus(const Direction& a, const Direction& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Direction times(Long s, const Direction& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Long inner(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Direction cross(const Direction& a, const Direction& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// `line`, a normal of both sides, so that it points along `way`.
+Direction along(const Direction& line, const Direction& way) { return inner(line, way) < 0 ? times(-1, line) : line; }
+
+/// From the point to the triangle's feature closest to it.
+Direction to_feature(const Corners& c, TriangleFeature feature, const Vec3f& x) {
+  const auto k = static_cast<std::size_t>(feature);
+  if (k < 3) return minus(c[k], x);
+  if (feature == TriangleFeature::interior) return along(cross(minus(c[1], c[0]), minus(c[2], c[0])), minus(c[0], x));
+  const Vec3f &a = c[k - 3], &b = c[(k - 2) % 3];
+  const Direction e = minus(b, a), w = minus(a, x);
+  return minus(w, times(inner(w, e) / inner(e, e), e));
+}
+
+/// From the first edge's feature closest to the second to the latter's.
+Direction to_feature(const EdgePair& pair, EdgeFeatures on) {
+  const Direction e = minus(pair.first[1], pair.first[0]), f = minus(pair.second[1], pair.second[0]);
+  if (on.first == EdgeFeature::interior && on.second == EdgeFeature::interior)
+    return along(cross(e, f), minus(pair.second[0], pair.first[0]));
+  const std::array<double, 2> s = closest_parameters(pair, on).values;
+  return minus(minus(minus(pair.second[0], pair.first[0]), times(s[0], e)), times(-s[1], f));
+}
+
+/// A pair within r_q: its vertices, those of the second side from `second_from` on; its distance, rounded down; its
+/// plane, if it has one.
+struct NearPair {
+  PrimitivePair pair;
+  std::array<Index, 4> vertices{};
+  std::size_t second_from = 1;
+  float below = 0;
+  bool has_plane = false;
+  Vec3f normal{};
+  double first_offset = 0, second_offset = 0;
+
+  VertexPlane as_borne(std::size_t k) const {
+    if (k < second_from) return {pair, normal, first_offset};
+    return {pair, {-normal.x, -normal.y, -normal.z}, -second_offset};
+  }
+};
+
+class PlaneMaker {
+ public:
+  explicit PlaneMaker(const PlaneIn& in)
+      : in_(in), mesh_{*in.topology, in.positions}, near_(mesh_, in.exclusions, double{in.query_radius}) {}
+
+  PlaneOut run() {
+    find_pairs();
+    choose_planes();
+    PlaneOut out{{{0}, {}}, balls()};
+    std::vector<std::vector<VertexPlane>> rows(in_.positions.size());
+    for (const NearPair& pair : pairs_)
+      for (std::size_t k = 0; k < 4 && pair.has_plane; ++k)
+        if (moves(pair.vertices[k])) rows[at(pair.vertices[k])].push_back(pair.as_borne(k));
+    for (const auto& row : rows) {
+      out.planes.items.insert(out.planes.items.end(), row.begin(), row.end());
+      out.planes.offsets.push_back(static_cast<Index>(out.planes.items.size()));
+    }
+    return out;
+  }
+
+ private:
+  bool moves(Index v) const { return in_.is_fixed[at(v)] == 0; }
+
+  void find_pairs() {
+    tbb::combinable<std::vector<NearPair>> found;
+    near_.facets([&](Index v, Index t) {
+      const compare::Triangle& c = mesh_.triangle(t);
+      const Corners corners{mesh_.at(c[0]), mesh_.at(c[1]), mesh_.at(c[2])};
+      if (surely_beyond_triangle({mesh_.at(v), corners[0], corners[1], corners[2]}, double{in_.query_radius})) return;
+      const TriangleFeature feature = closest_feature(corners, mesh_.at(v));
+      NearPair pair{{PrimitivePair::Kind::vertex_triangle, v, t},
+                    {v, c[0], c[1], c[2]},
+                    1,
+                    distance_below(feature_gap(corners, feature, mesh_.at(v)))};
+      if (pair.below >= in_.query_radius) return;
+      place(pair, to_feature(corners, feature, mesh_.at(v)));
+      found.local().push_back(pair);
+    });
+    near_.edges([&](Index e, Index f) {
+      const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
+      const EdgePair ends{{mesh_.at(a[0]), mesh_.at(a[1])}, {mesh_.at(b[0]), mesh_.at(b[1])}};
+      if (surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, double{in_.query_radius}))
+        return;
+      const EdgeFeatures features = closest_features(ends);
+      NearPair pair{{PrimitivePair::Kind::edge_edge, e, f},
+                    {a[0], a[1], b[0], b[1]},
+                    2,
+                    distance_below(feature_gap(ends, features))};
+      if (pair.below >= in_.query_radius) return;
+      place(pair, to_feature(ends, features));
+      found.local().push_back(pair);
+    });
+    found.combine_each([&](const auto& part) { pairs_.insert(pairs_.end(), part.begin(), part.end()); });
+    const auto order = [](const NearPair& p) { return std::tuple(p.pair.kind, p.pair.first, p.pair.second); };
+    std::ranges::sort(pairs_, {}, order);
+  }
+
+  /// n·x in long double: three products of 48 bits and two sums.
+  static Long height(const Vec3f& n, const Vec3f& x) { return Long{n.x} * x.x + Long{n.y} * x.y + Long{n.z} * x.z; }
+
+  bool is_fixed(const NearPair& pair, bool second) const {
+    for (std::size_t k = second ? pair.second_from : 0; k < (second ? 4 : pair.second_from); ++k)
+      if (moves(pair.vertices[k])) return false;
+    return true;
+  }
+
+  void place(NearPair& pair, const Direction& direction) const {
+    const Long length = std::sqrt(inner(direction, direction)), share = Long{in_.bound_relaxation};
+    if (!(length > 0)) return;
+    pair.normal = {static_cast<float>(direction[0] / length), static_cast<float>(direction[1] / length),
+                   static_cast<float>(direction[2] / length)};
+    Long top = -std::numeric_limits<Long>::infinity(), bottom = -top;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Long h = height(pair.normal, mesh_.at(pair.vertices[k]));
+      if (k < pair.second_from)
+        top = std::max(top, h);
+      else
+        bottom = std::min(bottom, h);
+    }
+    const Long gap = bottom - top;
+    const bool first_fixed = is_fixed(pair, false), second_fixed = is_fixed(pair, true);
+    // half way between a fixed side and the other's offset: it bears none
+    const auto room = [share](bool fixed, bool other_fixed) {
+      return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : share);
+    };
+    pair.first_offset = static_cast<double>(top + room(first_fixed, second_fixed) * gap);
+    pair.second_offset = static_cast<double>(bottom - room(second_fixed, first_fixed) * gap);
+    pair.has_plane = pair.first_offset < pair.second_offset;
+    for (std::size_t k = 0; k < 4; ++k)
+      pair.has_plane = pair.has_plane && keeps(pair.as_borne(k), mesh_.at(pair.vertices[k]));
+  }
+
+  void choose_planes() {
+    std::vector<std::vector<float>> distances(in_.positions.size());
+    for (const NearPair& pair : pairs_)
+      for (const Index v : pair.vertices) distances[at(v)].push_back(pair.below);
+    std::vector<float> threshold(in_.positions.size(), infinity);
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+      if (distances[v].size() <= most_planes || in_.is_fixed[v] != 0) continue;
+      const auto place = distances[v].begin() + most_planes;
+      std::nth_element(distances[v].begin(), place, distances[v].end());
+      threshold[v] = *place;
+    }
+    for (NearPair& pair : pairs_)
+      for (const Index v : pair.vertices) pair.has_plane = pair.has_plane && pair.below < threshold[at(v)];
+  }
+
+  std::vector<float> balls() const {
+    std::vector<float> nearest(in_.positions.size(), in_.query_radius);
+    for (const NearPair& pair : pairs_)
+      for (const Index v : pair.vertices)
+        if (!pair.has_plane) nearest[at(v)] = std::min(nearest[at(v)], pair.below);
+    for (float& d : nearest) d = product_below(in_.bound_relaxation, d);
+    return nearest;
+  }
+
+  const PlaneIn& in_;
+  Complex mesh_;
+  NearPairs near_;
+  std::vector<NearPair> pairs_;
+};
+
+}  // namespace
+
+PlaneOut pair_planes(const PlaneIn& in) { return PlaneMaker(in).run(); }
+
+}  // namespace ogc::reference

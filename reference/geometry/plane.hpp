@@ -1,0 +1,17 @@
+// Stage plane: is what holds the vertices enough? Decided exactly, about an answer of whomever (method.md §5.6).
+#pragma once
+
+#include "compare/stages/plane.hpp"
+
+namespace ogc::reference {
+
+/// Lists all pairs within r_q, in parallel. Throws InputError where the answer's arrays have not one entry each vertex.
+compare::PlaneTruth plane(const compare::PlaneIn& in, const compare::PlaneOut& out);
+
+/// Whether n·x ≤ o.
+bool keeps(const compare::VertexPlane& plane, const compare::Vec3f& x);
+
+/// Half-spaces that the positions [m] do not keep.
+std::size_t broken_planes(const compare::VertexPlanes& planes, std::span<const compare::Vec3f> positions);
+
+}  // namespace ogc::reference

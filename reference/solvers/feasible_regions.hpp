@@ -1,0 +1,53 @@
+// Where Newton's and VBD's vertices may be between two detections. Positions are doubles then; a detection is asked
+// about single-precision ones. So X_prev is x rounded, and each region is smaller than its bounds by what rounding can
+// move a point: x and what will be stored of it both keep them (Eq. 27; method.md §5.6), and the way from X_prev over x
+// to the next X_prev stays inside, too.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "compare/problem/settings.hpp"
+#include "reference/solvers/detection.hpp"
+
+namespace ogc::reference {
+
+/// A ball about X_prev and, where bounds are planes, half-spaces; without bounds everything.
+class FeasibleRegions {
+ public:
+  /// n to H⁻¹ n: in which direction a vertex with the block H leaves a half-space.
+  using Metric = std::function<Triple<double>(const Triple<double>&)>;
+
+  FeasibleRegions() = default;
+  FeasibleRegions(const Detected& detected, compare::Bounds bounds);
+
+  /// `cut`: x lies outside and was changed.
+  struct Inside {
+    Triple<double> x;
+    bool cut = false;
+  };
+  /// x or, where it lies outside, the point of the ball closest to it; with half-spaces a point of the region near it:
+  /// along these in the given metric (none: the shortest way), then on the way from `from`, which lies inside.
+  Inside inside(std::size_t vertex, const Triple<double>& from, const Triple<double>& x,
+                const Metric& metric = {}) const;
+  /// The same of a prescribed vertex, which does not slide.
+  Inside inside_on_path(std::size_t vertex, const Triple<double>& from, const Triple<double>& x) const;
+  /// The largest share in [0, 1] of `step` that stays inside.
+  double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
+
+ private:
+  struct HalfSpace {
+    Triple<double> normal;
+    double offset = 0;
+  };
+  bool holds(std::size_t vertex, const Triple<double>& x) const;
+  Triple<double> into_ball(std::size_t vertex, const Triple<double>& x) const;
+  Inside scaled(std::size_t vertex, const Triple<double>& from, const Triple<double>& x) const;
+  void add_planes(std::size_t vertex, const Detected& detected, double rounding);
+
+  State centre_;
+  std::vector<double> radius_;
+  std::vector<std::vector<HalfSpace>> planes_;
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,250 @@
+#include "fast/kernels/plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+namespace {
+
+using namespace ogc::fast;
+using Quad = __float128;
+
+constexpr float share = 0.45f;
+
+template <int m, int n>
+PairPlane plane_of(const PairPoints<m, n>& pair) {
+  return ogc::fast::plane_of(pair, distance_of(pair).below(), share);
+}
+
+/// n·x in 113 bits: three products of 48 bits, whose exponents lie within 60 of each other here.
+Quad along(const Vec& n, const Vec& x) { return Quad(n.x) * x.x + Quad(n.y) * x.y + Quad(n.z) * x.z; }
+
+bool is_exactly_behind(const HalfSpace& plane, const Vec& x) { return along(plane.normal, x) <= Quad(plane.offset); }
+
+bool is_exactly_within(const FeasibleRegion& region, const Vec& x) {
+  const Quad a = Quad(x.x) - region.centre.x, b = Quad(x.y) - region.centre.y, c = Quad(x.z) - region.centre.z;
+  return a * a + b * b + c * c <= Quad(region.radius) * region.radius;
+}
+
+bool is_exactly_in(const FeasibleRegion& region, const Vec& x) {
+  for (int k = 0; k < region.count; ++k)
+    if (!is_exactly_behind(region.planes[k], x)) return false;
+  return is_exactly_within(region, x);
+}
+
+bool same_bits(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// Points of pairs of every kind: apart, near, needles, collapsed triangles, far from the origin.
+class RandomPairs {
+ public:
+  Vec point(float size) { return {size * unit_(random_), size * unit_(random_), size * unit_(random_)}; }
+  float size() { return std::ldexp(1.0f, exponent_(random_)); }
+  float number() { return unit_(random_); }
+
+  template <int m, int n>
+  PairPoints<m, n> pair() {
+    PairPoints<m, n> pair{};
+    const float extent = size(), apart = extent * size();
+    const Vec origin = point(place_(random_) == 0 ? 1.0f : extent), away = point(apart), line = point(extent);
+    const bool is_needle = place_(random_) == 0;
+    for (Vec& x : pair.first) x = origin + point(extent);
+    for (Vec& x : pair.second) x = pair.first[0] + away + (is_needle ? number() * line : point(extent));
+    pair.is_first_fixed = place_(random_) == 0;
+    pair.is_second_fixed = !pair.is_first_fixed && place_(random_) == 0;
+    return pair;
+  }
+
+ private:
+  std::mt19937 random_{27};
+  std::uniform_real_distribution<float> unit_{-1, 1};
+  std::uniform_int_distribution<int> exponent_{-20, 0}, place_{0, 3};
+};
+
+struct Counts {
+  int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0;
+};
+
+/// All points of a pair after each has taken a proposal as far as its region allows it.
+template <int m, int n>
+PairPoints<m, n> moved(RandomPairs& random, const PairPoints<m, n>& pair, const PairPlane& plane, float radius,
+                       Counts& counts) {
+  PairPoints<m, n> to = pair;
+  const auto move = [&](Vec& x, const HalfSpace& side, bool is_fixed) {
+    if (is_fixed) return;
+    const FeasibleRegion region{x, radius, &side, 1};
+    Vec current = x;
+    for (int k = 0; k < 3; ++k) {
+      const Vec proposal = current + random.point(4 * radius);
+      const Truncated kept = held(region, current, proposal, InertiaMetric{});
+      counts.broken += !is_exactly_in(region, kept.position);
+      counts.broken += !kept.exceeded && !same_bits(kept.position, proposal);
+      current = kept.position;
+    }
+    x = current;
+  };
+  const HalfSpace first = plane.of_first(), second = plane.of_second();
+  for (Vec& x : to.first) move(x, first, pair.is_first_fixed);
+  for (Vec& x : to.second) move(x, second, pair.is_second_fixed);
+  return to;
+}
+
+template <int m, int n>
+bool is_separated(const PairPlane& plane, const PairPoints<m, n>& pair) {
+  bool separated = plane.first < plane.second;
+  for (const Vec& x : pair.first) separated = separated && is_exactly_behind(plane.of_first(), x);
+  for (const Vec& x : pair.second) separated = separated && is_exactly_behind(plane.of_second(), x);
+  return separated;
+}
+
+template <int m, int n>
+void check(RandomPairs& random, Counts& counts) {
+  const PairPoints<m, n> pair = random.pair<m, n>();
+  const PairPlane plane = plane_of(pair);
+  if (!plane.exists()) {
+    ++counts.without;
+    return;
+  }
+  ++counts.planes;
+  counts.wrong += !is_separated(plane, pair);
+  const PairPoints<m, n> to = moved(random, pair, plane, 8 * plane.below, counts);
+  counts.met += !is_separated(plane, to);
+}
+
+}  // namespace
+
+TEST_CASE("plane: no vertex that keeps its side lets its pair meet, whatever it proposes", "[property]") {
+  RandomPairs random;
+  Counts counts;
+  for (int i = 0; i < 50000; ++i) {
+    check<1, 3>(random, counts);
+    check<2, 2>(random, counts);
+  }
+  CHECK(counts.planes > 90000);
+  CHECK(counts.wrong == 0);
+  CHECK(counts.broken == 0);
+  CHECK(counts.met == 0);
+}
+
+TEST_CASE("plane: as near as the closest points, and no less room than a ball of the pair's distance", "[property]") {
+  RandomPairs random;
+  int narrow = 0, far = 0, planes = 0;
+  const auto look = [&](const auto& pair) {
+    const PairPlane plane = plane_of(pair);
+    const auto [d, slack] = distance_of(pair);
+    double extent = 0;
+    for (const Vec& x : pair.first)
+      for (const Vec& y : pair.second) extent = std::max(extent, norm_1(difference<Rounded>(x, y)));
+    // stored in single precision, n turns by 2⁻²⁴: its shadows move by as much of the extent
+    if (!plane.exists() || d < 0x1p12 * slack || d < 0x1p-12 * extent) return;
+    ++planes;
+    // o₂ − o₁ = (1 − 2γ_p) of the gap, which is the distance
+    far += std::abs((plane.second - plane.first) - (pair.is_first_fixed || pair.is_second_fixed ? 0.05 : 0.1) * d) >
+           1e-3 * d;
+    for (const Vec& x : pair.first)
+      if (!pair.is_first_fixed) narrow += plane.first - static_cast<double>(along(plane.normal, x)) < 0.449 * d;
+    for (const Vec& x : pair.second)
+      if (!pair.is_second_fixed) narrow += static_cast<double>(along(plane.normal, x)) - plane.second < 0.449 * d;
+  };
+  for (int i = 0; i < 50000; ++i) {
+    look(random.pair<1, 3>());
+    look(random.pair<2, 2>());
+  }
+  CHECK(planes > 60000);
+  CHECK(narrow == 0);
+  CHECK(far == 0);
+}
+
+TEST_CASE(
+    "plane: a region of many half-spaces holds what it returns, and takes the current position where nothing else",
+    "[property]") {
+  RandomPairs random;
+  int outside = 0, changed = 0, moved = 0, cases = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec centre = random.point(1);
+    const float radius = random.size();
+    std::vector<HalfSpace> planes;
+    for (int k = 0; k < 1 + i % 16; ++k) {
+      const Vec n = random.point(1);
+      planes.push_back({n, static_cast<double>(along(n, centre)) + radius * random.size()});
+      if (!is_behind(planes.back(), centre)) planes.pop_back();
+    }
+    const FeasibleRegion region{centre, radius, planes.data(), static_cast<int>(planes.size())};
+    Vec current = centre;
+    for (int k = 0; k < 4; ++k) {
+      const Vec proposal = centre + random.point(k == 3 ? 1e6f : 4 * radius);
+      Symmetric3 block{1, 0, 0, 1, 0, 1};
+      const Vec a = random.point(30);
+      block.xx += a.x * a.x, block.xy = a.x * a.y, block.xz = a.x * a.z;
+      block.yy += a.y * a.y, block.yz = a.y * a.z, block.zz += a.z * a.z;
+      const Truncated kept = k == 2 ? held_on_path(region, current, proposal)
+                                    : held(region, current, proposal, BlockMetric{block, 1});
+      outside += !is_exactly_in(region, kept.position);
+      changed += kept.exceeded == same_bits(kept.position, proposal);
+      moved += !same_bits(kept.position, current);
+      ++cases;
+      current = kept.position;
+    }
+  }
+  CHECK(outside == 0);
+  CHECK(changed == 0);
+  CHECK(moved > cases / 2);
+}
+
+TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
+  // a vertex 1 mm above a wall, which is fixed: it may come down by 0.9 mm
+  const PairPoints<1, 3> pair{{{0, 0, 1e-3f}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, true};
+  const PairPlane plane = plane_of(pair);
+  REQUIRE(plane.exists());
+  const HalfSpace wall = plane.of_first();
+  const FeasibleRegion region{pair.first[0], 0.1f, &wall, 1};
+  const Truncated slid = held(region, pair.first[0], {0.02f, -0.01f, -0.01f}, InertiaMetric{});
+  CHECK(slid.exceeded);
+  CHECK(slid.position.x == 0.02f);
+  CHECK(slid.position.y == -0.01f);
+  CHECK(slid.position.z == Approx(1e-4).epsilon(1e-3));
+  // along its path it comes as far as the wall allows
+  const Truncated scaled = held_on_path(region, pair.first[0], {0.011f, 0, -0.010f});
+  CHECK(scaled.position.x == Approx(0.011 * 0.9 / 11).epsilon(1e-3));
+  CHECK(scaled.position.z == Approx(1e-4).epsilon(1e-3));
+  // away from it nothing is cut
+  CHECK_FALSE(held(region, pair.first[0], {0, 0, 0.05f}, InertiaMetric{}).exceeded);
+}
+
+TEST_CASE("plane: the least increase of a vertex's energy, not the shortest way", "[unit]") {
+  // H is stiff along x: the half-space x + y ≤ 0 is left along y
+  const HalfSpace plane{{1, 1, 0}, 0};
+  const FeasibleRegion region{{0, 0, 0}, 1, &plane, 1};
+  const Truncated kept = held(region, {-0.1f, 0, 0}, {0.1f, 0.1f, 0}, BlockMetric{{1000, 0, 0, 1, 0, 1}, 1});
+  CHECK(kept.position.x == Approx(0.1 - 0.2 / 1001).epsilon(1e-4));
+  CHECK(kept.position.y == Approx(0.1 - 200.0 / 1001).epsilon(1e-4));
+}
+
+TEST_CASE("plane: touching pairs have none", "[unit]") {
+  CHECK_FALSE(plane_of(PairPoints<1, 3>{{{0, 0, 0}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, false}).exists());
+  CHECK_FALSE(plane_of(PairPoints<2, 2>{{{-1, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, 1, 0}}, false, false}).exists());
+}
+
+TEST_CASE("plane: mirrored positions give mirrored answers, bit for bit", "[property]") {
+  RandomPairs random;
+  int different = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const auto pair = random.pair<2, 2>();
+    auto other = pair;
+    for (Vec& x : other.first) x.y = -x.y;
+    for (Vec& x : other.second) x.y = -x.y;
+    const PairPlane plane = plane_of(pair), mirrored = plane_of(other);
+    different += plane.normal.x != mirrored.normal.x || plane.normal.y != -mirrored.normal.y ||
+                 plane.first != mirrored.first || plane.second != mirrored.second;
+    if (!plane.exists()) continue;
+    const HalfSpace side = plane.of_first(), mirrored_side = mirrored.of_first();
+    const Vec step = random.point(4 * plane.below), from = pair.first[0];
+    const Truncated a = held({from, plane.below, &side, 1}, from, from + step, InertiaMetric{}),
+                    b = held({other.first[0], plane.below, &mirrored_side, 1}, other.first[0],
+                             other.first[0] + Vec{step.x, -step.y, step.z}, InertiaMetric{});
+    different += !same_bits(a.position, {b.position.x, -b.position.y, b.position.z});
+  }
+  CHECK(different == 0);
+}

@@ -1,0 +1,222 @@
+// Bounds as planes: what a detection makes of them, judged exactly, and what a step is free to do with them.
+#include "fast/stages/planes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/oracle/audit.hpp"
+#include "fast/cpu/backend.hpp"
+#include "fast/cpu/simulation.hpp"
+#include "fast/stages/detection.hpp"
+#include "reference/geometry/plane.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/meshes.hpp"
+#include "tests/fast/scenes.hpp"
+
+namespace {
+
+using namespace ogc;
+using namespace ogc::fast;
+using namespace ogc::fast::test;
+
+struct Held {
+  compare::PlaneOut out;
+  std::vector<float> nearest;
+};
+
+/// What a detection at `positions` gives.
+Held detect(const compare::Topology& topology, const std::vector<compare::Vec3f>& positions,
+            const std::vector<std::uint8_t>& is_fixed, float r, float r_q, int capacity = 0) {
+  CpuBackend backend;
+  Detection<CpuBackend> detection(backend, topology, {}, capacity, 0, compare::Bounds::planes, is_fixed);
+  const auto* x = reinterpret_cast<const Vec*>(positions.data());
+  do {
+    detection.detect(x, r, &r_q, 0.45f);
+  } while (detection.grow());
+  const std::size_t n = positions.size();
+  const ContactView view = detection.view();
+  return {{detection.download_planes(), {view.bound, view.bound + n}}, {view.d_min_vertex, view.d_min_vertex + n}};
+}
+
+/// Three crumpled layers, closer to each other than r.
+tests::TestMesh layers(std::uint32_t seed) {
+  tests::TestMesh surface;
+  for (int k = 0; k < 3; ++k)
+    surface.add(tests::jittered(tests::sheet(9, 1.0F, 0.4F * static_cast<float>(k)), 0.15F,
+                                seed + static_cast<std::uint32_t>(k)));
+  return surface;
+}
+
+std::vector<std::uint8_t> every_seventh(std::size_t count) {
+  std::vector<std::uint8_t> fixed(count, 0);
+  for (std::size_t v = 0; v < count; v += 7) fixed[v] = 1;
+  return fixed;
+}
+
+bool are_equal(const compare::PlaneOut& a, const compare::PlaneOut& b) {
+  if (a.bound != b.bound || a.planes.offsets != b.planes.offsets) return false;
+  return std::ranges::equal(a.planes.items, b.planes.items,
+                            [](const compare::VertexPlane& p, const compare::VertexPlane& q) {
+                              return p.pair == q.pair && p.normal == q.normal && p.offset == q.offset;
+                            });
+}
+
+/// Positions at the end of `steps` clean steps.
+std::vector<compare::Vec3f> positions_after(const compare::Scene& scene, int steps,
+                                            std::vector<compare::StepMetrics>* rows = nullptr) {
+  const auto simulation = start_cpu(scene, {});
+  const auto all = simulation->advance(steps);
+  REQUIRE(static_cast<int>(all.size()) == steps);
+  REQUIRE(all.back().status == compare::step_clean);
+  if (rows != nullptr) *rows = all;
+  return simulation->snapshot().positions;
+}
+
+/// A free sheet beside a fixed one, both upright, `apart` [m].
+compare::Scene beside_a_wall(double apart) {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 4, 0.03, 0, false);
+  add_sheet(scene, 2, 4, 0, true);
+  for (std::size_t v = 0; v < scene.mesh.positions.size(); ++v) {
+    compare::Vec3& p = scene.mesh.positions[v];
+    p = {p.x, p.z, v < 16 ? apart : 0};
+  }
+  scene.rest_positions = scene.mesh.positions;
+  scene.settings.contact_radius = 0x1p-18;
+  scene.settings.query_radius_cap = 1024;
+  scene.settings.bounds = compare::Bounds::planes;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("planes: each pair within r_q has a plane or is covered by balls, exactly", "[property]") {
+  std::size_t separated = 0;
+  for (const std::uint32_t seed : {1U, 2U, 3U}) {
+    const tests::TestMesh surface = layers(seed);
+    const compare::Topology topology = surface.topology();
+    const auto is_fixed = every_seventh(surface.positions.size());
+    for (const float r_q : {0.3F, 1.2F}) {
+      const Held held = detect(topology, surface.positions, is_fixed, 0.3F, r_q);
+      const compare::PlaneIn in{&topology, {}, surface.positions, is_fixed, r_q, 0.45F};
+      const compare::PlaneTruth truth = reference::plane(in, held.out);
+      CHECK(truth.kept());
+      separated += truth.separated;
+      for (compare::Index v = 0; v < topology.vertex_count; ++v)
+        CHECK(held.out.planes.of(v).size() <= (is_fixed[static_cast<std::size_t>(v)] != 0 ? 0 : most_planes));
+    }
+  }
+  CHECK(separated > 1000);
+}
+
+TEST_CASE("planes: no vertex has a smaller ball than without planes, and some have larger ones", "[property]") {
+  const tests::TestMesh surface = layers(4);
+  const compare::Topology topology = surface.topology();
+  const std::vector<std::uint8_t> none(surface.positions.size(), 0);
+  const Held held = detect(topology, surface.positions, none, 0.3F, 1.2F);
+  int smaller = 0, larger = 0;
+  for (std::size_t v = 0; v < none.size(); ++v) {
+    const float ball = round_down(static_cast<double>(0.45F) * held.nearest[v]);
+    smaller += held.out.bound[v] < ball;
+    larger += held.out.bound[v] > ball;
+  }
+  CHECK(smaller == 0);
+  CHECK(larger > 100);
+}
+
+TEST_CASE("planes: lists that start with room for one contact, and one thread, give the same bits", "[property]") {
+  const tests::TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  const auto is_fixed = every_seventh(surface.positions.size());
+  const Held held = detect(topology, surface.positions, is_fixed, 0.3F, 1.2F);
+  CHECK(are_equal(held.out, detect(topology, surface.positions, is_fixed, 0.3F, 1.2F, 1).out));
+}
+
+TEST_CASE("planes: a sheet that falls past a wall a few micrometres away falls freely", "[property]") {
+  const double apart = 4e-6, h = 0.01;
+  compare::Scene scene = beside_a_wall(apart);
+  const int steps = 20;
+  const double fall = 9.81 * h * h * steps * (steps + 1) / 2;
+  std::vector<compare::StepMetrics> rows;
+  const auto free = positions_after(scene, steps, &rows);
+  // each step rounds a position below 2 m to 2⁻²⁴ m, and the velocity made of it carries that on
+  for (std::size_t v = 0; v < 16; ++v)
+    CHECK(std::abs(free[v].y - (scene.mesh.positions[v].y - fall)) < steps * (steps + 1) * 0x1p-24);
+  // a ball of that distance lets it fall 16 rounds and 10 iterations of γ_p times as far a step, at most
+  scene.settings.bounds = compare::Bounds::ball;
+  const auto stuck = positions_after(scene, steps);
+  for (std::size_t v = 0; v < 16; ++v)
+    CHECK(scene.mesh.positions[v].y - stuck[v].y < steps * 26 * 0.45 * (apart + 1e-6));
+}
+
+TEST_CASE("planes: a cloth pulled out between two plates leaves, and passes neither", "[property]") {
+  compare::Scene scene = empty_scene();
+  compare::Material smooth;
+  smooth.friction = 0;
+  add_sheet(scene, 6, 0.1, 0, false, smooth);
+  add_sheet(scene, 6, 0.3, 0.004, true, smooth);
+  add_sheet(scene, 6, 0.3, -0.004, true, smooth);
+  for (std::size_t v = 0; v < 30; ++v) scene.velocities[v] = {0, v % 2 == 0 ? 2.0 : -2.0, 0};
+  compare::PrescribedMotion pull;
+  for (compare::Index v = 30; v < 36; ++v) pull.vertices.push_back(v);
+  pull.velocity = {0.5, 0, 0};
+  scene.motions.push_back(pull);
+  scene.settings.bounds = compare::Bounds::planes;
+  const compare::Topology topology = compare::build_topology(scene);
+  const auto simulation = start_cpu(scene, {});
+  for (int k = 0; k < 60; ++k) {
+    const auto rows = simulation->advance(1);
+    REQUIRE(rows.back().status == compare::step_clean);
+    CHECK(rows.back().largest_lag == 0);
+    const compare::Snapshot state = simulation->snapshot();
+    CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
+    CHECK(reference::broken_planes(state.planes, state.positions) == 0);
+  }
+  // 0.3 m: out of the plates, whose edges are 0.15 m from the middle
+  const auto end = simulation->snapshot().positions;
+  CHECK(std::ranges::all_of(end.begin(), end.begin() + 36, [](const compare::Vec3f& p) { return p.x > 0.15f; }));
+}
+
+// Planes of the step before must decide nothing: each step is taken by a simulation that has seen no other.
+TEST_CASE("planes: a simulation that is replaced by a new one after each step comes to the same bits", "[property]") {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 8, 0.06, 0.003, false);
+  add_sheet(scene, 6, 0.1, 0, true);
+  for (std::size_t v = 0; v < 64; ++v) scene.velocities[v] = {0.5, -1, 0};
+  scene.settings.bounds = compare::Bounds::planes;
+  const auto whole = positions_after(scene, 20);
+  compare::Snapshot state = start_cpu(scene, {})->snapshot();
+  for (int k = 0; k < 20; ++k) {
+    const auto next = start_cpu(scene, {}, 1);
+    next->restore(state);
+    next->advance(1);
+    state = next->snapshot();
+  }
+  CHECK(state.positions == whole);
+}
+
+TEST_CASE("bounds=off: nothing is cut, and sheets pass through each other", "[unit]") {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 4, 0.03, 0.004, false);
+  add_sheet(scene, 4, 0.3, 0, true);
+  for (std::size_t v = 0; v < 16; ++v) scene.velocities[v] = {0, -100, 0};
+  scene.settings.bounds = compare::Bounds::off;
+  std::vector<compare::StepMetrics> rows;
+  const auto end = positions_after(scene, 1, &rows);
+  CHECK(rows.back().vertices_cut == 0);
+  CHECK(rows.back().discrete_detections == 1);
+  CHECK(end[0].y < -0.5f);
+}
+
+TEST_CASE("contacts listed with a margin act below the radius alone", "[property]") {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 6, 0.1, 0.006, false);
+  add_sheet(scene, 6, 0.3, 0, true);
+  scene.gravity = {0, 0, 0};
+  scene.settings.contact_margin = 0.5;
+  std::vector<compare::StepMetrics> rows;
+  const auto end = positions_after(scene, 2, &rows);
+  CHECK(rows.back().vertex_facet_contacts > 0);
+  CHECK(rows.back().contact_energy == 0);
+  for (std::size_t v = 0; v < 36; ++v) CHECK(end[v].y == 0.006f);
+}

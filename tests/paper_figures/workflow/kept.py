@@ -1,0 +1,83 @@
+"""The accepted results that are there: each has its provenance, is small, is there once, and a thinned run says what
+its manifest says.
+
+Usage: kept.py SOURCE_DIR. Exit status 77: skipped, PyYAML is missing.
+"""
+
+import hashlib
+import json
+import re
+import sys
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE))
+try:
+    import yaml  # noqa: F401
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+from paper_figures.workflow import accept  # noqa: E402
+from paper_figures.workflow.evidence import RESULTS, runs_in  # noqa: E402
+
+LIMIT = 10e6  # bytes of all accepted results
+
+
+class Kept(unittest.TestCase):
+    def test_every_file_has_a_provenance_and_is_unchanged(self):
+        """In the table, or, of a table that no run of a figure made, by name in the README."""
+        for folder in (path.parent for path in RESULTS.glob("*/provenance.csv")):
+            known = {row["file"]: row for row in accept.rows_of(folder / "provenance.csv")}
+            for name, row in known.items():
+                self.assertEqual(hashlib.sha256((folder / name).read_bytes()).hexdigest()[:16], row["sha256"], name)
+                self.assertNotIn("dirty", row["commit"])
+            words = (folder / "README.md").read_text()
+            there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+            unknown = {name for name in there - set(known) if not (name.endswith(".csv") and f"`{name}`" in words)}
+            self.assertLessEqual(unknown, {"README.md", "provenance.csv", "durations.csv"}, folder.name)
+
+    def test_all_of_them_are_small(self):
+        self.assertLess(sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()), LIMIT)
+
+    def test_no_file_is_there_twice(self):
+        """Tables apart: those of two scales may agree."""
+        seen = {}
+        for path in sorted(path for path in RESULTS.rglob("*") if path.is_file() and path.suffix != ".csv"):
+            other = seen.setdefault(hashlib.sha256(path.read_bytes()).hexdigest(), path)
+            self.assertTrue(other == path or path.name.endswith("processor_time.json"), f"{path} is {other}")
+
+    def test_each_scene_has_the_name_of_its_hash_and_a_run(self):
+        named = {json.loads(path.read_text())["scene"]["sha256"] for path in RESULTS.rglob("*run.json")}
+        there = {path.stem for path in (RESULTS / "scenes").iterdir()}
+        self.assertEqual(there, named)
+        for path in (RESULTS / "scenes").iterdir():
+            self.assertEqual(hashlib.sha256(path.read_bytes()).hexdigest()[:16], path.stem)
+
+    def test_no_folder_has_the_name_of_a_commit(self):
+        for path in RESULTS.rglob("*"):
+            self.assertFalse(path.is_dir() and re.fullmatch(r"[0-9a-f]{7,}", path.name), path)
+
+    def test_the_hundreds_of_a_thinned_run_say_what_its_manifest_says(self):
+        found = [run for run in runs_in(RESULTS) if run.thinned]
+        self.assertGreater(len(found), 10)
+        for run in found:
+            counts = run.thinned.of_rows()
+            self.assertEqual(sum(counts), run.step_count, run.source)
+            for name, mean in run.manifest["whole_run"]["mean"].items():
+                parts = run.thinned.of("mean", name)
+                # Nine digits of each mean: half a unit of the ninth, relative to the largest of them.
+                scale = max(map(abs, parts)) or 1
+                again = sum(part * count for part, count in zip(parts, counts)) / run.step_count
+                self.assertAlmostEqual(again / scale, mean / scale, delta=5e-9, msg=f"{run.source} {name}")
+                largest = run.manifest["whole_run"]["largest"][name]
+                self.assertEqual(f"{max(run.thinned.of('largest', name)):.9g}", f"{largest:.9g}",
+                                 f"{run.source} {name}")
+
+    def test_no_manifest_names_a_folder_of_the_machine(self):
+        for path in RESULTS.rglob("*run.json"):
+            self.assertNotRegex(json.loads(path.read_text())["command"], r"(^|\s|=)/", path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,170 @@
+"""Each number of a document's table of measurements, and of a sentence that names its rows, is in the file that it
+names, rounded as it is printed.
+
+Usage: printed_numbers.py SOURCE_DIR. Exit status 77: skipped, numpy is missing.
+
+A table is held to a file where the paragraph above it links to a CSV of the accepted results. The rows of the file are
+those whose cells name what the table's row is about; columns whose title says `floor` (counted) or `quoted` (another's
+measurement) are left out. A sentence is held to a file where it ends with `([rows](FILE.csv))`.
+"""
+
+import csv
+import re
+import sys
+import unittest
+from decimal import Decimal
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE))
+try:
+    import numpy  # noqa: F401
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+from paper_figures.workflow import whole_runs  # noqa: E402
+from paper_figures.workflow.evidence import RESULTS  # noqa: E402
+
+DOCUMENTS = ("README.md", "fast/PERFORMANCE.md", "reference/README.md", "paper_figures/results/h200/README.md",
+             "paper_figures/results/two_cores/README.md", "tests/mutants/README.md")
+SHORT = {"sphere": "cloth_on_sphere"}  # names of scenes in documents, where they are not the scenes' own
+NOT_OURS = ("floor", "quoted")
+LINK = re.compile(r"\[[^\]]*\]\(([^)#]*\.csv)\)")
+POWER = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
+NUMBER = re.compile(rf"(?<![\w.,^/{POWER}])-?(?:\d{{1,3}}(?:,\d{{3}})+|\d+)(?:\.\d+)?"
+                    rf"(?:e-?\d+|·10[{POWER}]+)?(?![\w{POWER}/])")
+UPRIGHT = str.maketrans(POWER, "-0123456789")
+# What a sentence's number may be times the file's: the same, s of ms, %.
+SCALES = [Decimal(1), Decimal("0.001"), Decimal(100)]
+
+
+def printed(text):
+    """(value, half a unit of its last digit) of a number as documents print it."""
+    mantissa, _, exponent = text.replace(",", "").replace("·10", "e").translate(UPRIGHT).partition("e")
+    value = Decimal(mantissa).scaleb(int(exponent or 0))
+    return value, Decimal(1).scaleb(Decimal(mantissa).as_tuple().exponent + int(exponent or 0)) / 2
+
+
+def numbers(text):
+    """All numbers in a cell of a file: "0: 15.81; 2400: 88.31" has four."""
+    return [Decimal(found) for found in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d{1,3})?(?![\w.])", text)]
+
+
+def is_among(text, values, scales=SCALES[:1]):
+    value, half = printed(text)
+    return any(abs(number * scale - value) <= half for number in values for scale in scales)
+
+
+def rows_of(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def tables(text):
+    """(paragraph above, titles, rows) of each Markdown table."""
+    for found in re.finditer(r"((?:^[^|\n].*\n)+)\n((?:^\|.*\n)+)", text, re.M):
+        lines = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))]
+                 for line in found[2].splitlines()]
+        yield found[1], lines[0], lines[2:]
+
+
+def about(label, rows):
+    """The rows of a file that a table's row is about."""
+    quoted = re.search(r"`([^`]+)`", label)
+    name = quoted[1] if quoted else label
+    name = SHORT.get(name, name)
+    return [row for row in rows if name in row.values()]
+
+
+def faults_of_table(titles, lines, rows):
+    for line in lines:
+        values = [number for row in about(line[0], rows) for cell in row.values() for number in numbers(cell or "")]
+        for title, cell in zip(titles[1:], line[1:]):
+            if not any(word in title for word in NOT_OURS):
+                yield from ((line[0], title, found) for found in NUMBER.findall(cell) if not is_among(found, values))
+
+
+def sentences(text):
+    """(words, file) of each sentence that ends with a link to rows."""
+    flat = re.sub(r"^\|.*$|^ *```.*?^ *```", "", text, flags=re.M | re.S if "```" in text else re.M).replace("\n", " ")
+    for found in re.finditer(r"\(\[rows\]\(([^)]*\.csv)\)", flat):
+        before = flat[:found.start()]
+        begin = max(before.rfind(mark) + len(mark) for mark in (". ", ": ", "; ", "]", "|", "  "))
+        yield before[begin:], found[1]
+
+
+def faults(text, folder):
+    """What a document says that its files do not: (of what, where, number)."""
+    for above, titles, lines in tables(text):
+        link = LINK.search(above)
+        if link:
+            yield from faults_of_table(titles, lines, rows_of(folder / link[1]))
+    for words, name in sentences(text):
+        values = [number for row in rows_of(folder / name) for cell in row.values() for number in numbers(cell or "")]
+        bare = re.sub(r"`[^`]*`|§[\d.]+|Eq\. \d+|Table \d+|RTX \d+|Fig\. \d+|\b1/\d+ s", "", words)
+        yield from ((words.strip()[:40], name, found) for found in NUMBER.findall(bare)
+                    if not is_among(found, values, SCALES))
+
+
+def held(text):
+    """(place in the text, number) of each number of a table that is held to a file."""
+    for above, titles, lines in tables(text):
+        if not LINK.search(above):
+            continue
+        for line in lines:
+            at = text.index("| " + " | ".join(line))
+            for title, cell in zip(titles[1:], line[1:]):
+                at = text.index("| " + cell, at + 1)
+                if not any(word in title for word in NOT_OURS):
+                    yield from ((at + 2 + found.start(), found[0]) for found in NUMBER.finditer(cell))
+
+
+class Documents(unittest.TestCase):
+    def test_each_number_is_in_the_file_that_is_named(self):
+        for name in DOCUMENTS:
+            text = (SOURCE / name).read_text()
+            self.assertEqual(list(faults(text, (SOURCE / name).parent)), [], name)
+
+    def test_a_wrong_number_is_found_wherever_it_is_planted(self):
+        tried = 0
+        for name in DOCUMENTS:
+            text, folder = (SOURCE / name).read_text(), (SOURCE / name).parent
+            found = list(held(text))
+            missed = [number for at, number in found if not list(faults(planted(text, at, number), folder))]
+            tried += len(found)
+            # One digit may make another number of the row.
+            self.assertLessEqual(len(missed), 0.1 * len(found), f"{name}: {missed}")
+        self.assertGreater(tried, 300)
+
+    def test_a_wrong_number_in_a_sentence_is_found(self):
+        words = "It takes 1.85 ms in `twist` ([rows](whole_runs.csv)).\n"
+        folder = RESULTS / "h200"
+        self.assertEqual(list(faults(words, folder)), [])
+        self.assertEqual([found[2] for found in faults(words.replace("1.85", "1.86"), folder)], ["1.86"])
+
+    def test_the_table_of_whole_runs_is_computed_from_the_runs_that_are_kept(self):
+        for path in RESULTS.glob("*/whole_runs.csv"):
+            self.assertEqual(whole_runs.table(path.parent), path.read_text(), path.parent.name)
+
+
+def planted(text, at, number):
+    """The text with the last digit of the number's mantissa changed."""
+    mantissa = re.match(r"[-\d,.]+", number)[0]
+    last = at + len(mantissa) - 1
+    return text[:last] + str((int(text[last]) + 3) % 10) + text[last + 1:]
+
+
+class Parts(unittest.TestCase):
+    def test_numbers_as_printed(self):
+        for text, value, half in (("1,921", 1921, "0.5"), ("0.93", "0.93", "0.005"), ("2·10⁻¹²", "2e-12", "5e-13"),
+                                  ("9.2e-5", "9.2e-5", "5e-7")):
+            self.assertEqual(printed(text), (Decimal(value), Decimal(half)))
+        self.assertEqual(NUMBER.findall("10⁵ contacts take 3.3 ms, γ_e = 0, 1/60 s"), ["3.3", "0"])
+
+    def test_numbers_of_a_cell(self):
+        self.assertEqual(numbers("0: 15.81; 2400: 88.3; a 5e-07"),
+                         [Decimal(x) for x in ("0", "15.81", "2400", "88.3", "5e-07")])
+
+
+if __name__ == "__main__":
+    unittest.main()

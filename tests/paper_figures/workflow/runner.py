@@ -1,0 +1,445 @@
+"""The runner: what is finished is kept, what was cut off goes on, a limit ends with 75, what is packed and unpacked is
+what the figures' scripts want to find.
+
+Usage: runner.py SOURCE_DIR OGC. The standard library is enough.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
+del sys.argv[1:3]
+sys.path.insert(0, str(SOURCE))
+from paper_figures.figures import growth, table1  # noqa: E402
+from paper_figures.workflow import commands, device_memory, jobs, judge_counts, layers, packing, parts  # noqa: E402
+from paper_figures.workflow.evidence import run_at  # noqa: E402
+from paper_figures.workflow.jobs import FINISHED, KEPT, PROCESSOR_TIME, STOPPED, Command, Job, Limit, Step  # noqa: E402
+
+SPHERE = ("cloth_on_sphere", "--scale", "smoke")
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def program(self, text, name="stand_in"):
+        path = self.folder / name
+        path.write_text(text)
+        path.chmod(0o755)
+        return path
+
+
+class OneJob(Scratch):
+    LONG = Job("long", ("twist", "--scale", "smoke", "--steps", "150", "--set", "iterations=60", "--checkpoint", "0",
+                        "--audit", "end"), processor_time=True)
+
+    def make(self, job, seconds=None):
+        return job.make(OGC, self.folder, Limit(seconds))
+
+    def test_a_run_stopped_at_the_limit_goes_on_and_is_then_kept(self):
+        self.assertEqual(self.make(self.LONG, 0.2), STOPPED)
+        self.assertIn(jobs.manifest_of(self.folder / "long")["status"], ("interrupted", "running"))
+        before = json.loads((self.folder / "long" / PROCESSOR_TIME).read_text())
+        self.assertEqual([self.make(self.LONG), self.make(self.LONG)], [FINISHED, KEPT])
+        self.assertIn("resumed", jobs.manifest_of(self.folder / "long"))
+        self.assertEqual(len((self.folder / "long/steps.csv").read_text().splitlines()), 151)
+        after = json.loads((self.folder / "long" / PROCESSOR_TIME).read_text())
+        self.assertGreater(after["user [s]"], before["user [s]"], "of all attempts")
+
+    def test_an_attempt_that_nobody_measured_leaves_no_processor_time(self):
+        self.assertEqual(self.make(self.LONG, 0.2), STOPPED)
+        (self.folder / "long" / PROCESSOR_TIME).unlink()  # as if the runner had been killed with it
+        self.assertEqual(self.make(self.LONG), FINISHED)
+        self.assertFalse((self.folder / "long" / PROCESSOR_TIME).exists())
+
+    def test_processor_time_is_that_of_the_process_alone(self):
+        spin = "import time\nend = time.process_time() + 0.3\nwhile time.process_time() < end: pass"
+        sum(k for k in range(10**6))
+        code, used = jobs.command_in([sys.executable, "-c", spin], log=self.folder / "log")
+        self.assertEqual(code, 0)
+        self.assertGreaterEqual(sum(used.values()), 0.3)
+        self.assertLess(sum(jobs.command_in(["true"], log=self.folder / "log")[1].values()), 0.3)
+
+    def test_another_command_in_the_same_folder_is_run_anew(self):
+        short, longer = (Job("run", (*SPHERE, "--steps", steps)) for steps in (2, 3))
+        self.assertEqual([self.make(job) for job in (short, short, longer)], [FINISHED, KEPT, FINISHED])
+
+    def test_a_run_that_cannot_go_on_begins_anew(self):
+        self.assertEqual(self.make(self.LONG, 0.2), STOPPED)
+        manifest = self.folder / "long/run.json"
+        manifest.write_text(manifest.read_text().replace('"commit": "', '"commit": "0'))  # another program's
+        self.assertEqual(self.make(self.LONG), FINISHED)
+        self.assertNotIn("resumed", jobs.manifest_of(self.folder / "long"))
+
+    def test_a_run_begins_with_the_frame_after_a_step_or_at_a_share_if_there_is_one(self):
+        self.assertEqual(self.make(Job("run", (*SPHERE, "--steps", "6", "--set", "frame_steps=2"))), FINISHED)
+        for place, steps in ((Step(4), ["5"]), (jobs.Share(50, 2), ["3"]), (jobs.Share(100, 2), ["7"]), (0, ["1"])):
+            window = Job("window", SPHERE, ("run", place), more_steps=1)
+            self.assertEqual(self.make(window), FINISHED)
+            rows = (self.folder / "window/steps.csv").read_text().splitlines()[1:]
+            self.assertEqual([row.partition(",")[0] for row in rows], steps, place)
+        with self.assertRaisesRegex(jobs.RunFailure, "begins with a frame of .*, which does not have it"):
+            self.make(Job("window", SPHERE, ("run", Step(5))))
+        with self.assertRaisesRegex(jobs.RunFailure, "none has no step yet: make that run first"):
+            self.make(Job("window", SPHERE, ("none", jobs.Share(50, 2))))
+
+    def test_a_failure_has_its_command_and_last_words(self):
+        with self.assertRaisesRegex(jobs.RunFailure, "(?s)run no_scene .*exit status 2.*no_scene"):
+            self.make(Job("run", ("no_scene",)))
+        with self.assertRaisesRegex(jobs.RunFailure, "(?s)minimise nothing .*exit status 2"):
+            self.make(Command("table", ("minimise", "nothing", "--csv", "{root}/t.csv"), "t.csv"))
+
+    def test_what_a_watching_program_finds_is_a_failure_each_time(self):
+        watch = self.program('#!/bin/sh\n"$@"; exit 9\n')
+        for _ in "ab":
+            with self.assertRaisesRegex(jobs.RunFailure, "exit status 9"):
+                self.make(Job("run", (*SPHERE, "--steps", 2), under=(str(watch),)))
+        watch.write_text('#!/bin/sh\nexec "$@"\n')
+        self.assertEqual(self.make(Job("run", (*SPHERE, "--steps", 2), under=(str(watch),))), FINISHED)
+
+    def test_a_command_is_done_again_when_a_run_that_it_reads_is_newer(self):
+        (self.folder / "run").mkdir()
+        (self.folder / "run/run.json").write_text("{}")
+        job = Command("table", ("sh", "-c", "echo x >> {root}/t.csv"), "t.csv", ("run",))
+        made = [job.make("env", self.folder) for _ in "ab"]
+        os.utime(self.folder / "run/run.json", (time.time() + 9, time.time() + 9))
+        self.assertEqual((made, job.make("env", self.folder)), ([FINISHED, KEPT], FINISHED))
+
+    def test_a_job_that_does_not_stop_is_killed(self):
+        deaf = self.program("#!/bin/sh\ntrap '' INT\nwhile :; do sleep 0.05; done\n")
+        jobs.SECONDS_TO_STOP, before = 0.3, jobs.SECONDS_TO_STOP
+        self.addCleanup(setattr, jobs, "SECONDS_TO_STOP", before)
+        self.assertEqual(jobs.command_in([deaf], Limit(0.3), self.folder / "log")[0], -signal.SIGKILL)
+
+    def test_a_limit_within_another_comes_with_it(self):
+        whole = Limit()
+        part = Limit(1000, whole)
+        self.assertGreater(part.left(), 900)
+        whole.stop()
+        self.assertEqual((part.left(), Limit(0).left()), (0, 0))
+
+
+class Called(Scratch):
+    """The command, as it is called."""
+
+    OPTIONS = ["--scale", "smoke", "--backend", "cpu", "--window", "3"]
+    COMMAND = [sys.executable, "-m", "paper_figures.workflow.runner"]
+
+    def call(self, out, *words):
+        command = [*self.COMMAND, "--out", out, "--program", OGC, *self.OPTIONS, *words]
+        return subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True, check=False)
+
+    def say(self, out, *words, status=0):
+        done = self.call(out, *words)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout.splitlines()
+
+    def test_made_kept_packed_unpacked_and_found_finished(self):
+        there, home, packed = self.folder / "there", self.folder / "home", self.folder / "packed"
+        wanted = ["fig20", "cloth_on_sphere", "windows_cloth_on_sphere"]
+        self.assertEqual([line.split()[3] for line in self.say(there, *wanted)], ["finished"] * 3)
+        lines = self.say(there, "--pack", packed, *wanted)
+        self.assertEqual([line.split()[3] for line in lines[:3]], ["kept"] * 3)
+        self.assertEqual({line.split()[0] for line in lines[3:-1]}, {f"{name}:" for name in wanted})
+        sizes = [float(line.split()[3]) for line in lines[3:-1]]
+        self.assertEqual(sizes, sorted(sizes))  # what is lost with the last piece is little
+        self.assertEqual(len(self.say(there, "--pack", packed, *wanted)), 3, "nothing is packed twice")
+        self.assertEqual(len(list(packed.iterdir())), 1)
+        self.assertEqual(len(self.say(home, "--unpack", packed)), 13)
+        part = parts.book(parts.Wanted("smoke", "cpu"))["fig20"]
+        job, = part.jobs
+        self.assertTrue(job.done(home / part.folder))
+        frames = [len(list((place / part.folder / job.name / "frames").iterdir())) for place in (there, home)]
+        self.assertEqual(frames[1], min(25, frames[0]))
+        for path in (home / part.folder / job.name, home / "fig18-smoke-cpu/run"):
+            self.assertTrue((path / "trajectory.vtkhdf").is_file() and not path.is_symlink(), path)
+        rows = table1.rows_of(home / "table1-smoke-cpu")
+        self.assertEqual([(row["scene"], row["backend"]) for row in rows], [("cloth_on_sphere", "cpu")] * 2)
+        self.assertEqual(rows[0]["audited states"], "31, no intersection", "all, though not all frames came along")
+
+    def test_a_limit_ends_with_75_and_calls_go_on_until_all_is_finished(self):
+        out, calls, ends = self.folder / "out", 0, []
+        while not ends or ends[-1] == 75:
+            calls += 1
+            self.assertLess(calls, 100)
+            done = self.call(out, "--time-limit", "1.2", "--pack", self.folder / "packed", "twist")
+            ends.append(done.returncode)
+        self.assertEqual((ends[0], ends[-1]), (75, 0), done.stdout + done.stderr)
+        self.assertIn("resumed", json.loads((out / "table1-smoke-cpu/twist/whole/run.json").read_text()))
+        self.assertEqual(self.say(out, "twist")[0].split()[3], "kept")
+        home = self.folder / "home"
+        self.say(home, "--unpack", self.folder / "packed")
+        for place in (out, home):
+            row, = table1.rows_of(place / "table1-smoke-cpu")
+            self.assertEqual((row["steps"], row["status"]), (row["of steps"], "finished"))
+            self.assertEqual(len(row[table1.FRESH].split(";")), 5)
+
+    def test_what_is_not_begun_at_the_limit_says_so(self):
+        lines = self.say(self.folder, "--time-limit", "0.01", "fig12", "fig20", status=75)
+        self.assertRegex(lines[1], "fig20 +not begun: no time is left; call again to go on")
+
+    def test_sigterm_is_a_limit_that_comes_now(self):
+        command = [*self.COMMAND, "--out", self.folder, "--program", OGC, *self.OPTIONS, "fig12"]
+        runner = subprocess.Popen(list(map(str, command)), cwd=SOURCE, stdout=subprocess.PIPE, text=True)
+        while not (self.folder / "table1-smoke-cpu/twist/whole/frames").is_dir():
+            time.sleep(0.01)
+        runner.terminate()
+        said, _ = runner.communicate()
+        self.assertEqual((runner.returncode, "stopped at the limit" in said), (75, True), said)
+
+    def test_a_figure_of_a_rows_scene_finds_its_run(self):
+        self.say(self.folder, "fig12", "--steps", "4")
+        link = self.folder / "fig12-smoke-cpu/run"
+        self.assertTrue(link.is_symlink())
+        self.assertEqual(len((link / "steps.csv").read_text().splitlines()), 5)
+        self.assertEqual(json.loads((link / "audit.json").read_text())["complete"], True)
+
+    def test_whole_runs_are_as_many_and_as_long_as_asked(self):
+        self.say(self.folder, "twist", "--steps", "10", "--runs", "2", "--audit", "every")
+        row, = table1.rows_of(self.folder / "table1-smoke-cpu")
+        self.assertEqual((row["runs"], row["steps"], row["audited states"]), (2, 10, "10, no intersection"))
+
+    def test_solvers_of_fig_18_are_made_one_by_one_with_their_processor_time(self):
+        there, home, packed = self.folder / "there", self.folder / "home", self.folder / "packed"
+        self.assertEqual(self.say(there, "--pack", packed, "fig18_solvers")[0].split()[3], "finished")
+        self.say(home, "--unpack", packed)
+        ended = []
+        for name in ("ipc", "newton", "vbd"):
+            run = home / "fig18_solvers-smoke-cpu" / name
+            manifest = jobs.manifest_of(run)
+            self.assertEqual((manifest["solver"], manifest["device"]),
+                             (name, f"{len(os.sched_getaffinity(0))} threads"))
+            self.assertGreater(json.loads((run / PROCESSOR_TIME).read_text())["user [s]"], 0)
+            ended.append(manifest["ended"])
+        self.assertEqual(ended, sorted(ended))
+        chain, = parts.book(parts.Wanted("paper", "cuda"))["fig18_solvers"].chains
+        self.assertEqual([job.name for job in chain], ["ipc", "newton", "vbd", "vbd_cuda"])
+
+    def test_each_part_is_packed_as_soon_as_it_is_finished(self):
+        """What was killed in the second part must have left the first."""
+        there, home, packed = self.folder / "there", self.folder / "home", self.folder / "packed"
+        code = ("import sys\nfrom paper_figures.workflow import runner\nmake = runner.Runner.make\n"
+                "runner.Runner.make = lambda self, name, part: make(self, name, part) if name == 'fig20' else "
+                "sys.exit(9)\n"
+                "runner.main()")
+        command = [sys.executable, "-c", code, "--out", there, "--program", OGC, *self.OPTIONS, "--pack", packed]
+        done = subprocess.run(list(map(str, [*command, "fig20", "fig12"])), cwd=SOURCE, capture_output=True,
+                              check=False)
+        self.assertEqual(done.returncode, 9)
+        self.assertEqual(self.say(home, "--unpack", packed), [str(home / "fig20-smoke-cpu/vbd")])
+
+    def test_what_does_not_fit_is_named_and_packed_by_the_next_call(self):
+        self.say(self.folder, "fig20", "--audit", "off")
+        code = "from paper_figures.workflow import packing, runner\npacking.MIB = 1000\nrunner.main()"
+        command = [sys.executable, "-c", code, "--out", self.folder, "--program", OGC, *self.OPTIONS, "--pack"]
+        words = [*command, self.folder / "small", "--pack-size", "1", "fig20"]
+        said = subprocess.run(list(map(str, words)), cwd=SOURCE, capture_output=True, text=True, check=False)
+        self.assertEqual((said.returncode, "did not fit" in said.stdout), (1, True), said.stdout + said.stderr)
+        words = [*command, self.folder / "pieces", "--piece-size", "50", "fig20"]
+        subprocess.run(list(map(str, words)), cwd=SOURCE, capture_output=True, check=True)
+        pieces = sorted((self.folder / "pieces").iterdir())
+        self.assertGreater(len(pieces), 1)
+        self.assertLessEqual({path.stat().st_size for path in pieces[:-1]}, {50_000})
+        self.assertEqual(len(self.say(self.folder / "home", "--unpack", self.folder / "pieces")), 1)
+        pieces[-1].write_bytes(pieces[-1].read_bytes()[:-200])
+        cut = self.call(self.folder / "cut", "--unpack", self.folder / "pieces")
+        self.assertEqual((cut.returncode, "end in the middle" in cut.stderr), (1, True), cut.stderr)
+        self.assertEqual(list((self.folder / "cut").iterdir()), [])
+
+    def test_wrong_words_exit_2(self):
+        for words, said in ((["twisted"], "no part or figure 'twisted'"),
+                            (["--figures", "twist"], "no part or figure 'twist'"),
+                            (["--windw", "3"], "--windw"), (["--program", "/nowhere"], "no program at '/nowhere'")):
+            done = self.call(self.folder, *words)
+            self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
+
+
+class Book(Scratch):
+    def test_rows_are_those_of_the_table_and_the_largest_is_last_on_the_cpu(self):
+        book = parts.book(parts.Wanted())
+        self.assertEqual(set(parts.ROWS), set(table1.ROWS))
+        windows = [name for name in book if name.startswith("windows_")]
+        self.assertEqual((len(windows), windows[-1]), (len(parts.ROWS), "windows_fifty_layers_1m"))
+
+    def test_a_figure_is_all_of_its_parts_and_a_part_itself(self):
+        book = parts.book(parts.Wanted())
+        self.assertEqual(list(parts.chosen(book, ["fig02"])), ["fig02"])
+        self.assertEqual(set(parts.chosen(book, [], ["fig02", "growth"])),
+                         {"fig02", "fig02_ipc", "growth_cuda", "growth_cpu", "threads"})
+        everything = parts.chosen(book)
+        self.assertLessEqual({"twist", "windows_knot", "fig21", "minimiser"}, set(everything))
+        self.assertFalse({"judge", "sanitizer"} & set(everything))
+
+    def test_fewer_iterations_before_the_step_of_fig_17_change_its_start_alone(self):
+        whole, fewer = commands.three_cloths("paper", ["cpu"]), commands.three_cloths("paper", ["cpu"], 40)
+        self.assertEqual(fewer[0][0].arguments, (*whole[0][0].arguments[:-1], "iterations=40"))
+        self.assertEqual((fewer[0][1:], fewer[1]), (whole[0][1:], whole[1]))
+
+    def test_other_steps_of_fig_17_begin_with_states_that_its_start_stores(self):
+        start, *single = commands.three_cloths("paper", ["cpu"])[0]
+        others = [job for job in single if "_at_" in job.name]
+        self.assertEqual(len(others), len(commands.THREE_CLOTHS_OTHERS["paper"]))
+        between = round(100 / 60)  # steps of 1/100 s between two frames, 60 of them a second
+        for job in others:
+            name, before = job.state
+            self.assertEqual((name, before.number % between), (start.name, 0))
+            self.assertIn(before.number + 1, job.arguments)
+            self.assertLess(before.number, start.arguments[start.arguments.index("--steps") + 1])
+
+    def test_frames_are_the_first_evenly_on_to_the_last(self):
+        (self.folder / "frames").mkdir()
+        for step in range(0, 105, 5):
+            (self.folder / f"frames/frame_{step:06d}.h5").touch()
+        for frames, last, steps in ((4, 0, [0, 35, 65, 100]), (0, 0, []), (2, 2, [0, 95, 100])):
+            found = jobs.chosen_frames(self.folder, frames, last)
+            self.assertEqual([int(path.stem[-6:]) for path in found], steps)
+
+    def test_an_audit_that_goes_on_is_packed_again_and_what_parts_share_once(self):
+        run, home = self.folder / "there/t/twist/whole", self.folder / "home"
+        run.mkdir(parents=True)
+        (run / "run.json").write_text('{"status": "finished"}')
+        book = {name: parts.Part("t", ((Job("twist/whole", ()),),)) for name in ("twist", "fig12")}
+        for number, states in enumerate((1, 2), 1):
+            (run / "audit.json").write_text(json.dumps({"states": states}))
+            archive = packing.Archive(self.folder / "packed", self.folder / "there")
+            archive.write(book)
+            self.assertEqual(archive.name, f"runs_{number:02d}.tar.gz")
+            self.assertEqual(packing.unpack(self.folder / "packed", home, OGC), [home / "t/twist/whole"])
+            self.assertEqual(json.loads((home / "t/twist/whole/audit.json").read_text()), {"states": states})
+
+
+class Memory(Scratch):
+    def test_memory_is_sampled_while_a_run_goes_on_and_kept_over_the_next(self):
+        for samples in ("100 700", "90 300"):
+            command = ("sh", "-c", f"printf '%s\\n' {samples} none; exec sleep 9")
+            with device_memory.DeviceMemory(self.folder / "x.json", True, command):
+                time.sleep(0.2)
+        found = json.loads((self.folder / "x.json").read_text())
+        self.assertEqual(found, {"before [MiB]": 90, "largest [MiB]": 700, "samples": 2})
+        with device_memory.DeviceMemory(self.folder / "y.json", True, ("no such program",)):
+            pass
+        self.assertFalse((self.folder / "y.json").exists())
+
+    def test_the_memory_of_a_row_is_what_it_took_beyond_what_was_in_use(self):
+        for row, before, largest, samples in (("twist", 500, 2500, 3), ("short", 0, 0, 1)):
+            said = {"before [MiB]": before, "largest [MiB]": largest, "samples": samples}
+            (self.folder / f"{row}{jobs.MEMORY}").write_text(json.dumps(said))
+        taken = [device_memory.taken(self.folder / f"{row}{jobs.MEMORY}") for row in ("twist", "knot", "short")]
+        self.assertEqual(taken, [2000, "", ""])
+
+    def test_it_is_sampled_of_what_runs_on_a_device(self):
+        on_device = [job.on_device for job in commands.whole_runs("twist", "paper", "cuda")]
+        self.assertEqual(on_device, [True, False], "the audit is the CPU's")
+        self.assertFalse(any(job.on_device for job in commands.cpu_windows("twist", 20, "paper")))
+
+
+# Stands for ogc: one mismatch in truncate, no answer in spring.
+JUDGE = """#!/usr/bin/env python3
+import json, sys
+from pathlib import Path
+if sys.argv[1] == "--version":
+    sys.exit(print("stand-in"))
+stage, folder = sys.argv[2], Path(sys.argv[sys.argv.index("--report") + 1])
+if stage == "spring":
+    sys.exit("out of memory")
+(folder / "failures").mkdir(parents=True)
+(folder / "failures/problems.txt").write_text("stage=truncate")
+keys = ("cases", "questions", "decisions", "grey", "grey_not_exact", "near", "seconds", "contestant_seconds",
+        "authority_seconds")
+report = {"stage": stage, "mismatches": 1, **{key: 10**9 for key in keys}}
+(folder / "report.jsonl").write_text(json.dumps(report))
+sys.exit(1)
+"""
+
+
+class Judge(Scratch):
+    """Large counts: sums are those of the chunks, a chunk that fails is kept and fails the job."""
+
+    def test_sums_are_those_of_the_chunks_and_counts_go_on(self):
+        job = judge_counts.Counts("cpu", 0.0005, stages=("truncate", "detect_edge_edge"))
+        root, ends = self.folder / "counts", []
+        while not ends or ends[-1] == STOPPED:
+            ends.append(job.make(OGC, root, Limit(0.5)))
+            self.assertLess(len(ends), 100)
+        self.assertEqual((ends[-1], job.make(OGC, root)), (FINISHED, KEPT))
+        counts = json.loads((root / "counts.json").read_text())
+        chunks = [json.loads(path.read_text()) for path in root.glob("*.chunk.json")]
+        self.assertEqual((set(counts["stages"]), counts["failed"]), ({"truncate", "detect_edge_edge"}, []))
+        for stage, sums in counts["stages"].items():
+            self.assertGreaterEqual(sums["cases"], judge_counts.STAGES[stage][0] * 0.0005)
+            for key, value in sums.items():
+                self.assertAlmostEqual(value, sum(chunk[key] for chunk in chunks if chunk["stage"] == stage), places=6)
+        table = (root / "counts.md").read_text()
+        self.assertTrue("| `truncate` | " in table and "pairs: " in table)
+        self.assertEqual([path for path in root.iterdir() if path.is_dir()], [])
+        self.assertEqual({path.name for path in job.results(root, 0, 0)}, {"counts.md", "counts.json"})
+
+    def test_failed_chunks_are_kept_and_fail(self):
+        stub, root = self.program(JUDGE), self.folder / "counts"
+        job = judge_counts.Counts("cpu", stages=("truncate", "spring"))
+        for _ in "ab":
+            with self.assertRaisesRegex(jobs.RunFailure,
+                                        "(?s)spring.s1000: exit status 1.*truncate.s1000: exit status 1"):
+                job.make(stub, root)
+        sums = json.loads((root / "counts.json").read_text())["stages"]
+        self.assertEqual((sums["truncate"]["mismatches"], sums["spring"]["cases"]), (1, 0))
+        self.assertEqual((root / "truncate.s1000/failures/problems.txt").read_text(), "stage=truncate")
+        self.assertIn("out of memory", (root / "spring.s1000.log").read_text())
+        kept = {path.relative_to(root).as_posix() for path in job.results(root, 0, 0)}
+        self.assertLessEqual({"truncate.s1000/failures/problems.txt", "spring.s1000.log", "counts.md"}, kept)
+
+    def test_counts_of_another_program_or_seed_begin_anew(self):
+        root = self.folder / "counts"
+        for seed in (1, 2):
+            job = judge_counts.Counts("cpu", 1e-5, seed, ("truncate",))
+            self.assertEqual(job.make(OGC, root), FINISHED)
+            self.assertEqual({path.name.partition(".s")[2][:1] for path in root.glob("*.chunk.json")}, {str(seed)})
+
+
+class Growth(Scratch):
+    def contacts(self, side):
+        """A vertex, after the first step."""
+        Job(f"run_{side}", ("--audit", "end"), scene=layers.Stack(side, 1)).make(OGC, self.folder)
+        run = run_at(self.folder / f"run_{side}")
+        self.assertTrue(run.manifest["guarantee_kept"])
+        self.assertEqual(sum(body["vertex_count"] for body in run.manifest["scene"]["bodies"] if not body["fixed"]),
+                         layers.vertices(side))
+        return table1.contacts(run)[0] / layers.vertices(side)
+
+    def test_stacks_of_two_sizes_differ_in_density_by_their_rim_alone(self):
+        """Of side² vertices of a sheet less than 4 side lie at the rim, and a rim vertex has at least half the contacts
+        of an inner one: it loses one side of its neighbourhood. So density (1 - 2/side) D at least, and at most D."""
+        small, large = self.contacts(10), self.contacts(20)
+        self.assertGreater(large, small)
+        self.assertLess(large, small / (1 - 2 / 10))
+        self.assertGreater(small, 5)  # pairs of neighbouring sheets, not of the ground alone
+
+    def test_a_power_law_and_its_words(self):
+        rows = [{"over": "vertices", "backend": "cuda", "vertices": n, "median [ms]": 2e-3 * n**1.25,
+                 "contacts a vertex": 7} for n in (10**4, 10**5, 10**6)]
+        rows += [{"over": "threads", "backend": "cpu", "vertices": 9, "threads": n, "median [ms]": 8 / n,
+                  "final_hash": bits} for n, bits in ((1, "a"), (4, "b"))]
+        slope, factor = growth.exponent(rows[:3])
+        self.assertAlmostEqual(slope, 1.25)
+        self.assertAlmostEqual(factor, 2e-3)
+        self.assertEqual(growth.in_words(rows), ["cuda: time ∝ vertices^1.250 from 10,000 to 1,000,000, ^1.250 from "
+                                                 "10,000 on; 7 to 7 contacts a vertex",
+                                                 "4 threads are 4 times as fast as 1 (9 vertices), NOT with the same "
+                                                 "bits"])
+
+    def test_threads_are_powers_of_two_and_all_cores(self):
+        for cores, numbers in ((1, [1]), (6, [1, 2, 4, 6]), (16, [1, 2, 4, 8, 16])):
+            self.assertEqual([int(job.name.rpartition("_")[2]) for job in commands.threads("paper", cores)], numbers)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,229 @@
+"""The workflow with a stand-in for `ogc`: what is finished is not run again, a changed parameter or program is, a job
+that fails says so in words; also without Snakemake.
+
+Usage: workflow.py SOURCE_DIR. Exit status 77: skipped, PyYAML or matplotlib is missing; without Snakemake its part is
+left out, and the test says so.
+"""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE))
+try:
+    from paper_figures.figures import sweep
+    from paper_figures.workflow import in_order, job, parts, recipes
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+
+OGC = """#!/bin/sh
+echo "stand-in: $*"
+for last; do :; done
+[ -z "$OGC_FAIL" ] || { echo "no such scene"; exit 2; }
+mkdir -p "$last" && echo '{}' > "$last/fig07.json" && echo '{}' > "$last/run.json"
+echo x >> "$last/../calls"
+"""
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.runs = Path(self.folder.name)
+        self.ogc = self.runs / "ogc"
+        self.ogc.write_text(OGC)
+        self.ogc.chmod(0o755)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def calls(self):
+        path = self.runs / "calls"
+        return len(path.read_text().split()) if path.is_file() else 0
+
+
+class Recipes(unittest.TestCase):
+    def test_every_script_exists_and_every_output_has_its_inputs(self):
+        book = recipes.load()
+        for recipe in book.values():
+            for backend in recipe.backends:
+                made = {recipes.PROGRAM, *(step.output for name in recipe.body.get("of", [])
+                                           for step in recipes.steps(book[name], "smoke", backend, "ogc"))}
+                for step in recipes.steps(recipe, "smoke", backend, "ogc"):
+                    self.assertTrue(all(path in made or Path(path).is_file() for path in step.inputs),
+                                    (recipe.name, step.inputs))
+                    self.assertEqual(step.gpu, int(backend == "cuda" and step.inputs[0] == recipes.PROGRAM
+                                                   and "illustration" not in recipe.body), step)
+                    made.add(step.output)
+                self.assertLessEqual(set(recipe.outputs("smoke", backend)), made)
+
+    def test_the_sweep_has_sixty_points_of_its_own(self):
+        steps = recipes.steps(recipes.load()["sweep"], "smoke", "cpu", "ogc")
+        self.assertEqual((len(steps), len({step.output for step in steps})), (61, 61))
+
+    def test_names_are_figures_scenes_or_all(self):
+        book = recipes.load()
+        names = lambda *words, backend="cpu": [r.name for r in recipes.choose(words, book, backend)]  # noqa: E731
+        self.assertEqual(names(), ["fig18"])
+        self.assertEqual(names("twist", "fig07", "fig12"), ["fig12", "fig07"])
+        self.assertNotIn("fig18_solvers", names("all", backend="cuda"))
+        self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig13", "fig14", "fig18", "fig01"])
+        self.assertEqual(names("all")[-1], "fig01")
+        for name, scene in (("fig15", "yarn_stretch"), ("fig16", "yarn_twist"), ("fig19", "mat_twist")):
+            self.assertNotIn(name, names("all"))
+            for asked in (name, scene):
+                said = rf"{name} \({scene}\) is not there yet: the program has no \w+, .* There are: fig01, "
+                with self.assertRaisesRegex(recipes.RecipeError, said):
+                    recipes.choose([asked], book, "cpu")
+        for wrong, words in ((("fig99",), "no figure or scene 'fig99'; there are: fig01"),
+                             (("fig18_solvers", "cuda"), "no backend 'cuda'")):
+            with self.assertRaisesRegex(recipes.RecipeError, words):
+                recipes.choose(wrong[:1], book, wrong[1] if len(wrong) > 1 else "cpu")
+
+    def test_a_key_that_nobody_reads_is_refused(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "fig99.yaml").write_text("title: x\nsolvers: [vbd]\n")
+            with self.assertRaisesRegex(recipes.RecipeError, "fig99.yaml: unknown key solvers; there are: backends"):
+                recipes.load(name)
+
+    def test_the_list_says_what_is_done(self):
+        with tempfile.TemporaryDirectory() as name:
+            book = recipes.load()
+            (Path(name) / "fig18-smoke-cpu").mkdir()
+            (Path(name) / "fig18-smoke-cpu/fig18.png").write_text("")
+            done = {line.split()[0]: " yes " in line for line in recipes.table(book, "smoke", "cpu", Path(name))[1:]}
+            self.assertEqual([figure for figure in book if done[figure]], ["fig18"])
+            lines = recipes.table(book, "smoke", "cpu", Path(name))
+            self.assertEqual([line.split()[0] for line in lines if "not there yet" in line],
+                             ["fig15", "fig16", "fig19"])
+
+    def test_the_front_says_in_words_what_is_not_there_yet_and_exits_2(self):
+        for figure in ("fig15", "fig16", "fig19"):
+            command = [SOURCE / "experiments/reproduce", figure]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn(f"{figure} (", done.stderr)
+            self.assertIn("is not there yet: the program has no", done.stderr)
+
+
+    def parsed(self, *words):
+        """What the front says to words that it only parses."""
+        done = subprocess.run([SOURCE / "experiments/reproduce", *words], capture_output=True, text=True, check=False,
+                              env={**os.environ, "OGC_PARSE_ONLY": "1"})
+        return done.returncode, done.stderr
+
+    def test_a_limit_is_for_figures_with_runs_and_a_number(self):
+        for words in (("fig12", "--time-limit", "500", "--pack", "x"), ("table1", "--unpack", "/"),
+                      ("--time-limit", "9")):
+            self.assertEqual(self.parsed(*words), (0, ""), words)
+        for words, said in ((("fig07", "--time-limit", "500"), "fig07 has no runs that a limit could stop"),
+                            (("fig12", "--time-limit", "soon"), "need a whole number above 0, not 'soon'"),
+                            (("fig12", "--pack", "x", "--slurm"), "go with neither --slurm nor --dry-run")):
+            status, words_said = self.parsed(*words)
+            self.assertEqual((status, said in words_said), (2, True), words_said)
+
+    def test_every_recipe_of_several_runs_can_be_made_under_a_limit(self):
+        book = recipes.load()
+        there = {part.recipe for part in parts.book(parts.Wanted()).values()} - {""}
+        simulated = {name for name, recipe in book.items() if recipe.scene
+                     and not {"missing", "vary"} & set(recipe.body)}
+        self.assertEqual(there, simulated | {"table1"})
+
+
+class Jobs(Scratch):
+    def test_a_failed_job_shows_its_command_and_the_end_of_its_log(self):
+        program = [sys.executable, "-c", "import sys; print(*range(100), sep='\\n'); sys.exit(3)"]
+        done = subprocess.run([sys.executable, "-m", "paper_figures.workflow.job", "a/job.log", "a/out", *program],
+                              cwd=self.runs, env={**os.environ, "PYTHONPATH": str(SOURCE)}, capture_output=True,
+                              text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"exit status 3.*import sys")
+        self.assertIn("\n  99\n", done.stderr)
+        self.assertNotIn("\n  79\n", done.stderr)
+
+    def test_a_command_without_its_output_has_failed(self):
+        self.assertEqual(job.run(self.runs / "l", self.runs / "none", ["true"]), 1)
+
+    def test_of_a_link_to_a_run_the_link_goes_alone(self):
+        run = self.runs / "table1/run"
+        run.mkdir(parents=True)
+        (self.runs / "run").symlink_to(run)
+        job.clear(self.runs / "run/run.json")
+        self.assertEqual(((self.runs / "run").is_symlink(), run.is_dir()), (False, True))
+
+    def test_what_an_interrupted_run_left_goes(self):
+        left = self.runs / "run/frames"
+        left.mkdir(parents=True)
+        job.clear(self.runs / "run/run.json")
+        self.assertFalse(left.exists())
+
+    def test_points_of_a_sweep_make_one_table(self):
+        for point in ("a=1", "a=2"):
+            (self.runs / point).mkdir()
+            (self.runs / point / "ablation.csv").write_text(f"a,folder\n{point[-1]},x\n")
+        self.assertEqual(sweep.gather(self.runs), [{"a": "1"}, {"a": "2"}])
+
+    def test_the_stamp_is_rewritten_for_another_program_alone(self):
+        stamp = self.runs / recipes.PROGRAM
+        recipes.program_stamp(self.runs, self.ogc)
+        first, written = stamp.read_text(), stamp.stat().st_mtime_ns
+        recipes.program_stamp(self.runs, self.ogc)
+        self.assertEqual(stamp.stat().st_mtime_ns, written)
+        self.ogc.write_text(OGC + "#")
+        recipes.program_stamp(self.runs, self.ogc)
+        self.assertNotEqual(stamp.read_text(), first)
+
+    def test_in_order_does_what_is_due_and_no_more(self):
+        steps = [recipes.Step("one", "a/run/run.json", (recipes.PROGRAM,), (str(self.ogc), "a/run"))]
+        os.chdir(self.runs)
+        recipes.program_stamp(".", self.ogc)
+        self.assertTrue(in_order.due(steps[0]))
+        self.assertEqual(job.run(steps[0].log, steps[0].output, steps[0].command), 0)
+        self.assertFalse(in_order.due(steps[0]))
+        os.utime(recipes.PROGRAM, (time.time() + 9, time.time() + 9))
+        self.assertTrue(in_order.due(steps[0]))
+        os.chdir(SOURCE)
+
+
+@unittest.skipUnless(importlib.util.find_spec("snakemake"), "Snakemake is not installed: its part is left out")
+class Snakemake(Scratch):
+    def workflow(self, *options, figures="fig07", **variables):
+        command = [sys.executable, "-m", "snakemake", "-s", str(SOURCE / "paper_figures/workflow/Snakefile"), "-d",
+                   str(self.runs), "--nolock", "--cores", "1", *options,
+                   "--config", f"figures={figures}", f"ogc={self.ogc}"]
+        done = subprocess.run(command, capture_output=True, text=True,
+                              env={**os.environ, **variables, "PYTHONPATH": str(SOURCE),
+                                   "XDG_CACHE_HOME": str(self.runs / "cache")})
+        return done.returncode, done.stdout + done.stderr
+
+    def test_only_what_is_missing_or_changed_is_run(self):
+        data = ("illustrations/fig07.json",)
+        status, said = self.workflow(*data, OGC_FAIL="yes")
+        self.assertNotEqual(status, 0)
+        self.assertRegex(said, r"FAILED \(exit status 2\): \S*/ogc illustrate fig07 --out illustrations\n  stand-in: "
+                               r"illustrate fig07.*\n  no such scene")
+        status, said = self.workflow(*data)
+        self.assertEqual((status, self.calls()), (0, 1), said)
+        status, said = self.workflow("--dry-run", *data)
+        self.assertIn("Nothing to be done", said)
+        self.ogc.write_text(OGC + "# another program\n")
+        status, said = self.workflow("--dry-run", *data)
+        self.assertIn("Updated input files: program.txt", said)
+        self.assertEqual(json.loads((self.runs / "illustrations/fig07_data.log.json").read_text())["command"][1:3],
+                         ["illustrate", "fig07"])
+
+    def test_without_a_name_it_is_the_representative_figure(self):
+        status, said = self.workflow("--dry-run", figures="")  # as `experiments/reproduce` says it
+        self.assertEqual(status, 0, said)
+        self.assertIn(f"rule {recipes.REPRESENTATIVE}_run:", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
