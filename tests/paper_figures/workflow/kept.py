@@ -20,6 +20,7 @@ except ImportError as missing:
     sys.exit(77)
 from paper_figures.workflow import accept  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS, runs_in  # noqa: E402
+from plots.columns import column_and_unit  # noqa: E402
 
 LIMIT = 10e6  # bytes of all accepted results
 
@@ -64,13 +65,14 @@ class Kept(unittest.TestCase):
         for run in found:
             counts = run.thinned.of_rows()
             self.assertEqual(sum(counts), run.step_count, run.source)
-            for name, mean in run.manifest["whole_run"]["mean"].items():
+            for key, mean in run.manifest["whole_run"]["mean"].items():
+                name = column_and_unit(key)[0]
                 parts = run.thinned.of("mean", name)
                 # Nine digits of each mean: half a unit of the ninth, relative to the largest of them.
                 scale = max(map(abs, parts)) or 1
                 again = sum(part * count for part, count in zip(parts, counts)) / run.step_count
                 self.assertAlmostEqual(again / scale, mean / scale, delta=5e-9, msg=f"{run.source} {name}")
-                largest = run.manifest["whole_run"]["largest"][name]
+                largest = run.manifest["whole_run"]["largest"][key]
                 self.assertEqual(f"{max(run.thinned.of('largest', name)):.9g}", f"{largest:.9g}",
                                  f"{run.source} {name}")
 
