@@ -17,12 +17,12 @@ using namespace ogc::fast;
 
 namespace {
 
-using Corners = std::array<compare::Vec3, 4>;
+using SolidCorners = std::array<compare::Vec3, 4>;
 
-const Corners unit{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+const SolidCorners unit{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 const SolidMaterial soft{3e4f, 1e4f, 0};
 
-RestState rest_of(const Corners& x) {
+RestState rest_of(const SolidCorners& x) {
   const RestTetrahedron shape = rest_tetrahedron(x[0], x[1], x[2], x[3]);
   TetrahedronRest rest{
       {0, 1, 2, 3}, 0, {}, static_cast<float>(1 / (6 * shape.volume)), {}, static_cast<float>(shape.volume)};
@@ -42,12 +42,12 @@ Vec single(const compare::Vec3& x) {
 }
 
 /// Force and block of a corner.
-ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, const Corners& x, const Corners& start,
-                        int corner) {
+ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, const SolidCorners& x,
+                        const SolidCorners& start, int corner) {
   const std::vector<int> colours(4, 0);
   const TetrahedronIncidence seen = detail::tetrahedron_incidence(state, 0, corner, colours);
   const TetrahedronGradients gradients = detail::tetrahedron_gradients(state.tetrahedra[0], corner);
-  const auto to = [&](const Corners& at, int k) {
+  const auto to = [&](const SolidCorners& at, int k) {
     const compare::Vec3 &p = at[static_cast<std::size_t>(seen.index[k])], &own = at[static_cast<std::size_t>(corner)];
     return single({p.x - own.x, p.y - own.y, p.z - own.z});
   };
@@ -60,9 +60,10 @@ ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, c
 }
 
 /// ψ by F = D D₀⁻¹ in double, with D and D₀ the edges from corner 0: nothing of the kernel.
-double energy(const Corners& rest, const SolidMaterial& material, const Corners& x, const Corners& start) {
+double energy(const SolidCorners& rest, const SolidMaterial& material, const SolidCorners& x,
+              const SolidCorners& start) {
   using Matrix = std::array<std::array<double, 3>, 3>;
-  const auto edges = [](const Corners& at) {
+  const auto edges = [](const SolidCorners& at) {
     Matrix d{};
     for (std::size_t k = 0; k < 3; ++k)
       d[k] = {at[k + 1].x - at[0].x, at[k + 1].y - at[0].y, at[k + 1].z - at[0].z};  // rows
@@ -75,7 +76,7 @@ double energy(const Corners& rest, const SolidMaterial& material, const Corners&
   const Matrix d0 = edges(rest);
   const double six = dot(d0[0], cross(d0[1], d0[2]));
   const std::array<std::array<double, 3>, 3> gradient{cross(d0[1], d0[2]), cross(d0[2], d0[0]), cross(d0[0], d0[1])};
-  const auto deformation = [&](const Corners& at) {
+  const auto deformation = [&](const SolidCorners& at) {
     const Matrix d = edges(at);
     Matrix f{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -106,7 +107,7 @@ double energy(const Corners& rest, const SolidMaterial& material, const Corners&
   return six / 6 * (psi + material.damping * (0.5 * lambda * trace * trace + mu * change));
 }
 
-double& coordinate(Corners& x, int corner, int axis) {
+double& coordinate(SolidCorners& x, int corner, int axis) {
   compare::Vec3& p = x[static_cast<std::size_t>(corner)];
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
@@ -114,9 +115,9 @@ double& coordinate(Corners& x, int corner, int axis) {
 std::array<double, 3> numbers(const Vec& a) { return {a.x, a.y, a.z}; }
 
 /// Random shapes: near rest, sheared, flat, inverted, needles.
-Corners random_shape(std::mt19937& random, int kind) {
+SolidCorners random_shape(std::mt19937& random, int kind) {
   std::uniform_real_distribution<double> about(-1, 1);
-  Corners x = unit;
+  SolidCorners x = unit;
   const double size = kind == 0 ? 0.01 : 0.7;
   for (compare::Vec3& p : x) p = {p.x + size * about(random), p.y + size * about(random), p.z + size * about(random)};
   if (kind == 2) x[3].z = x[0].z = x[1].z = x[2].z;
@@ -135,8 +136,8 @@ TEST_CASE("a tetrahedron's force is minus the derivative of its energy in every 
           "[property]") {
   std::mt19937 random(1);
   for (int i = 0; i < 500; ++i) {
-    const Corners rest = i % 2 == 0 ? unit : random_shape(random, 0), x = random_shape(random, i % 5),
-                  start = random_shape(random, 0);
+    const SolidCorners rest = i % 2 == 0 ? unit : random_shape(random, 0), x = random_shape(random, i % 5),
+                       start = random_shape(random, 0);
     const RestState state = rest_of(rest);
     for (const float damping : {0.0f, 0.5f}) {
       SolidMaterial material = soft;
@@ -144,7 +145,7 @@ TEST_CASE("a tetrahedron's force is minus the derivative of its energy in every 
       for (int corner = 0; corner < 4; ++corner) {
         const ForceAndBlock sum = seen_from(state, material, x, start, corner);
         for (int axis = 0; axis < 3; ++axis) {
-          Corners ahead = x, behind = x;
+          SolidCorners ahead = x, behind = x;
           constexpr double step = 1e-5;
           coordinate(ahead, corner, axis) += step, coordinate(behind, corner, axis) -= step;
           const double slope = (energy(rest, material, ahead, start) - energy(rest, material, behind, start)) /
@@ -161,13 +162,13 @@ TEST_CASE("a tetrahedron's force is minus the derivative of its energy in every 
 TEST_CASE("a tetrahedron's block is the second derivative of the elastic energy, and positive definite", "[property]") {
   std::mt19937 random(2);
   for (int i = 0; i < 500; ++i) {
-    const Corners x = random_shape(random, i % 5);
+    const SolidCorners x = random_shape(random, i % 5);
     const RestState state = rest_of(unit);
     for (int corner = 0; corner < 4; ++corner) {
       const Symmetric3 b = seen_from(state, soft, x, x, corner).block;
       const double diagonal[] = {b.xx, b.yy, b.zz};
       for (int axis = 0; axis < 3; ++axis) {
-        Corners ahead = x, behind = x;
+        SolidCorners ahead = x, behind = x;
         constexpr double step = 1e-3;  // J is affine in one vertex: the energy is quadratic, and no step too long
         coordinate(ahead, corner, axis) += step, coordinate(behind, corner, axis) -= step;
         const double bend = (energy(unit, soft, ahead, x) - 2 * energy(unit, soft, x, x) +
@@ -196,17 +197,17 @@ TEST_CASE("a tetrahedron at rest has no force, nor has one that is turned and mo
     return compare::Vec3{c * p.x - s * p.y + 0.25, s * p.x + c * p.y, p.z};
   };
   for (int i = 0; i < 200; ++i) {
-    const Corners rest = random_shape(random, 0);
+    const SolidCorners rest = random_shape(random, 0);
     const RestState state = rest_of(rest);
-    Corners moved;
+    SolidCorners moved;
     std::transform(rest.begin(), rest.end(), moved.begin(), turned);
     SolidMaterial damped = soft;
     damped.damping = 2;
-    const Corners shape = random_shape(random, i % 5);
+    const SolidCorners shape = random_shape(random, i % 5);
     Vec total;
     for (int corner = 0; corner < 4; ++corner) {
       // u times stiffness and length, a few times: 6e-8 · 4e4 · 10
-      for (const Corners& x : {rest, moved})
+      for (const SolidCorners& x : {rest, moved})
         for (const double f : numbers(seen_from(state, damped, x, rest, corner).force)) CHECK(std::abs(f) < 0.05);
       total += seen_from(state, damped, shape, rest, corner).force;
     }
@@ -216,7 +217,7 @@ TEST_CASE("a tetrahedron at rest has no force, nor has one that is turned and mo
 
 TEST_CASE("an inverted tetrahedron that is swept vertex by vertex recovers", "[property]") {
   const RestState state = rest_of(unit);
-  Corners x = unit;
+  SolidCorners x = unit;
   x[3].z = -0.4;
   CHECK(volume_ratio(state.tetrahedra[0], single(x[1]), single(x[2]), single(x[3])) < 0);
   for (int sweep = 0; sweep < 200; ++sweep)
@@ -234,7 +235,7 @@ TEST_CASE("an inverted tetrahedron that is swept vertex by vertex recovers", "[p
 TEST_CASE("the energy that is reported is that of F", "[unit]") {
   std::mt19937 random(4);
   for (int i = 0; i < 100; ++i) {
-    const Corners x = random_shape(random, i % 5);
+    const SolidCorners x = random_shape(random, i % 5);
     const auto to = [&](std::size_t k) { return single({x[k].x - x[0].x, x[k].y - x[0].y, x[k].z - x[0].z}); };
     const double reported = solid_energy(rest_of(unit).tetrahedra[0], soft, to(1), to(2), to(3));
     CHECK(reported == Approx(energy(unit, soft, x, x)).epsilon(1e-5).margin(1e-2));
