@@ -11,7 +11,8 @@ namespace ogc::reference {
 
 /// What a detection found, and where.
 struct Detected {
-  ContactSets sets;
+  ContactSets sets;                      ///< up to r and the margin
+  ContactSets active;                    ///< nearer than r
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
   std::vector<float> bound;              ///< b_v [m]
   compare::VertexPlanes planes;          ///< where bounds are planes
