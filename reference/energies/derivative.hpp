@@ -80,6 +80,14 @@ Derivative<T, N> positive_part(Derivative<T, N> x) {
   return x;
 }
 
+/// The same where x is a product, and the other factor of it may be negative: only that one's derivatives are kept.
+inline double positive_part(double x, double) { return std::max(0.0, x); }
+template <class T, std::size_t N>
+Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>& factor) {
+  if (!(plain(x) < 0) || plain(factor) == 0) return x;
+  return factor * positive_part(x / factor);
+}
+
 /// f(x) from its value and slope there.
 template <class T, std::size_t N>
 Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>& x) {

@@ -143,16 +143,17 @@ void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& e
 /// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the
 /// identity.
 template <class Number>
-void add_geometric(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
+void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
                    VertexSystemOf<Number>& sum) {
   Number geometric = 0.0;
   for (std::size_t i = 0; i < 3; ++i) geometric += elastic.slope[i] * g[i].bend(0);
-  add_identity(positive_part(geometric), sum.block);
+  add_identity(positive_part(geometric, area), sum.block);
 }
 
 /// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
 template <class Number>
-void add_neo_hookean(const ByOwnTwice<Number>& energy, const Triple<Number>& normal, VertexSystemOf<Number>& sum) {
+void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const Triple<Number>& normal,
+                     VertexSystemOf<Number>& sum) {
   add_force(1.0, energy.slope, sum);
   Triple<Number> along_normal{};
   for (std::size_t i = 0, k = 0; i < 3; ++i)
@@ -166,7 +167,7 @@ void add_neo_hookean(const ByOwnTwice<Number>& energy, const Triple<Number>& nor
   const Number squared = dot(normal, normal);
   if (!(plain(squared) > 0)) return;
   const Number eigenvalue = dot(normal, along_normal) / squared;
-  add_outer((positive_part(eigenvalue) - eigenvalue) / squared, normal, normal, sum.block);
+  add_outer((positive_part(eigenvalue, area) - eigenvalue) / squared, normal, normal, sum.block);
 }
 
 /// Force and block of a corner without damping.
@@ -177,13 +178,13 @@ void add_elastic(const MembraneTermOf<Number>& term, const MembraneCorner<Number
     case compare::MembraneModel::st_venant_kirchhoff: {
       const ByOwnTwice<Number> elastic = term.elastic_of(at.by_strain);
       add_strain(at.g, elastic, sum);
-      return add_geometric(at.g, elastic, sum);
+      return add_geometric(term.area, at.g, elastic, sum);
     }
     case compare::MembraneModel::stable_neo_hookean: {
       Deformation<Number> f;
       for (std::size_t axis = 0; axis < 2; ++axis)
         for (std::size_t i = 0; i < 3; ++i) f[axis][i] = at.f[axis][i].value;
-      return add_neo_hookean(term.elastic_of(at.f), cross(f[0], f[1]), sum);
+      return add_neo_hookean(term.area, term.elastic_of(at.f), cross(f[0], f[1]), sum);
     }
   }
 }

@@ -1,6 +1,6 @@
-// What the reference's solvers share of a step (Algorithm 3, method.md §5.2): targets, detections with their regions,
-// the guess loop, prescribed vertices, the row at the end. How a solver moves the free vertices between two detections
-// is its own.
+// What Newton's method and VBD share of a step (Algorithm 3, method.md §5.2): targets, detections with their regions,
+// the guess loop, prescribed vertices, the row at the end. How the free vertices move between two detections, each
+// solver decides.
 //
 //   begin ── guess: detect, x ← y inside the regions, again while many are cut ──┐
 //     ┌────────────────────────────────────────────────────────────────────────┘

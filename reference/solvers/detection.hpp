@@ -1,5 +1,4 @@
-// Contact detection at the positions of solvers in double: it is asked about single-precision ones, so X_prev is x
-// rounded.
+// Contact detection for solvers in double. It reads single-precision positions, so X_prev is x rounded.
 #pragma once
 
 #include <vector>

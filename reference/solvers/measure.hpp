@@ -1,5 +1,5 @@
-// What is computed of a step before and after its solve: targets, velocities, and the numbers of its row. Nothing here
-// feeds an iteration.
+// What a step computes before and after its solve: targets, velocities, and the numbers of its row. Nothing here feeds
+// an iteration.
 #pragma once
 
 #include "compare/problem/contestant.hpp"

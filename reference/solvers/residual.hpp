@@ -1,5 +1,5 @@
-// The residual of Eq. 29 at states that any solver came to (method.md §6), and its f*: a measure, with detections of
-// its own, so that no solver is disturbed.
+// The residual of Eq. 29 at any solver's states (method.md §6), and its f*: it measures beside the solver, with
+// detections of its own.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// The 3×3 system of one vertex in double: the force of all energies and the sweep's approximation of their Hessian
-// (method.md §4), by automatic differentiation over the vertex's own coordinates. The judged sweep (vertex_terms.hpp)
-// asks the stages, each with its errors, about single-precision positions; this one is for whole runs, whose positions
-// are doubles.
+// The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
+// §4). Each energy derives its own, beside itself (energies/membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp). The
+// judged sweep (vertex_terms.hpp) sums what the stages answer about single-precision positions, each with its errors;
+// its blocks are the same functions over another number type.
 #pragma once
 
 #include <array>

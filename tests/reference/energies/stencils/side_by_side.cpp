@@ -155,13 +155,14 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
         Corners<4> fold = hinge_corners(draw, other());
         triangles.push_back({fold[0], fold[1], other() ? fold[1] : fold[3]});
         folds.push_back(fold);
-        hinges.push_back({{},
-                          5e-7,
-                          draw.between(-1, 1),
-                          other() ? 0 : draw.between(0, 0.5),
-                          draw.between(-1, 1),
-                          other(),
-                          {30, 70, -60, -40}});
+        hinges.push_back(
+            {.vertex = {},
+             .stiffness = 5e-7,
+             .rest_angle = draw.between(-1, 1),
+             .damping = other() ? 0 : draw.between(0, 0.5),
+             .start = draw.between(-1, 1),
+             .weight = {30, 70, -60, -40},
+             .model = other() ? compare::BendingModel::isometric_quadratic : compare::BendingModel::discrete_hinge});
       }
       check_against_alone<3>(kernels->membranes, membranes, triangles, alone<3>());
       check_against_alone<4>(kernels->hinges, hinges, folds, alone<4>());
