@@ -94,14 +94,14 @@ bool ContactStep::detection_due(std::size_t cut) {
 }
 
 bool ContactStep::in_contact() const {
-  return !detected_.sets.vertex_facet.empty() || !detected_.sets.edge_edge.empty();
+  return !detected_.active.vertex_facet.empty() || !detected_.active.edge_edge.empty();
 }
 
 void ContactStep::guess(GuessEnd end) {
   detect_here();
   potential_.lag_friction(x_);
   for (std::int64_t round = 1; end == GuessEnd::rounds || !in_contact(); ++round) {
-    const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.sets, topology_)
+    const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.active, topology_)
                                                 : std::vector<bool>(x_.size(), false);
     std::size_t cut = 0;
     for (const std::size_t v : movable_) {

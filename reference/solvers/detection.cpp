@@ -21,6 +21,12 @@ double distance_to_segment(const Triple<double>& x, const Triple<double>& a, con
   return std::hypot(gap[0], gap[1], gap[2]);
 }
 
+/// The contacts nearer than `contact_radius` [m].
+ContactSets sets_within(compare::DetectIn in, float contact_radius) {
+  in.contact_radius = contact_radius;
+  return {exact_vertex_facet(in).contacts, exact_edge_edge(in).contacts};
+}
+
 /// By vertex; group 0 is that of all fixed ones.
 std::vector<std::uint8_t> fixed_vertices(std::span<const compare::Index> groups) {
   std::vector<std::uint8_t> fixed;
@@ -90,6 +96,8 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
     for (const float d : *distances) smallest = std::min(smallest, d);
   result.smallest_distance = double{smallest};
   result.sets = {std::move(facets.contacts), std::move(edges.contacts)};
+  result.active = scene.settings.contact_margin > 0 ? sets_within(in, static_cast<float>(scene.settings.contact_radius))
+                                                    : result.sets;
   result.previous = std::move(positions);
   return result;
 }

@@ -1,5 +1,4 @@
-// Contact detection at the positions of solvers in double: it is asked about single-precision ones, so X_prev is x
-// rounded.
+// Contact detection for solvers in double. It reads single-precision positions, so X_prev is x rounded.
 #pragma once
 
 #include <vector>
@@ -11,7 +10,8 @@ namespace ogc::reference {
 
 /// What a detection found, and where.
 struct Detected {
-  ContactSets sets;
+  ContactSets sets;                      ///< up to r and the margin
+  ContactSets active;                    ///< nearer than r
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
   std::vector<float> bound;              ///< b_v [m]
   compare::VertexPlanes planes;          ///< where bounds are planes
