@@ -68,16 +68,17 @@ class Counts:
         self.clear_if_of_another(program, root)
         if not self.next_stage(root):
             return self.verdict(root, KEPT)
+        begun = False  # a call makes one chunk at least, so that short ones come to an end, too
         while limit.left() > 0:
             stage = self.next_stage(root)
             if not stage:
-                self.write(root)
                 return self.verdict(root, FINISHED)
             cases = self.size_of_chunk(stage, self.sums(root)[stage], limit)
-            if not cases:
+            if not cases and begun:
                 break
-            self.chunk(program, root, stage, cases, limit)
+            self.chunk(program, root, stage, cases or self.least(stage), limit)
             self.write(root)
+            begun = True
         return STOPPED
 
     def clear_if_of_another(self, program, root):
@@ -112,10 +113,13 @@ class Counts:
         stage = min(parts, key=parts.get, default=None)
         return stage if stage and parts[stage] < 1 else None
 
+    def least(self, stage):
+        return max(1, int(STAGES[stage][1] * self.share))
+
     def size_of_chunk(self, stage, done, limit):
         """Cases of the next chunk, 0 where there is no time for one; never below the first's, because a short run has
         small meshes alone."""
-        least = max(1, int(STAGES[stage][1] * self.share))
+        least = self.least(stage)
         if not done["wall_seconds"]:
             return least
         seconds = min(CHUNK_SECONDS, 0.8 * limit.left())
