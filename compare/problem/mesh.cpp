@@ -180,6 +180,18 @@ Topology build_topology(Index vertex_count, std::span<const Triangle> triangles,
   return topology;
 }
 
+Topology build_topology(const Mesh& mesh) {
+  Topology topology = build_topology(static_cast<Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
+  for (const Tetrahedron& tetrahedron : mesh.tetrahedra) {
+    for (const Index v : tetrahedron) {
+      if (!topology.vertex_edges[static_cast<std::size_t>(v)].empty()) continue;
+      topology.inside_solid.resize(mesh.positions.size());
+      topology.inside_solid[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+  return topology;
+}
+
 Index find_edge(const Topology& topology, Index a, Index b) {
   const Edge wanted = ordered(a, b);
   const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), wanted);

@@ -55,15 +55,20 @@ struct Topology {
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 
-  /// Whether v belongs to an edge: only vertices inside solids do not. They take no part in detection, contact or
-  /// audit, and no bound holds them (method.md §2).
-  bool on_surface(Index v) const { return !vertex_edges[static_cast<std::size_t>(v)].empty(); }
+  /// By vertex, or empty where there is no such vertex: 1 inside a solid, that is of a tetrahedron and on no edge.
+  std::vector<std::uint8_t> inside_solid;
+
+  /// Vertices inside solids take no part in detection, contact or audit, and no bound holds them (method.md §2).
+  bool on_surface(Index v) const { return inside_solid.empty() || inside_solid[static_cast<std::size_t>(v)] == 0; }
 };
 
 /// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws
 /// std::out_of_range otherwise.
 Topology build_topology(Index vertex_count, std::span<const Triangle> triangles,
                         std::span<const Edge> loose_edges = {});
+
+/// The same, with the vertices inside its solids.
+Topology build_topology(const Mesh& mesh);
 
 /// Number of the edge {a, b}, or -1 where there is none.
 Index find_edge(const Topology& topology, Index a, Index b);

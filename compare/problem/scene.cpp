@@ -156,9 +156,7 @@ std::vector<Index> body_of_vertex(const Scene& scene) {
   return result;
 }
 
-Topology build_topology(const Scene& scene) {
-  return build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges);
-}
+Topology build_topology(const Scene& scene) { return build_topology(scene.mesh); }
 
 std::vector<Vec3f> to_single(const std::vector<Vec3>& positions) {
   std::vector<Vec3f> result(positions.size());

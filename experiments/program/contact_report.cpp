@@ -149,8 +149,7 @@ std::string describe(const reference::FilterCounts& filters) {
 ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius,
                             float bound_relaxation, FurtherSets further) {
   ContactReport report;
-  report.topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles,
-                                            mesh.loose_edges);
+  report.topology = compare::build_topology(mesh);
   report.contact_radius = contact_radius;
   report.query_radius = query_radius;
   const std::vector<Vec3f>& positions = report.positions = compare::to_single(mesh.positions);
@@ -166,8 +165,7 @@ ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float cont
 }
 
 double mean_edge_length(const compare::Mesh& mesh) {
-  const Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles,
-                                                    mesh.loose_edges);
+  const Topology topology = compare::build_topology(mesh);
   double sum = 0;
   for (const compare::Edge& edge : topology.edges) {
     const compare::Vec3 &a = mesh.positions[static_cast<std::size_t>(edge[0])],

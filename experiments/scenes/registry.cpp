@@ -125,7 +125,7 @@ compare::Scene large_radius_twist_at(Scale scale) {
 
 compare::Scene mat_twist_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return mat_twist({.along = 16, .across = 15, .steps = 240});
+    case Scale::smoke: return mat_twist({.along = 16, .across = 15, .steps = 360});
     case Scale::small: return mat_twist({.along = 40, .across = 40, .steps = 960});
     case Scale::paper: break;
   }

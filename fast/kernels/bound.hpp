@@ -6,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// b_v of a vertex that no face holds.
+/// b_v of a vertex inside a solid: nothing bounds it.
 inline constexpr float largest_float = 0x1.fffffep127f;
 
 /// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the largest of the counts.
@@ -25,7 +25,7 @@ struct ResetDistances {
 };
 
 struct ConservativeBound {
-  Rows vertex_edges, vertex_triangles;
+  SurfaceView surface;
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
   float bound_relaxation;
   const int* overflow;
@@ -35,10 +35,11 @@ struct ConservativeBound {
   /// above it.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
-    if (vertex_edges.offsets[v] == vertex_edges.offsets[v + 1]) {  // inside a solid: nothing bounds it
+    if (surface.is_inside_solid(v)) {
       bound[v] = largest_float;
       return;
     }
+    const Rows &vertex_edges = surface.vertex_edges, &vertex_triangles = surface.vertex_triangles;
     float d = d_min_vertex[v];
     for (int k = vertex_edges.offsets[v]; k < vertex_edges.offsets[v + 1]; ++k)
       d = smaller(d, d_min_edge[vertex_edges.items[k]]);

@@ -34,8 +34,7 @@ struct DetectVertexFacet {
   /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
-    const bool outside = surface.vertex_edges.offsets[v] < surface.vertex_edges.offsets[v + 1];
-    const Vec x = outside ? positions[v] : Vec{0x1p60f, 0x1p60f, 0x1p60f};
+    const Vec x = surface.is_inside_solid(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
     const float margin = skin.search_margin();
     return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
   }

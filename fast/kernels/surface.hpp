@@ -46,13 +46,16 @@ struct SurfaceView {
   Rows neighbours;  ///< V_v of Eq. 8 and 15
   Rows opposites;   ///< V_e of Eq. 9
   Rows vertex_edges, vertex_triangles;
-  const int* groups = nullptr;  ///< pairs whose vertices all carry one number ≥ 0 are left out
+  const std::uint8_t* inside_solid = nullptr;  ///< by vertex; null where there is none (compare::Topology)
+  const int* groups = nullptr;                 ///< pairs whose vertices all carry one number ≥ 0 are left out
   const EdgeSeeds* edge_seeds = nullptr;
   const FacetSeeds* facet_seeds = nullptr;
   const VertexSeeds* vertex_seeds = nullptr;
   /// pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there
   /// is none
   Rows partners;
+
+  OGC_HD bool is_inside_solid(int v) const { return inside_solid != nullptr && inside_solid[v] != 0; }
 
   /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.
   OGC_HD int vertex_face(int v) const { return v; }

@@ -156,8 +156,8 @@ class Detection {
       backend_.for_each(std::max({surface.vertex_count, surface.edge_count, surface.triangle_count}),
                         KeepAnchor{skin, surface, positions, d_vertex, d_edge, d_triangle});
     }
-    const ConservativeBound bounds{surface.vertex_edges, surface.vertex_triangles, d_vertex,       d_edge,
-                                   d_triangle,           bound_relaxation,         lists.overflow, bound_.data()};
+    const ConservativeBound bounds{surface,          d_vertex,       d_edge,       d_triangle,
+                                   bound_relaxation, lists.overflow, bound_.data()};
     lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, on_the_way.after_count,
                     on_the_way.after, on_the_way.resolve);
   }

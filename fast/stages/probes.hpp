@@ -112,11 +112,10 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
   const auto distances = [&memory](std::span<const float> d) {
     return memory.template in<float>(std::vector<float>(d.begin(), d.end()));
   };
-  backend.for_each(
-      view.vertex_count,
-      ConservativeBound{view.vertex_edges, view.vertex_triangles, distances(in.d_min_vertex), distances(in.d_min_edge),
-                        distances(in.d_min_triangle), in.bound_relaxation, memory.template in<int>(no_overflow),
-                        memory.template out<float>(out.bound, in.d_min_vertex.size())});
+  backend.for_each(view.vertex_count, ConservativeBound{view, distances(in.d_min_vertex), distances(in.d_min_edge),
+                                                        distances(in.d_min_triangle), in.bound_relaxation,
+                                                        memory.template in<int>(no_overflow),
+                                                        memory.template out<float>(out.bound, in.d_min_vertex.size())});
   memory.fetch();
   return out;
 }

@@ -43,6 +43,7 @@ class Surface {
     opposites_.upload(topology.edge_opposite);
     vertex_edges_.upload(topology.vertex_edges);
     vertex_triangles_.upload(topology.vertex_triangles);
+    inside_solid_.upload(topology.inside_solid.data(), topology.inside_solid.size());
     std::vector<int> groups(exclusions.groups.begin(), exclusions.groups.end());
     groups.resize(static_cast<std::size_t>(vertex_count_), -1);
     groups_.upload(groups.data(), groups.size());
@@ -61,6 +62,7 @@ class Surface {
             opposites_.view(),
             vertex_edges_.view(),
             vertex_triangles_.view(),
+            inside_solid_.size() > 0 ? inside_solid_.data() : nullptr,
             groups_.data(),
             edge_seeds_.data(),
             facet_seeds_.data(),
@@ -89,6 +91,7 @@ class Surface {
   typename Backend::template Buffer<EdgeEnds> edges_;
   RowBuffers neighbours_, opposites_, vertex_edges_, vertex_triangles_, partners_;
   bool has_partners_ = false;
+  typename Backend::template Buffer<std::uint8_t> inside_solid_;
   typename Backend::template Buffer<int> groups_;
   typename Backend::template Buffer<EdgeSeeds> edge_seeds_;
   typename Backend::template Buffer<FacetSeeds> facet_seeds_;

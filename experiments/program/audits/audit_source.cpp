@@ -107,8 +107,7 @@ class SequenceSource : public AuditSource {
                           topology_->triangles == mesh.triangles && loose_edges_ == mesh.loose_edges;
     if (is_known) return;
     check_corners(mesh, its_name);
-    topology_ = std::make_shared<compare::Topology>(
-        compare::build_topology(static_cast<compare::Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges));
+    topology_ = std::make_shared<compare::Topology>(compare::build_topology(mesh));
     loose_edges_ = mesh.loose_edges;
   }
 

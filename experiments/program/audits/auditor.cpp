@@ -41,8 +41,7 @@ std::string left_out_of_audits(const compare::Scene& scene) {
 }
 
 StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& sources)
-    : topology_(compare::build_topology(static_cast<compare::Index>(scene.mesh.positions.size()), scene.mesh.triangles,
-                                        scene.mesh.loose_edges)),
+    : topology_(compare::build_topology(scene.mesh)),
       exclusions_(compare::exclusions(scene)),
       names_(scene, sources),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),

@@ -70,8 +70,7 @@ double layers_of(const compare::Mesh& mesh) {
 
 Measures measure(const compare::Mesh& mesh, const compare::Material& material, double fall) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
-  const compare::Topology topology = compare::build_topology(static_cast<compare::Index>(mesh.positions.size()),
-                                                             mesh.triangles, mesh.loose_edges);
+  const compare::Topology topology = compare::build_topology(mesh);
   std::vector<double> lengths;
   for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
   // Where a tenth of the edges is far shorter than most, like those around a can, they decide what may be called near.

@@ -185,7 +185,7 @@ TEST_CASE("validate names each sort of problem of a scene", "[unit]") {
   }
   SECTION("bodies do not cover the mesh") {
     scene.bodies.pop_back();
-    check_only(validate(scene), "scene", "4 of 7 vertices and 2 of 3 triangles");
+    check_only(validate(scene), "scene", "4 of 7 vertices, 2 of 3 triangles and 0 of 0 tetrahedra");
   }
   SECTION("triangle of two bodies") {
     scene.mesh.triangles[2] = {3, 5, 6};
