@@ -57,7 +57,7 @@ class Auditor {
 
   void visit(Index i, Findings& found) const {
     if (i < topology_.vertex_count) {
-      if (topology_.on_surface(i)) test({i, i}, IntersectionKind::vertex_triangle, i, found);
+      if (!topology_.vertex_edges[at(i)].empty()) test({i, i}, IntersectionKind::vertex_triangle, i, found);
     } else {
       const Index edge = i - topology_.vertex_count;
       test(topology_.edges[at(edge)], IntersectionKind::edge_triangle, edge, found);

@@ -140,7 +140,7 @@ Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> 
                                 const ExclusionView& exclusions) {
   const BoxTree tree = tree_over(positions, topology.triangles);
   return nearest_of(at(topology.vertex_count), [&](Search& search, Index v) {
-    if (!topology.on_surface(v)) return;
+    if (topology.vertex_edges[at(v)].empty()) return;
     const std::array<Index, 1> vertex{v};
     tree.for_each_meeting(search.search_box(box_of_corners(positions, vertex)), [&](Index t) {
       const Triangle& triangle = topology.triangles[at(t)];
