@@ -69,7 +69,7 @@ std::string stage_list_markdown() {
       "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const StageInfo& info : compare::stage_table()) {
     const std::string name(stage_name(info.stage));
-    // Both backends instantiate one list of probes (fast/stages/probes.hpp), so what the CPU has CUDA has.
+    // Both backends instantiate one list of probes (fast/probes/probes.hpp), so what the CPU has CUDA has.
     const bool is_there = compare::can_judge(info.stage, fast, authority);
     text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " +
             std::string(info.unit) + " | " + link("exact", "../" + std::string(info.reference)) +

@@ -5,23 +5,25 @@
 
 namespace ogc::fast {
 
-/// Of a part of so many items that was computed one by one the sums of all lanes; null: of none.
-struct LaneSums {
-  const ForceAndBlock* lane = nullptr;
+/// A part of so many items that was computed one by one: the sums of all team lanes; null: none.
+struct TeamLaneSums {
+  const ForceAndBlock* sums = nullptr;
   int count = 0;
 };
 
 /// Parts that are not computed in packs: triangles and hinges where they have sums here, and springs.
 struct OtherParts {
-  LaneSums triangles, hinges, springs;
+  TeamLaneSums triangles, hinges, springs;
 };
 
-/// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs.
+/// As GatherDefault with a SerialTeam and, between hinges and contacts, springs.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const OtherParts& other);
+/// One function for each number W of team lanes.
 struct PackKernels {
   GatherInPacks gather_4, gather_8, gather_16, gather_32;
 
+  /// That of W.
   template <int W>
   GatherInPacks gather() const {
     static_assert(W >= 4);
@@ -64,11 +66,10 @@ struct GatherPackedEveryModel {
       if (view.activation == ContactActivation::ogc) {
         const SurfaceModels models = view.models[vertex.body];
         const SurfaceMaterial material = view.materials[vertex.body];
-        const bool by_vertex = models.damping == compare::DampingForm::per_vertex;
         const OwnVertex at{own, own - view.start[vertex.vertex]};
         ForceAndBlock triangles[W], hinges[W], springs[W];
         OtherParts other;
-        if (by_vertex || models.membrane == compare::MembraneModel::stable_neo_hookean) {
+        if (!has_default_membrane(models)) {
           const auto add = [&](int i, ForceAndBlock& sum) {
             add_any_membrane(view, view.membrane[i], material, models, at, sum);
           };
@@ -77,7 +78,7 @@ struct GatherPackedEveryModel {
                   vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add),
               triangles);
         }
-        if (by_vertex || models.bending == compare::BendingModel::isometric_quadratic) {
+        if (!has_default_bending(models)) {
           const auto add = [&](int i, ForceAndBlock& sum) {
             add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{},
                           material, models, at, sum);
@@ -94,10 +95,10 @@ struct GatherPackedEveryModel {
   }
 
  private:
-  template <class Part, int W>
-  static LaneSums one_by_one(const Part& part, ForceAndBlock (&lane)[W]) {
-    for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), lane[k % W]);
-    return {lane, part.count};
+  template <class AnyPart, int W>
+  static TeamLaneSums one_by_one(const AnyPart& part, ForceAndBlock (&sums)[W]) {
+    for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), sums[k % W]);
+    return {sums, part.count};
   }
 };
 

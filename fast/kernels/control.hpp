@@ -10,9 +10,9 @@
 #include <cstring>
 
 #include "compare/problem/contestant.hpp"
-#include "fast/kernels/atomic.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 
@@ -25,6 +25,7 @@ OGC_HD inline int float_bits(float a) {
   memcpy(&bits, &a, sizeof bits);
   return bits;
 }
+/// The float of such bits.
 OGC_HD inline float float_from_bits(int bits) {
   float a = 0;
   memcpy(&a, &bits, sizeof a);
@@ -33,7 +34,7 @@ OGC_HD inline float float_from_bits(int bits) {
 
 /// Settings of the control, the same in each step.
 struct ControlSettings {
-  int cut_threshold = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int redetect_count = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
   int redetect_every = 0;
   int iterations = 1 << 30;  ///< of a step; after the last no detection is made
   int guess_rounds = 16;
@@ -42,6 +43,7 @@ struct ControlSettings {
   float largest_query_radius = 0;  ///< cap of r_q [m]
 };
 
+/// The state of a frame and of its step on the device.
 struct StepControl {
   // Of the frame.
   int active = 0;            ///< 1: steps take place; 0: they are no-ops
@@ -73,6 +75,7 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
+/// First kernel of a step.
 struct BeginStep {
   StepControl* control;
   ControlSettings settings;
@@ -128,7 +131,7 @@ struct EndRound {
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     ++c.rounds;
-    c.guess = c.active != 0 && c.cut >= settings.cut_threshold && c.rounds < settings.guess_rounds ? 1 : 0;
+    c.guess = c.active != 0 && c.cut >= settings.redetect_count && c.rounds < settings.guess_rounds ? 1 : 0;
     c.cut_last = c.cut;
     c.cut = 0;
   }
@@ -147,7 +150,7 @@ struct EndIteration {
     ++c.iterations;
     ++c.since_detection;
     const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
-    c.detect = c.active != 0 && c.iterations < settings.iterations && (due || c.cut >= settings.cut_threshold) ? 1 : 0;
+    c.detect = c.active != 0 && c.iterations < settings.iterations && (due || c.cut >= settings.redetect_count) ? 1 : 0;
     c.cut_last = c.cut;
     c.cut = 0;
     stop_if_failed(c);

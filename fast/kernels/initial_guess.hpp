@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/inertia.hpp"
-#include "fast/kernels/membrane.hpp"
+#include "fast/kernels/models/hinge.hpp"
+#include "fast/kernels/models/membrane.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -17,8 +17,8 @@ namespace ogc::fast {
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
-  const int* prescribed_number;   ///< by vertex: place among the prescribed ones; -1 free, -2 fixed
-  const Vec* prescribed_targets;  ///< [step of the frame][place]
+  const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  const Vec* prescribed_targets;  ///< [step of the frame][number]
   int prescribed_count;
   Vec acceleration;
   float step;
@@ -71,28 +71,26 @@ struct BeginHinge {
   }
 };
 
-/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored
-/// positions), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of an earlier one, and
-/// certified.
-struct BeginBounds {
+/// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
+/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
+struct BeginRegions {
   const Vec* position;
-  const float* bound;
+  FeasibleRegions ended;
   Vec* previous;
   StepControl* control;
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && bound_violated(x, previous[v], bound[v])) control->count_violation();
+    if (control->rounds > 0 && is_outside(ended[v], x)) control->count_violation();
     previous[v] = x;
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact
-/// stays where it is: each contact of the list is active, as X_prev = x.
+/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex of an active contact stays where
+/// it is: each contact of the list is active, as X_prev = x.
 struct GuessVertex {
   const Vec* target;
-  const Vec* previous;
-  const float* bound;
+  FeasibleRegions regions;
   const int* incidence_offsets;
   Vec* position;
   StepControl* control;
@@ -100,26 +98,26 @@ struct GuessVertex {
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
     if (control->rounds > 0 && incidence_offsets[v + 1] > incidence_offsets[v]) return;
-    const Truncated kept = truncate(previous[v], target[v], bound[v]);
+    const Truncated kept = truncate(regions[v], target[v]);
     position[v] = kept.position;
-    if (kept.exceeded) control->count_cut();
+    if (kept.cut) control->count_cut();
   }
 };
 
 /// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers,
-/// because it writes no fixed vertex.
+/// because the sweep writes no fixed vertex.
 struct BeginSweep {
   const Vec* start;
   const Vec* position;
-  Place* start_places;
-  Place* places;  ///< the second buffer follows the first
+  PaddedVec* padded_start;
+  PaddedVec* padded;  ///< x, in both buffers: the second follows the first
   int vertex_count;
 
   OGC_HD void operator()(int v) const {
-    const Place x(position[v]);
-    start_places[v] = Place(start[v]);
-    places[v] = x;
-    places[v + vertex_count] = x;
+    const PaddedVec x(position[v]);
+    padded_start[v] = PaddedVec(start[v]);
+    padded[v] = x;
+    padded[v + vertex_count] = x;
   }
 };
 
