@@ -39,6 +39,7 @@ class CpuBuffer {
   const T* data() const { return items_.get(); }
   std::size_t size() const { return size_; }
 
+  /// Keeps no content and never shrinks; a new allocation is zero.
   void resize(std::size_t n) {
     if (n > capacity_) {
       items_ = std::make_unique<T[]>(n);
@@ -66,9 +67,11 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
+/// Sums of default models run in packs.
 inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
+/// Sums of every model do where they can.
 inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
@@ -79,7 +82,7 @@ inline UpdateVertex<GatherPackedEverything> on_packs(const UpdateVertex<GatherEv
   return {f.view, f.first_slot, f.asks_late};
 }
 
-/// Brings to the cache what f(i, team) is going to read where no processor expects it.
+/// Prefetches what f(i, team) is going to read where hardware does not predict it.
 template <class F>
 void look_ahead(const F&, int) {}
 /// Contacts lie vertex by vertex, and a colour takes every fourth to eighth of them.
@@ -92,6 +95,7 @@ void look_ahead(const UpdateVertex<Gather>& f, int i) {
   for (const char* at = begin; at < end; at += line) __builtin_prefetch(at);
 }
 
+/// Loops on the threads of oneTBB, each member as fast/stages/backend.hpp says.
 class CpuBackend {
  public:
   template <class T>
@@ -138,7 +142,7 @@ class CpuBackend {
     exclusive_scan(second);
   }
 
-  /// The original place breaks ties: that makes an unstable parallel sort stable.
+  /// The original number breaks ties: that makes an unstable parallel sort stable.
   void sort_pairs(std::uint64_t* keys, int* values, int n) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
@@ -182,7 +186,7 @@ class CpuBackend {
  private:
   struct Item {
     std::uint64_t key;
-    int place, value;
+    int number, value;
 
     friend auto operator<=>(const Item&, const Item&) = default;
   };
@@ -197,7 +201,7 @@ class CpuBackend {
     scan.out[scan.count] = total;
   }
 
-  /// run(begin, end) for parts of 0 … n.
+  /// run(begin, end) for ranges that make up 0 … n.
   template <class Run>
   static void for_each_range(int n, const Run& run) {
     constexpr int grain = 64;

@@ -2,8 +2,8 @@
 // order as on one float, each rounded alike, so that the same bits come out. g++'s vector types; a few operations have
 // better instructions where there is SSE2 or AVX2.
 //
-// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker
-// never merges code for a larger one into a program that runs on a smaller one.
+// Files that use packs are compiled for several machines, each in a namespace of its own, so that the linker never
+// merges code with AVX2 into what runs without.
 #pragma once
 
 #include <bit>
@@ -23,11 +23,12 @@
 #define OGC_FOR_PACKS(name) name##_baseline
 #endif
 
-#include "fast/kernels/scalar.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
 
 namespace ogc::fast {
 inline namespace OGC_PACKS {
 
+/// g++'s vector types of N numbers.
 template <int N>
 struct Register;
 template <>
@@ -51,8 +52,8 @@ struct PackMaskOf {
   friend PackMaskOf operator&&(PackMaskOf a, PackMaskOf b) { return {a.bits & b.bits}; }
   friend PackMaskOf operator||(PackMaskOf a, PackMaskOf b) { return {a.bits | b.bits}; }
 
-  /// A bit for each place that is true, the first one's lowest.
-  friend unsigned places(PackMaskOf condition) {
+  /// A bit for each lane that is true, the first one's lowest.
+  friend unsigned true_lanes(PackMaskOf condition) {
 #if defined(__AVX2__)
     if constexpr (N == 8) return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(condition.bits)));
 #endif
@@ -63,9 +64,10 @@ struct PackMaskOf {
     for (int k = 0; k < N; ++k) all |= condition.bits[k] != 0 ? 1U << k : 0U;
     return all;
   }
-  friend bool is_false(PackMaskOf condition) { return places(condition) == 0; }
+  friend bool is_false(PackMaskOf condition) { return true_lanes(condition) == 0; }
 };
 
+/// N floats in one register, each in a lane.
 template <int N>
 struct PackOf {
   static constexpr int width = N;
@@ -77,7 +79,7 @@ struct PackOf {
   PackOf(Numbers packed) : value(packed) {}                    // NOLINT: formulas mix packs with constants
   PackOf(float everywhere) : value(everywhere - Numbers{}) {}  // NOLINT: less +0 keeps even a zero's sign
   explicit PackOf(const float* from) { std::memcpy(&value, from, sizeof value); }
-  /// number(k) at place k.
+  /// number(k) in lane k.
   template <class F>
   static PackOf of_each(F number) {
     return [&]<int... k>(std::integer_sequence<int, k...>) { return PackOf(Numbers{number(k)...}); }
@@ -143,7 +145,7 @@ using WidePack = PackOf<8>;
 using WidePack = PackOf<4>;
 #endif
 
-/// True in the first `count` places.
+/// True in the first `count` lanes.
 template <class P>
 typename P::Mask first_of(int count) {
   using Bits = typename P::Mask::Bits;
@@ -151,7 +153,7 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// In each 16 B of the result places p, q, r and s of those 16 B of a; from N on, of b.
+/// In each 16 B of the result lanes p, q, r and s of those 16 B of a; from N on, of b.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {
@@ -181,11 +183,11 @@ using Columns = ColumnsOf<4>;
 inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
 #endif
 
-/// The x, the y and the z of as many places as P is wide, each of which is read whole.
+/// The x, the y and the z of as many positions as P is wide, each of which is read whole.
 template <class P>
-[[gnu::always_inline]] inline Vector<P> transposed(const Place* const* place) {
-  const auto whole = [place](int k) { return Pack(std::bit_cast<Pack::Numbers>(*place[k])); };
-  const auto column = [&whole](int k) {  // places k, k + 4, …
+[[gnu::always_inline]] inline Vector<P> transposed(const PaddedVec* const* position) {
+  const auto whole = [position](int k) { return Pack(std::bit_cast<Pack::Numbers>(*position[k])); };
+  const auto column = [&whole](int k) {  // positions k, k + 4, …
     if constexpr (P::width == 4)
       return whole(k);
     else

@@ -18,13 +18,15 @@ ContactWeights weights_of_one(ContactKind kind, const Vec* x);
 
 inline namespace OGC_PACKS {
 
-/// Of ContactActivation::ogc.
-template <int N>
-ActivationSlopeOf<PackOf<N>> activation_slope(ContactActivation kind, PackOf<N> d, float r, PackOf<N> k) {
-  const PackMaskOf<N> logarithmic = d < 0.5F * r;
-  const PackOf<N> slope = logarithmic_stiffness(kind, r, k) / d;
-  return {select(logarithmic, -slope, -k * (r - d)), select(logarithmic, slope / d, k)};
-}
+/// OgcActivation within the radius.
+struct PackedActivation {
+  template <int N>
+  static ActivationSlopeOf<PackOf<N>> slope(PackOf<N> d, float r, PackOf<N> k) {
+    const PackMaskOf<N> logarithmic = d < 0.5F * r;
+    const PackOf<N> slope = OgcActivation::logarithmic_stiffness(r, k) / d;
+    return {select(logarithmic, -slope, -k * (r - d)), select(logarithmic, slope / d, k)};
+  }
+};
 
 template <int N>
 PackOf<N> friction_slope_over_slip(PackOf<N> slip, float limit) {
@@ -72,14 +74,14 @@ ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vecto
   for (const ContactIncidence* item : items.at) segments |= item->kind == ContactKind::segment_segment;
   typename P::Mask usual;
   ContactWeightsOf<P> weights = segments ? segment_weights<P>(x, usual) : triangle_weights<P>(x, usual);
-  unsigned together = places(usual || !items.counted);
+  unsigned together = true_lanes(usual || !items.counted);
   for (int k = 0; k < P::width; ++k) {
     if (items.at[k]->kind != (segments ? ContactKind::segment_segment : ContactKind::point_triangle))
       together &= ~(1U << k);
   }
-  unsigned alone = ~together & places(items.counted);
+  unsigned alone = ~together & true_lanes(items.counted);
   if (alone == 0) return weights;
-  float at[3][4][P::width], slot[4][P::width];  // [axis][slot][place]
+  float at[3][4][P::width], slot[4][P::width];  // [axis][slot][lane]
   for (int s = 0; s < 4; ++s)
     x[s].x.store(at[0][s]), x[s].y.store(at[1][s]), x[s].z.store(at[2][s]), weights.slot[s].store(slot[s]);
   for (; alone != 0; alone &= alone - 1) {
@@ -123,8 +125,9 @@ void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, co
   const typename P::Mask slips = friction > 0.0F;
   if (is_false(slips)) return;
   const auto moved_by = [&](int s) {
-    return x[s] - items.each_place(
-                      [&](const ContactIncidence& i) -> const Place& { return view.start.at[decoded(i.index[s])]; });
+    return x[s] - items.each_position([&](const ContactIncidence& i) -> const PaddedVec& {
+      return view.start.at[decoded(i.index[s])];
+    });
   };
   const Vector<P> moved[4] = {moved_by(0), moved_by(1), moved_by(2), moved_by(3)};
   const P* w = weights.slot;
@@ -139,19 +142,20 @@ template <class P>
 void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
   using Incidence = ContactIncidence;
   const auto position = [&](int s) {
-    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[s])]; });
+    return items.each_position(
+        [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[s])]; });
   };
   const Vector<P> x[4] = {position(0), position(1), position(2), position(3)};
   const ContactWeightsOf<P> weights = packed::weights(items, x);
   const Vector<P> separation = weighted_sum(weights, x);
   const P squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);
-  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.radius &&
+  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.contact_radius &&
                                 (weight > 0.0F || weight < 0.0F);
   if (is_false(acts)) return;
   const ContactShapeOf<P> shape{(1.0F / distance) * separation, distance, acts};
   ForceAndBlockOf<P> term;
   const P majorant = majorants(items, weights);
-  const P normal_force = add_contact(ContactActivation::ogc, shape, weight, majorant, view.radius,
+  const P normal_force = add_contact(PackedActivation{}, shape, weight, majorant, view.contact_radius,
                                      items.each([](const Incidence& i) { return i.stiffness; }), term);
   add_slip(view, items, weights, x, shape.normal, weight, majorant, normal_force, term);
   sum += selected<P>(acts, term, {});

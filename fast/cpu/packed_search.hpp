@@ -11,21 +11,23 @@
 namespace ogc::fast::packed {
 
 /// Vertices of four primitives, one of each.
-inline Vector<Pack> gathered(Places positions, int a, int b, int c, int d) {
-  const Place* const place[4] = {&positions.at[a], &positions.at[b], &positions.at[c], &positions.at[d]};
-  return transposed<Pack>(place);
+inline Vector<Pack> gathered(PaddedVecs positions, int a, int b, int c, int d) {
+  const PaddedVec* const vertex[4] = {&positions.at[a], &positions.at[b], &positions.at[c], &positions.at[d]};
+  return transposed<Pack>(vertex);
 }
 
+/// Lower bounds of the distances of four candidates.
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
   for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[primitive[k]];
-  const Places x = query.positions;
+  const PaddedVecs x = query.positions;
   return separation(EndsOf<Pack>{everywhere<Pack>(x[own.a]), everywhere<Pack>(x[own.b])},
                     EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a),
                                  gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
+/// Likewise.
 inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* primitive) {
   const int* corner[Pack::width];
   for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
@@ -44,6 +46,7 @@ struct Waiting {
   int primitive[Pack::width], count = 0;
   float gap[Pack::width], within[Pack::width];
 
+  /// One candidate more.
   void take(const Offer& offer) {
     const float limit = query.candidate_limit(search, offer);
     if (limit < 0) return;
@@ -51,6 +54,7 @@ struct Waiting {
     if (++count == Pack::width) look();
   }
 
+  /// Looks at all that wait.
   void look() {
     if (count == 0) return;
     notes.expect(count);
@@ -78,7 +82,8 @@ void run_searches(const Searches<Query>& searches, int begin, int end) {
       searches.run_alone(i);
       continue;
     }
-    Waiting<Query> waiting{query, notes, search, {}, 0, {}, {}};
+    Waiting<Query> waiting{
+        .query = query, .notes = notes, .search = search, .primitive = {}, .count = 0, .gap = {}, .within = {}};
     for_each_near(searches.tree, search.box, search.from, search.limit,
                   [&](const Offer& offer) { waiting.take(offer); });
     waiting.look();

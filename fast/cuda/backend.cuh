@@ -38,8 +38,8 @@ inline constexpr int cuda_block_size = 128;
 /// costs little.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the order
-/// of their sums are the same; a build that contracts may contract the two kernels differently.
+/// From so many team lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the
+/// order of their sums are the same; a build that contracts may contract the two kernels differently.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
 /// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come
@@ -122,6 +122,7 @@ class CudaRecording {
   std::uint64_t generation_ = 0;
 };
 
+/// One stream of one device, each member as fast/stages/backend.hpp says.
 class CudaBackend {
  public:
   template <class T>

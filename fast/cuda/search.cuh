@@ -1,9 +1,9 @@
 // Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few
 // searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 different searches holds up
 // the others. Here a warp takes a few searches and keeps their open ends in lists of its own in shared memory; in each
-// round all lanes take one item each, of whichever search:
+// round every lane of the warp takes one item, of any of these searches:
 //
-//   nodes       still to be opened: four lanes open one, a box each
+//   nodes       still to be opened: four lanes open one, a child each
 //   candidates  that leaves offered: a lane asks is_pair
 //   pairs       what is left of them: a lane does the arithmetic (meet), which may lower the search's limit
 //
@@ -123,20 +123,20 @@ class WarpSearch {
   /// The innermost loop of a detection: no branch in it, and nothing signed, which would cost divisions by 4 and long
   /// addresses more.
   __device__ void open() {
-    const unsigned take = min(8U, node_count_), own = lane_ / 4, child = lane_ % 4;
+    const unsigned take = min(8U, node_count_), own = lane_ / 4, number = lane_ % 4;
     node_count_ -= take;
-    // who has none looks at the last, for nothing
+    // lanes beyond the last node look at that one and drop the result
     const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];
-    const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(child);
+    const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(number);
     const Search& search = memory_.searches[slot];
-    const Lane lane = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())].lane[child];
-    const float gap = squared_gap(lane.box(), search.box);
+    const Child child = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())].child[number];
+    const float gap = squared_gap(child.box(), search.box);
     const bool is_leaf = level == 0,
-               is_near = (own < take) & (gap <= larger(search.limit, lane.reach)) & (j >= search.from >> (2 * level));
+               is_near = (own < take) & (gap <= larger(search.limit, child.reach)) & (j >= search.from >> (2 * level));
     const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
     const unsigned rank = __popc(near & (is_leaf ? leaves : ~leaves) & before());
     __syncwarp();
-    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = {slot, {lane.primitive, gap, lane.reach}};
+    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = {slot, {child.primitive, gap, child.reach}};
     if (is_near & !is_leaf) memory_.nodes[node_count_ + rank] = SearchNode::of(level - 1, slot, j);
     candidate_count_ += __popc(near & leaves);
     node_count_ += __popc(near & ~leaves);

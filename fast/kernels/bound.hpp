@@ -1,7 +1,7 @@
 // The conservative bound of a vertex (Eq. 21, 23, 25).
 #pragma once
 
-#include "fast/kernels/rounding.hpp"
+#include "fast/kernels/arithmetic/rounding.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -24,6 +24,7 @@ struct ResetDistances {
   }
 };
 
+/// for_each over vertices: b_v = γ_p times the smallest distance of v, its edges and its triangles.
 struct ConservativeBound {
   SurfaceView surface;
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;

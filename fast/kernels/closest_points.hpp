@@ -20,6 +20,7 @@ struct EndsOf {
 };
 using Ends = EndsOf<float>;
 
+/// Where on two edges their closest points lie.
 struct EdgePairFeatures {
   EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;
   bool nearly_parallel = false;

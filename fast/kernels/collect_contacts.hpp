@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Index over the noted pairs.
+/// Enters the contacts among the noted pairs. Index over these pairs.
 struct CollectContacts {
   static constexpr int resident_blocks = 4;  ///< 128 registers; 6 spill more than more warps win (fast/PERFORMANCE.md)
   CollectVertexFacet vertex_facet;
@@ -23,7 +23,7 @@ struct CollectContacts {
     const int second = certain ? ~pair.second : pair.second;
     const RawContact contact = pair.first < 0 ? vertex_facet(~pair.first, second, certain)
                                               : edge_edge(pair.first, second, certain);
-    // in one place, where lanes that decided different sorts of pairs meet again
+    // in one place, where threads that decided different kinds of pairs meet again
     if (contact.bucket >= 0) lists.enter(contact, {edge_edge.surface});
   }
 };

@@ -15,11 +15,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fast/kernels/accumulator.hpp"
-#include "fast/kernels/activation.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/scalar.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+#include "fast/kernels/models/activation.hpp"
 
 namespace ogc::fast {
 
@@ -126,17 +126,19 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Whose contacts: where it is known, formulas of kinds that do not occur take no room among a device's instructions.
-enum class ContactSort { any, vertex_facet, edge_edge };
+/// Which pairs a contact is of: where it is known, formulas of kinds that do not occur take no room among a device's
+/// instructions.
+enum class PairKind { any, vertex_facet, edge_edge };
 
-template <ContactSort sort = ContactSort::any>
+/// Weights of the closest points of a contact whose slots are at x.
+template <PairKind pairs = PairKind::any>
 OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   if (kind == ContactKind::point_point) return {{1, 0, -1, 0}};
   if (kind == ContactKind::point_segment) {
     const float t = closest_on_segment(x[3] - x[2], x[0] - x[2]);
     return {{1, 0, t - 1, -t}};
   }
-  if (sort == ContactSort::edge_edge || (sort == ContactSort::any && kind == ContactKind::segment_segment)) {
+  if (pairs == PairKind::edge_edge || (pairs == PairKind::any && kind == ContactKind::segment_segment)) {
     const SegmentParameters w = closest_on_segments(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
     return {{1 - w.first, w.first, w.second - 1, -w.second}};
   }
@@ -161,32 +163,33 @@ struct ContactShapeOf {
 };
 using ContactShape = ContactShapeOf<float>;
 
-OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
+/// From Σ w_i x_i.
+OGC_HD inline ContactShape contact_shape(const Vec& separation, float contact_radius) {
   const float squared = dot(separation, separation);
   if (!(squared >= 0x1p-126f)) return {};
   const float distance = sqrtf(squared);
-  return {(1.0f / distance) * separation, distance, distance < radius};
+  return {(1.0f / distance) * separation, distance, distance < contact_radius};
 }
 
 /// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c
 /// r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far above every other block and far below overflow. Nearer points feel the
 /// force of this distance.
 template <class T>
-OGC_HD T activation_distance(const T& distance, float radius) {
-  const float least = 0x1p-23f * radius;
+OGC_HD T activation_distance(const T& distance, float contact_radius) {
+  const float least = 0x1p-23f * contact_radius;
   return select(distance > least, distance, T{least});
 }
 
 /// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt).
 /// Returns the normal force λ = −g' ≥ 0 [N].
-template <class T>
-OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
-                     float radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
-  const T distance = activation_distance(shape.distance, radius);
-  const ActivationSlopeOf<T> activation = activation_slope(kind, distance, radius, stiffness);
-  sum.add_force(-activation.slope * weight, shape.normal);
-  sum.add_outer(activation.curvature * majorant, shape.normal);
-  return -activation.slope;
+template <class Activation, class T>
+OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
+                     float contact_radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
+  const T distance = activation_distance(shape.distance, contact_radius);
+  const ActivationSlopeOf<T> at = activation.slope(distance, contact_radius, stiffness);
+  sum.add_force(-at.slope * weight, shape.normal);
+  sum.add_outer(at.curvature * majorant, shape.normal);
+  return -at.slope;
 }
 
 /// e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³
@@ -205,8 +208,8 @@ OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_sq
 OGC_HD inline float overlap_share(const Vec& first, const Vec& second, const Vec& to_start, const Vec& to_end) {
   const float aa = dot(first, first), bb = dot(second, second);
   const float start = clamp_unit(dot(first, to_start) / aa), end = clamp_unit(dot(first, to_end) / aa);
-  const float part = start < end ? end - start : start - end;
-  return bb < aa ? part * sqrtf(aa / bb) : part;
+  const float share = start < end ? end - start : start - end;
+  return bb < aa ? share * sqrtf(aa / bb) : share;
 }
 
 }  // namespace ogc::fast

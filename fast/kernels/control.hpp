@@ -10,9 +10,9 @@
 #include <cstring>
 
 #include "compare/contestant.hpp"
-#include "fast/kernels/atomic.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 
@@ -25,6 +25,7 @@ OGC_HD inline int float_bits(float a) {
   memcpy(&bits, &a, sizeof bits);
   return bits;
 }
+/// The float of such bits.
 OGC_HD inline float float_from_bits(int bits) {
   float a = 0;
   memcpy(&a, &bits, sizeof a);
@@ -33,7 +34,7 @@ OGC_HD inline float float_from_bits(int bits) {
 
 /// Settings of the control, the same in each step.
 struct ControlSettings {
-  int cut_threshold = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int redetect_count = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
   int redetect_every = 0;
   int iterations = 1 << 30;  ///< of a step; after the last no detection is made
   int guess_rounds = 16;
@@ -42,6 +43,7 @@ struct ControlSettings {
   float largest_query_radius = 0;  ///< cap of r_q [m]
 };
 
+/// The state of a frame and of its step on the device.
 struct StepControl {
   // Of the frame.
   int active = 0;            ///< 1: steps take place; 0: they are no-ops
@@ -75,8 +77,8 @@ struct StepControl {
 
 /// Whether the vertices that were cut ask for a detection; their counts begin anew. A prescribed vertex behind its
 /// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut.
-OGC_HD inline bool take_request(StepControl& c, int cut_threshold) {
-  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0), asks = c.cut >= cut_threshold;
+OGC_HD inline bool take_request(StepControl& c, int redetect_count) {
+  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0), asks = c.cut >= redetect_count;
   if (lag_asks) c.lag_asked = 1;
   c.cut_last = c.cut + c.lagging;
   c.cut = c.lagging = c.advanced = 0;
@@ -90,6 +92,7 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
+/// First kernel of a step.
 struct BeginStep {
   StepControl* control;
   ControlSettings settings;
@@ -146,7 +149,7 @@ struct EndRound {
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     ++c.rounds;
-    const bool asked = take_request(c, settings.cut_threshold);
+    const bool asked = take_request(c, settings.redetect_count);
     c.guess = c.active != 0 && asked && c.rounds < settings.guess_rounds ? 1 : 0;
   }
 };
@@ -163,7 +166,7 @@ struct EndIteration {
     if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
-    const bool asked = take_request(c, settings.cut_threshold);
+    const bool asked = take_request(c, settings.redetect_count);
     const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);

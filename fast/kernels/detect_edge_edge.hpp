@@ -3,7 +3,7 @@
 // detect_vertex_facet.hpp.
 #pragma once
 
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/block.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
@@ -15,7 +15,7 @@ namespace ogc::fast {
 /// The searches of all edges in their tree; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
-  Places positions;
+  PaddedVecs positions;
   TreeView tree;
   ListsView lists;
   SkinView skin;
@@ -25,9 +25,9 @@ struct DetectEdgeEdge {
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
   OGC_HD Search begin(int i) const {
-    const Lane lane = tree.node(0, i / 4).lane[i % 4];
+    const Child child = tree.node(0, i / 4).child[i % 4];
     const float margin = skin.search_margin();
-    return {lane.box(), lane.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), lane.reach), margin};
+    return {child.box(), child.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), child.reach), margin};
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
@@ -38,6 +38,7 @@ struct DetectEdgeEdge {
     return offer.gap > within ? -1.0F : within;
   }
 
+  /// Whether the candidate needs a distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -50,6 +51,7 @@ struct DetectEdgeEdge {
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
+  /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(add(larger(contact_radius, measure(low, high, gap)), search.margin));
@@ -71,7 +73,7 @@ struct DetectEdgeEdge {
                   smaller(offer.reach, gap_limit(add(theirs, margin))));
   }
 
-  /// Of which no smallest distance of this detection will be above.
+  /// Never below the edge's smallest distance of this detection.
   OGC_HD float bound(int e) const { return smaller(atomic_load(&d_min_edge[e]), skin.bound(skin.edge[e])); }
 
   /// The pair's distance for both partners, and the note where it may be a contact; low < high.
@@ -97,7 +99,7 @@ struct DetectEdgeEdge {
 /// doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
-  Places positions;
+  PaddedVecs positions;
   float contact_radius;
 
   OGC_HD RawContact operator()(int low, int high, bool certain) const {

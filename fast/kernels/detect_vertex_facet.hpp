@@ -7,7 +7,7 @@
 // predicates are most of the code.
 #pragma once
 
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/block.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
@@ -19,7 +19,7 @@ namespace ogc::fast {
 /// The searches of all vertices in the tree of the facets; a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
-  Places positions;
+  PaddedVecs positions;
   TreeView tree;
   const int* vertex_order;
   const float* vertex_limit;  ///< by vertex: gap limit of its reach
@@ -49,6 +49,7 @@ struct DetectVertexFacet {
     return offer.gap > within ? -1.0F : within;
   }
 
+  /// Whether the candidate needs a distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -61,6 +62,7 @@ struct DetectVertexFacet {
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
+  /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int t, float gap) const {
     return gap_limit(add(larger(contact_radius, measure(search.owner, t, gap)), search.margin));
   }
@@ -105,7 +107,7 @@ struct DetectVertexFacet {
 /// Each triangle around a shared face reports it; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
-  Places positions;
+  PaddedVecs positions;
   float contact_radius;
 
   OGC_HD RawContact operator()(int v, int t, bool certain) const {

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/inertia.hpp"
-#include "fast/kernels/membrane.hpp"
-#include "fast/kernels/tetrahedron.hpp"
+#include "fast/kernels/models/hinge.hpp"
+#include "fast/kernels/models/membrane.hpp"
+#include "fast/kernels/models/tetrahedron.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -19,8 +19,8 @@ namespace ogc::fast {
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
-  const int* prescribed_number;   ///< by vertex: place among the prescribed ones; -1 free, -2 fixed
-  const Vec* prescribed_targets;  ///< [step of the frame][place]
+  const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  const Vec* prescribed_targets;  ///< [step of the frame][number]
   int prescribed_count;
   Vec acceleration;
   float step;
@@ -89,65 +89,61 @@ struct BeginTetrahedron {
   }
 };
 
-/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored
-/// positions, and its half-spaces), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of
-/// an earlier one, and certified.
-struct BeginBounds {
+/// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
+/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
+struct BeginRegions {
   const Vec* position;
-  const float* bound;
+  FeasibleRegions ended;
   Vec* previous;
   StepControl* control;
-  RegionView regions{};
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
+    if (control->rounds > 0 && is_outside(ended[v], x)) control->count_violation();
     previous[v] = x;
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact
-/// stays where it is. A free vertex slides as inertia alone would have it.
+/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex of an active contact stays where
+/// it is. A free vertex slides as inertia alone would have it.
 struct GuessVertex {
   const Vec* target;
-  const Vec* previous;
-  const float* bound;
+  FeasibleRegions regions;
   ActiveContacts contacts;  ///< X_prev = x
   Vec* position;
   StepControl* control;
-  RegionView regions{};
   const int* prescribed_number = nullptr;  ///< as in BeginVertex; read where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
-    if (control->rounds > 0 && contacts.touch(v, previous)) return;
-    const Vec stay = previous[v], wanted = target[v];
-    const FeasibleRegion region = regions.region(v, stay, bound[v]);
+    if (control->rounds > 0 && contacts.touch(v, regions.centre)) return;
+    const FeasibleRegion region = regions[v];
+    const Vec& stay = region.ball.centre;
     const bool is_prescribed = regions.has_planes() && prescribed_number[v] >= 0;
-    const Truncated kept = is_prescribed ? held_on_path(region, stay, wanted)
-                                         : held(region, stay, wanted, InertiaMetric{});
+    const Truncated kept = is_prescribed ? held_on_path(region, stay, target[v])
+                                         : held(region, stay, target[v], InertiaMetric{});
     position[v] = kept.position;
     if (is_prescribed)
       count_behind(*control, kept, stay, regions);
-    else if (kept.exceeded)
+    else if (kept.cut)
       control->count_cut();
   }
 };
 
 /// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers,
-/// because it writes no fixed vertex.
+/// because the sweep writes no fixed vertex.
 struct BeginSweep {
   const Vec* start;
   const Vec* position;
-  Place* start_places;
-  Place* places;  ///< the second buffer follows the first
+  PaddedVec* padded_start;
+  PaddedVec* padded;  ///< x, in both buffers: the second follows the first
   int vertex_count;
 
   OGC_HD void operator()(int v) const {
-    const Place x(position[v]);
-    start_places[v] = Place(start[v]);
-    places[v] = x;
-    places[v + vertex_count] = x;
+    const PaddedVec x(position[v]);
+    padded_start[v] = PaddedVec(start[v]);
+    padded[v] = x;
+    padded[v + vertex_count] = x;
   }
 };
 

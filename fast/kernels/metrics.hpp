@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "fast/contact_view.hpp"
-#include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
-#include "fast/kernels/isometric.hpp"
-#include "fast/kernels/membrane.hpp"
-#include "fast/kernels/neo_hookean.hpp"
-#include "fast/kernels/spring.hpp"
-#include "fast/kernels/tetrahedron.hpp"
+#include "fast/kernels/models/bending_models.hpp"
+#include "fast/kernels/models/membrane_models.hpp"
+#include "fast/kernels/models/spring.hpp"
+#include "fast/kernels/models/tetrahedron.hpp"
 
 namespace ogc::fast {
 
@@ -47,20 +45,18 @@ struct StepRow {
 /// smallest distance).
 struct CheckVertex {
   const Vec* position;
-  const Vec* previous;
-  const float* bound;
+  FeasibleRegions regions;
   const Vec* target;
   const int* prescribed_number;
   StepControl* control;
-  RegionView regions{};
   const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
     const Vec x = position[v];
     if (!is_finite(x)) control->count_not_finite();
-    if (is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
-    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : bound[v]);
+    if (is_outside(regions[v], x)) control->count_violation();
+    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : regions.radius[v]);
     if (prescribed_number[v] < 0) return;
     const Vec behind = target[v] - x;
     atomic_max(&control->largest_lag, float_bits(square_root(dot(behind, behind))));
@@ -127,6 +123,19 @@ struct VertexTerm {
   }
 };
 
+/// Energy of a triangle, given the functor of its model.
+struct MembraneEnergy {
+  const TriangleRest& rest;
+  const SurfaceMaterial& material;
+  Vec to_b, to_c;
+
+  template <class Model>
+  OGC_HD double operator()(Model) const {
+    return Model::energy(rest, material, to_b, to_c);
+  }
+};
+
+/// Term of a triangle.
 struct TriangleTerm {
   const TriangleRest* triangles;
   const SurfaceMaterial* materials;
@@ -136,17 +145,27 @@ struct TriangleTerm {
   OGC_HD void operator()(int t, double* sum) const {
     const TriangleRest& rest = triangles[t];
     const Vec a = position[rest.corner[0]], to_b = position[rest.corner[1]] - a, to_c = position[rest.corner[2]] - a;
-    const DeformationGradient f = deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]);
-    const SurfaceMaterial& material = materials[rest.body];
-    if (models[rest.body].membrane == compare::MembraneModel::stable_neo_hookean) {
-      const float ratio = area_ratio(to_b, to_c, rest.gradient[1], rest.gradient[2]).ratio;
-      sum[sum_membrane] += rest.area * neo_hookean_energy_density(material, f, ratio);
-    } else {
-      sum[sum_membrane] += rest.area * membrane_energy_density(material, green_strain(f));
-    }
+    sum[sum_membrane] += with_membrane(models[rest.body].membrane,
+                                       MembraneEnergy{rest, materials[rest.body], to_b, to_c});
   }
 };
 
+/// Energy of hinge i, given the functor of its model.
+struct HingeEnergy {
+  const HingeRest& rest;
+  const HingeWeights* weights;  ///< read where the model reads them
+  int i;
+  const Vec* to;
+
+  template <class Model>
+  OGC_HD double operator()(Model) const {
+    HingeWeights own;
+    if constexpr (Model::reads_weights) own = weights[i];
+    return Model::energy(rest, own, to);
+  }
+};
+
+/// Term of a hinge.
 struct HingeTerm {
   const HingeRest* hinges;
   const HingeWeights* weights;  ///< read where a body bends isometrically
@@ -158,15 +177,11 @@ struct HingeTerm {
     const Vec base = position[rest.vertex[0]];
     const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base,
                        position[rest.vertex[3]] - base};
-    if (models[rest.body].bending == compare::BendingModel::isometric_quadratic) {
-      sum[sum_bending] += isometric_energy(rest, weights[i], to);
-      return;
-    }
-    const HingeShape shape = hinge_shape(to[0], to[1], to[2]);
-    if (shape.defined) sum[sum_bending] += hinge_energy(rest, shape.angle);
+    sum[sum_bending] += with_bending(models[rest.body].bending, HingeEnergy{rest, weights, i, to});
   }
 };
 
+/// Term of a spring.
 struct SpringTerm {
   const SpringRest* springs;
   const Vec* position;
@@ -178,6 +193,7 @@ struct SpringTerm {
   }
 };
 
+/// A tetrahedron: its energy, and whether it is inverted.
 struct TetrahedronTerm {
   const TetrahedronRest* tetrahedra;
   const SolidMaterial* materials;

@@ -47,8 +47,8 @@ struct NearEdgeEdge : DetectEdgeEdge {
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
   OGC_HD Search begin(int i) const {
-    const Lane lane = tree.node(0, i / 4).lane[i % 4];
-    return {lane.box(), lane.primitive, i + 1, gap_limit(*query_radius), 0};
+    const Child child = tree.node(0, i / 4).child[i % 4];
+    return {child.box(), child.primitive, i + 1, gap_limit(*query_radius), 0};
   }
 
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {

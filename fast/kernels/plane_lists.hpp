@@ -17,31 +17,10 @@
 
 namespace ogc::fast {
 
-/// N, planes of a vertex at most: a spot of collapsed triangles would have hundreds.
-inline constexpr int most_planes = 16;
-
-/// What holds the vertices beside their balls.
-struct RegionView {
-  const HalfSpace* rows = nullptr;  ///< of vertex v from v · most_planes
-  const int* counts = nullptr;      ///< null: there are balls alone
-  bool is_off = false;              ///< nothing holds them
-
-  OGC_HD bool has_planes() const { return counts != nullptr; }
-  OGC_HD FeasibleRegion region(int v, const Vec& centre, float radius) const {
-    if (is_off) return {centre, unbounded};
-    if (counts == nullptr) return {centre, radius};
-    return {centre, radius, rows + static_cast<std::ptrdiff_t>(v) * most_planes, counts[v]};
-  }
-
- private:
-  /// [m], of which single precision has the square.
-  static constexpr float unbounded = 0x1p50F;
-};
-
 /// Counts a prescribed vertex that did not reach its target.
 OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
-                                const RegionView& regions) {
-  if (!kept.exceeded) return;
+                                const FeasibleRegions& regions) {
+  if (!kept.cut) return;
   const Vec &x = kept.position, &p = previous;
   if (!regions.has_planes())
     control.count_cut();
@@ -52,7 +31,7 @@ OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, con
 /// What the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
-  Places positions;                        ///< of the detection
+  PaddedVecs positions;                    ///< of the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
   const float* query_radius = nullptr;     ///< r_q [m]
@@ -100,7 +79,7 @@ struct PlaneListsView {
   OGC_HD auto at_points(const NotedPair& pair, F f) const {
     const Vertices of = vertices(pair);
     const int* v = of.at;
-    const Places x = positions;
+    const PaddedVecs x = positions;
     const auto fixed = [this, v](int a, int b) { return is_fixed[v[a]] != 0 && is_fixed[v[b]] != 0; };
     if (of.second_from == 1)
       return f(PairPoints<1, 3>{{x[v[0]]}, {x[v[1]], x[v[2]], x[v[3]]}, fixed(0, 0), fixed(1, 2) && fixed(3, 3)});

@@ -3,7 +3,7 @@
 // stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
 #pragma once
 
-#include "fast/kernels/exact_sign.hpp"
+#include "fast/kernels/arithmetic/exact_sign.hpp"
 
 namespace ogc::fast {
 

@@ -13,6 +13,7 @@ struct RestVector {
   double x, y, z;
 };
 
+/// a − b.
 inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -78,7 +79,7 @@ struct RestHinge {
 };
 
 /// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in
-/// fast/kernels/bending.hpp.
+/// fast/kernels/models/discrete_hinge.hpp.
 inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0,
                             const compare::Vec3& o1) {
   const RestVector edge = rest_difference(x1, x0), a = rest_difference(o0, x0), b = rest_difference(o1, x0);

@@ -1,10 +1,11 @@
 // Distance of a point and a closed segment in rounded double: the piece that both pair distances share.
 #pragma once
 
-#include "fast/kernels/exact_sign.hpp"
+#include "fast/kernels/arithmetic/exact_sign.hpp"
 
 namespace ogc::fast {
 
+/// A vector in rounded double.
 using Real = Vector<Rounded>;
 
 /// A distance [m] and how far it can be from the exact one.
@@ -20,6 +21,7 @@ struct Distance {
   }
 };
 
+/// ‖a‖₁.
 OGC_HD inline double norm_1(const Real& a) {
   return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value));
 }

@@ -1,6 +1,6 @@
-// A list of pairs with a skin: as long as no vertex has moved far since a search, the pairs that can matter are among
-// those that this search met within a margin, and a detection looks at these instead of searching the trees. Sets,
-// smallest distances and bounds are the same bits (tests/fast/stages/skin.cpp).
+// A Verlet list, that is a list of pairs with a skin: as long as no vertex has moved far since a search, the pairs that
+// can matter are among those that this search met within a margin, and a detection looks at these instead of searching
+// the trees. Sets, smallest distances and bounds are the same bits (tests/fast/stages/skin.cpp).
 //
 // Let m be the margin, δ the largest displacement since the search ("the anchor"), D the smallest distance of a
 // primitive then, as stored: at most ε below the exact one. A listing search keeps every pair not farther than max(r,
@@ -21,9 +21,10 @@
 
 namespace ogc::fast {
 
-/// What a detection does.
-/// search the trees; also keep the pairs within the margin; look at the kept pairs
+/// What a detection does: search the trees; also keep the pairs within the margin; look at the kept pairs.
 enum class SkinMode : int { search, list, recheck };
+
+/// What the device knows of its list.
 
 struct SkinState {
   SkinMode mode = SkinMode::search;
@@ -34,11 +35,12 @@ struct SkinState {
   float contact_radius = 0;   ///< r of the list [m]
   float bound = 0;            ///< 2δ + m/16: with it D is above the smallest distance now [m]
   int count = 0, most = 0;    ///< pairs kept, also those that found no room; the most of any list before this one
-  int searches = 0, listings = 0, rechecks = 0;  ///< detections of each sort so far
+  int searches = 0, listings = 0, rechecks = 0;  ///< detections of each mode so far
   /// uses of this list; searches without one after a list that nothing used, and how many are left
   int rechecks_of_list = 0, patience = 0, wait = 0;
 };
 
+/// The list on the backend.
 struct SkinView {
   SkinState* state = nullptr;
   float largest_margin = 0;  ///< of m [m]; 0: no list is ever made
@@ -48,10 +50,12 @@ struct SkinView {
   Vec* anchor = nullptr;
   float *vertex = nullptr, *edge = nullptr, *triangle = nullptr;  ///< D of the anchor [m]
 
+  /// Whether the list takes the place of a search.
   OGC_HD bool rechecks() const { return state->mode == SkinMode::recheck; }
   /// By which a search looks farther.
   OGC_HD float search_margin() const { return state->mode == SkinMode::list ? state->margin : 0.0F; }
 
+  /// Adds a pair; counts it also where there is no room.
   OGC_HD void keep(const NotedPair& pair) const {
     const int place = atomic_add(&state->count, 1);
     if (place < capacity) pairs[place] = pair;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 
@@ -32,13 +32,16 @@ struct Rows {
 struct EdgeSeeds {
   int vertex[2];  ///< each has an edge that forms a pair with this one
 };
+/// Of a facet.
 struct FacetSeeds {
   int vertex[3];  ///< across edge k of the facet: forms a pair with it
 };
+/// Of a vertex.
 struct VertexSeeds {
   int edge[2];  ///< each has a facet that forms a pair with the vertex
 };
 
+/// The complex on the backend.
 struct SurfaceView {
   int vertex_count = 0, edge_count = 0, triangle_count = 0;
   const Facet* facets = nullptr;

@@ -2,9 +2,9 @@
 // surfaces of any model (GatherEverything).
 #pragma once
 
+#include "fast/kernels/models/tetrahedron.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/kernels/sweep_models.hpp"
-#include "fast/kernels/tetrahedron.hpp"
 
 namespace ogc::fast {
 
@@ -37,24 +37,31 @@ OGC_HD inline void add_tetrahedron_incidence(const SweepView& view, const Loaded
     add_solid_damping(view.gradients[loaded.place], material, a, b, c, view.solid_start[seen.tetrahedron], sum);
 }
 
+/// A tetrahedron with whatever damping.
 OGC_HD inline void add_any_tetrahedron(const SweepView& view, const LoadedTetrahedron& loaded, SolidMaterial material,
                                        const SurfaceModels& models, const OwnVertex& own, ForceAndBlock& sum) {
-  if (models.damping == compare::DampingForm::strain)
-    return add_tetrahedron_incidence(view, loaded, material, own.position, sum);
-  const float damping = material.damping;
-  material.damping = 0;
-  ForceAndBlock elastic;
-  add_tetrahedron_incidence(view, loaded, material, own.position, elastic);
-  add_damped_by_vertex(elastic, damping, own.moved, sum);
+  switch (models.damping) {
+    case compare::DampingForm::strain: return add_tetrahedron_incidence(view, loaded, material, own.position, sum);
+    case compare::DampingForm::per_vertex: {
+      const float damping = material.damping;
+      material.damping = 0;
+      ForceAndBlock elastic;
+      add_tetrahedron_incidence(view, loaded, material, own.position, elastic);
+      return add_damped_by_vertex(elastic, damping, own.moved, sum);
+    }
+  }
 }
 
-// No lambdas: as for the springs (sweep_models.hpp) the parts are handed on.
+// Named functors, as those of the springs (sweep_models.hpp).
+
+/// Tetrahedron k of a vertex.
 struct LoadTetrahedron {
   const TetrahedronIncidence* first;
   int begin;
 
   OGC_HD LoadedTetrahedron operator()(int k) const { return {first[k], begin + k}; }
 };
+/// Adds a tetrahedron with damping of strains.
 struct AddTetrahedron {
   const SweepView& view;
   SolidMaterial material;
@@ -64,6 +71,7 @@ struct AddTetrahedron {
     add_tetrahedron_incidence(view, tetrahedron, material, own, sum);
   }
 };
+/// Adds a tetrahedron with whatever damping.
 struct AddAnyTetrahedron {
   const SweepView& view;
   SolidMaterial material;
@@ -90,7 +98,7 @@ struct GatherSolids {
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts contacts{view, view.contact_rows[slot], ContactActivation::ogc};
+    const ContactParts<OgcActivation> contacts{view, view.contact_rows[slot], {}};
     const auto tetrahedra = tetrahedron_part(view, slot, AddTetrahedron{view, view.solids[vertex.body], own});
     team.prefetch(tetrahedra.load.first, tetrahedra.count * static_cast<int>(sizeof(TetrahedronIncidence)));
     team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
