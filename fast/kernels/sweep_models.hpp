@@ -35,26 +35,32 @@ struct OwnVertex {
 
 // The functors below are named, not lambdas: g++ and nvcc need not lay captures out alike (fast/stages/colouring.cpp).
 
-/// Adds a triangle, given the functor of its model.
+// Models are chosen inside of the form of damping, and what a model shares with others stands outside of its choice:
+// a device contracts products and sums within a branch, so where a branch ends decides a bit.
+
+/// Adds a triangle with damping of strains, given the functor of its model.
 struct AddMembrane {
   const MembraneStencil& stencil;
   const SurfaceMaterial& material;
-  compare::DampingForm damping;
   Vec to_b, to_c;
   const Symmetric2& strain_start;
-  const Vec& moved;
   ForceAndBlock& sum;
 
   template <class Model>
   OGC_HD void operator()(Model) const {
-    switch (damping) {
-      case compare::DampingForm::strain: return Model::add(stencil, material, to_b, to_c, strain_start, sum);
-      case compare::DampingForm::per_vertex: {
-        ForceAndBlock elastic;
-        Model::add_elastic(stencil, material, to_b, to_c, elastic);
-        return add_damped_by_vertex(elastic, material.membrane_damping, moved, sum);
-      }
-    }
+    Model::add(stencil, material, to_b, to_c, strain_start, sum);
+  }
+};
+/// Adds a triangle without damping, likewise.
+struct AddElasticMembrane {
+  const MembraneStencil& stencil;
+  const SurfaceMaterial& material;
+  Vec to_b, to_c;
+  ForceAndBlock& sum;
+
+  template <class Model>
+  OGC_HD void operator()(Model) const {
+    Model::add_elastic(stencil, material, to_b, to_c, sum);
   }
 };
 
@@ -63,34 +69,39 @@ OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneInciden
                                     const SurfaceMaterial& material, const SurfaceModels& models, const OwnVertex& own,
                                     ForceAndBlock& sum) {
   const MembraneReads reads = read_membrane(view, incidence, material);
-  with_membrane(models.membrane, AddMembrane{.stencil = incidence.stencil,
-                                             .material = material,
-                                             .damping = models.damping,
-                                             .to_b = reads.b - own.position,
-                                             .to_c = reads.c - own.position,
-                                             .strain_start = reads.strain_start,
-                                             .moved = own.moved,
-                                             .sum = sum});
+  const Vec to_b = reads.b - own.position, to_c = reads.c - own.position;
+  switch (models.damping) {
+    case compare::DampingForm::per_vertex: {
+      ForceAndBlock elastic;
+      with_membrane(models.membrane, AddElasticMembrane{incidence.stencil, material, to_b, to_c, elastic});
+      return add_damped_by_vertex(elastic, material.membrane_damping, own.moved, sum);
+    }
+    case compare::DampingForm::strain:
+      return with_membrane(models.membrane,
+                           AddMembrane{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
+  }
 }
 
 /// Adds a hinge, given the functor of its model; `damping` is k_d/h.
 struct AddHinge {
   const HingeSeen& hinge;
   float damping;
-  compare::DampingForm form;
-  const Vec& moved;
   ForceAndBlock& sum;
 
   template <class Model>
   OGC_HD void operator()(Model) const {
-    switch (form) {
-      case compare::DampingForm::strain: return Model::add_damped(hinge, damping, sum);
-      case compare::DampingForm::per_vertex: {
-        ForceAndBlock elastic;
-        Model::add_elastic(hinge, elastic);
-        return add_damped_by_vertex(elastic, damping, moved, sum);
-      }
-    }
+    Model::add(hinge, damping, sum);
+  }
+};
+/// Adds what `add` of the model leaves out of the damping, likewise.
+struct AddHingeDamper {
+  const HingeSeen& hinge;
+  float damping;
+  ForceAndBlock& sum;
+
+  template <class Model>
+  OGC_HD void operator()(Model) const {
+    Model::add_damper(hinge, damping, sum);
   }
 };
 
@@ -100,7 +111,16 @@ OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& in
                                  const SurfaceModels& models, const OwnVertex& own, ForceAndBlock& sum) {
   HingeSeen hinge = read_hinge(view, incidence, material, own.position);
   hinge.isometric = isometric;
-  with_bending(models.bending, AddHinge{hinge, material.bending_damping, models.damping, own.moved, sum});
+  const float damping = material.bending_damping;
+  const bool of_strain = models.damping == compare::DampingForm::strain;
+  ForceAndBlock whole;
+  with_bending(models.bending, AddHinge{hinge, of_strain ? damping : 0.0f, whole});
+  switch (models.damping) {
+    case compare::DampingForm::per_vertex: return add_damped_by_vertex(whole, damping, own.moved, sum);
+    case compare::DampingForm::strain:
+      sum += whole;
+      return with_bending(models.bending, AddHingeDamper{hinge, damping, sum});
+  }
 }
 
 /// A spring with whatever damping.

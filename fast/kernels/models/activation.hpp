@@ -118,17 +118,17 @@ struct AnyActivation {
 
   /// g' and g'', as ActivationOf::slope.
   OGC_HD ActivationSlope slope(float d, float r, float k) const {
-    return with_activation(activation, SlopeAt{d, r, k});
+    return d < r ? with_activation(activation, SlopeWithin{d, r, k}) : ActivationSlope{};
   }
   /// g [J].
   OGC_HD float energy(float d, float r, float k) const { return with_activation(activation, EnergyAt{d, r, k}); }
 
  private:
-  struct SlopeAt {
+  struct SlopeWithin {
     float d, r, k;
     template <class Activation>
     OGC_HD ActivationSlope operator()(Activation) const {
-      return Activation::slope(d, r, k);
+      return Activation::slope_within(d, r, k);
     }
   };
   struct EnergyAt {

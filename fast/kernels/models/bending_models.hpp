@@ -9,8 +9,8 @@ namespace ogc::fast {
 /// BendingModel::none: hinges without energy, which no rest state holds.
 struct NoBending {
   static constexpr bool is_default = true, reads_weights = false;
-  OGC_HD static void add_elastic(const HingeSeen&, ForceAndBlock&) {}
-  OGC_HD static void add_damped(const HingeSeen&, float, ForceAndBlock&) {}
+  OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
+  OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
   OGC_HD static double energy(const HingeRest&, const HingeWeights&, const Vec*) { return 0; }
 };
 

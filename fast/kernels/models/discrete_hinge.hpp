@@ -28,15 +28,8 @@ struct DiscreteHinge {
     add(hinge.stencil, damping, shape.angle, hinge.angle_start, hinge_gradient(shape, hinge.opposite), sum);
   }
 
-  /// The same without damping.
-  OGC_HD static void add_elastic(const HingeSeen& hinge, ForceAndBlock& sum) { add(hinge, 0.0f, sum); }
-
-  /// The same with damping, summed up by itself first.
-  OGC_HD static void add_damped(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
-    ForceAndBlock whole;
-    add(hinge, damping, whole);
-    sum += whole;
-  }
+  /// `add` leaves nothing out.
+  OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
 
   /// [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
   OGC_HD static double energy(const HingeRest& rest, const HingeWeights&, const Vec* to) {

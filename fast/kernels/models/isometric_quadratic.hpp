@@ -12,8 +12,8 @@ struct IsometricQuadratic {
   static constexpr bool is_default = false;
   static constexpr bool reads_weights = true;
 
-  /// Adds −c w ℓ and c w² I.
-  OGC_HD static void add_elastic(const HingeSeen& hinge, ForceAndBlock& sum) {
+  /// Adds −c w ℓ and c w² I, without damping.
+  OGC_HD static void add(const HingeSeen& hinge, float, ForceAndBlock& sum) {
     const Vec to[3] = {hinge.p[0] - hinge.own, hinge.p[1] - hinge.own, hinge.p[2] - hinge.own};
     const float* w = hinge.isometric.other;
     const Vec curvature = w[0] * to[0] + w[1] * to[1] + w[2] * to[2];
@@ -22,15 +22,12 @@ struct IsometricQuadratic {
     sum.add_identity(pull * hinge.isometric.own);
   }
 
-  /// The same with damping; `damping` is k_d/h.
-  OGC_HD static void add_damped(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
-    ForceAndBlock elastic;
-    add_elastic(hinge, elastic);
-    sum += elastic;
+  /// Adds the damping; `damping` is k_d/h.
+  OGC_HD static void add_damper(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
     if (!(damping > 0)) return;
     HingeSeen damper = hinge;
     damper.stencil = {damping * hinge.stencil.stiffness, hinge.angle_start};
-    DiscreteHinge::add_elastic(damper, sum);
+    DiscreteHinge::add(damper, 0.0f, sum);
   }
 
   /// [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.

@@ -64,7 +64,7 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
 
 TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once a step where it does not", "[unit]") {
   ControlSettings settings;
-  settings.cut_threshold = 5;
+  settings.redetect_count = 5;
   StepControl c = running();
   const int overflow = 0;
   const auto iterate = [&](bool advances) {

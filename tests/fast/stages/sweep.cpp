@@ -230,7 +230,7 @@ TEST_CASE("positions are truncated before they are written, and each cut vertex 
   f.sweep->iterate(f.view());
   int cut = 0;
   for (std::size_t v = 0; v < f.x.size(); ++v) {
-    REQUIRE_FALSE(is_outside({f.previous[v], f.bound[v]}, f.fresh[v]));
+    REQUIRE_FALSE(is_outside(Ball{f.previous[v], f.bound[v]}, f.fresh[v]));
     if (length(f.fresh[v] - f.previous[v]) > 0.9e-5) ++cut;
   }
   CHECK(f.control.cut > 10);

@@ -116,7 +116,7 @@ TEST_CASE("isometric kernel: flat hinges exert nothing, and force and block are 
       hinge.own = narrow(x[own]);
       for (int k = 0; k < 3; ++k) hinge.p[k] = narrow(x[static_cast<std::size_t>(others[own][k])]);
       ForceAndBlock sum;
-      IsometricQuadratic::add_elastic(hinge, sum);
+      IsometricQuadratic::add(hinge, 0, sum);
       CHECK(length(wide(sum.force) - force_by_differences(energy, x, own, 1e-3)) < 1e-5);
       CHECK(sum.block.xx == Approx(3 * all[own] * all[own]));
       CHECK(sum.block.xy == 0);
