@@ -23,6 +23,7 @@
 
 namespace ogc::fast {
 
+/// Which faces meet; the head of this file says which slots a kind has.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
 /// Of two bodies that meet.
@@ -40,7 +41,7 @@ OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) 
 
 /// Barycentric weights of the point of the closed triangle (a, b, c) closest to p.
 struct TriangleWeights {
-  float a = 0, b = 0, c = 0;
+  float a = 0, b = 0, c = 0;  ///< ≥ 0; they add up to 1 but for rounding
 };
 
 namespace detail {
@@ -87,6 +88,7 @@ struct SegmentParameters {
   float first = 0, second = 0;
 };
 
+/// t within [0, 1]; 0 for NaN.
 OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
 
 /// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap
@@ -116,7 +118,7 @@ OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec&
 /// By slot; 0 for a slot that the kind lacks.
 template <class T>
 struct ContactWeightsOf {
-  T slot[4] = {};
+  T slot[4] = {};  ///< w, adding up to 0 but for rounding
 
   /// By selection: a register has no address.
   OGC_HD T of(int k) const {
@@ -157,8 +159,8 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
 /// then, keeps them apart.
 template <class T>
 struct ContactShapeOf {
-  Vector<T> normal;
-  T distance{};
+  Vector<T> normal;  ///< n, a unit vector from the second side's closest point to the first side's
+  T distance{};      ///< d [m]
   Mask<T> acts{};
 };
 using ContactShape = ContactShapeOf<float>;

@@ -10,7 +10,7 @@ namespace ogc::fast {
 
 /// A position that its region holds, and whether the proposal was changed for it.
 struct Truncated {
-  Vec position;
+  Vec position;  ///< [m]
   bool cut = false;
 };
 
@@ -26,8 +26,8 @@ OGC_HD inline bool is_certainly_within(const Ball& ball, const Vec& x) {
 
 /// A sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not overlap.
 struct ExactTotal {
-  double part[8] = {};
-  int count = 0;
+  double part[8] = {};  ///< in use are the first `count`
+  int count = 0;        ///< at most 8: each square adds two
 
   /// Adds a number.
   OGC_HD void grow(double value) {

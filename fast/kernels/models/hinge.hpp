@@ -32,7 +32,7 @@ struct HingeRest {
 
 /// w of x1, o0, o1 [1/m], of the isometric model; that of x0 is minus their sum.
 struct HingeWeights {
-  float weight[3] = {};
+  float weight[3] = {};  ///< of x1, o0, o1
 };
 
 /// Angle of a hinge and what its gradients need of the present shape.
@@ -110,7 +110,7 @@ struct IsometricStencil {
 
 /// All that a bending model reads of a hinge, seen from the vertex that is solved.
 struct HingeSeen {
-  HingeStencil stencil;
+  HingeStencil stencil;        ///< c and θ₀
   IsometricStencil isometric;  ///< where the body bends so
   bool opposite;               ///< the vertex is none of the edge
   Vec own, p[3];               ///< positions; p as in hinge_shape_seen
