@@ -33,12 +33,12 @@ struct ContactView {
   /// All on the backend. After a detection that overflowed nothing here is of use.
   const VertexFacetRecord* vertex_facet = nullptr;
   const EdgeEdgeRecord* edge_edge = nullptr;
-  const int* vertex_facet_count = nullptr;  ///< on the device
+  const int* vertex_facet_count = nullptr;  ///< of the records; the host does not know it
   const int* edge_edge_count = nullptr;     ///< likewise
   const int* incidence_offsets = nullptr;   ///< vertex_count + 1
   const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]
   const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
-  const float* d_min_vertex = nullptr;      ///< [m]
+  const float* d_min_vertex = nullptr;  ///< Eq. 22 by vertex [m], at most r_q; with planes of all pairs of the vertex
 };
 
 }  // namespace ogc::fast

@@ -33,7 +33,7 @@ struct Box {
   }
 };
 
-/// Of two intervals; 0 where they meet.
+/// Gap of two intervals; 0 where they meet.
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
   // one instruction each; another zero has the same square
@@ -189,13 +189,13 @@ struct Reach {
   const float* query_radius;        ///< r_q [m], on the backend
   const SkinState* skin = nullptr;  ///< null: a search that keeps no pairs
 
-  /// Of an edge [m].
+  /// Reach of an edge [m].
   OGC_HD float of_edge(int e) const {
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
     return above(nearest);
   }
-  /// Of a facet [m].
+  /// Reach of a facet [m].
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
     Nearest nearest;
@@ -203,7 +203,7 @@ struct Reach {
       consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
     return above(nearest);
   }
-  /// Of a vertex [m].
+  /// Reach of a vertex [m].
   OGC_HD float of_vertex(int v) const {
     Nearest nearest;
     for (const int e : surface.vertex_seeds[v].edge) {

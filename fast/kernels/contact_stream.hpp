@@ -22,7 +22,7 @@ struct ContactTables {
   const Vec* previous = nullptr;        ///< X_prev, positions of the detection, for e_k
 };
 
-/// Stiffness and friction of a contact of two vertices' bodies.
+/// A contact with the k_c [N/m] and μ of two vertices' bodies (method.md §4.5), and nothing else.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;
@@ -52,7 +52,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord&
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
 }
 
-/// Plain vertex numbers as indices, `own` 0.
+/// A vertex–facet contact as a record has it: plain vertex numbers as indices, `own` 0.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
   ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
   set_slots(contact, record);
@@ -72,7 +72,7 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
-/// The same.
+/// The slots of an edge–edge record, likewise.
 OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;

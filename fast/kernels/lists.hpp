@@ -168,7 +168,7 @@ struct ListsView {
     atomic_add(without_slot, 1);
   }
 
-  /// The record of a contact and its incidences for one more or less.
+  /// Counts the record of a contact and its incidences: `amount` 1, or −1 to take them back.
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
@@ -287,7 +287,7 @@ struct WriteRecords {
   }
 
  private:
-  /// All contacts before it.
+  /// Contacts of all buckets before its own, and those of its own with a smaller second face.
   OGC_HD int rank(const RawContact& own) const {
     const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
     int before = begin;

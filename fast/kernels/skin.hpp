@@ -76,7 +76,7 @@ OGC_HD inline void raise_bits(int* target, float value) {
   if (bits > *const_cast<const volatile int*>(target)) atomic_max(target, bits);
 }
 
-/// for_each over vertices: δ and X.
+/// for_each over vertices: raises δ, the largest displacement since the search, and X, the largest coordinate.
 struct MeasureDrift {
   SkinView skin;
   const Vec* positions;  ///< of this detection, by vertex [m]
@@ -91,9 +91,10 @@ struct MeasureDrift {
   }
 };
 
-/// After it, alone. A list costs about as much as a second search, so it is made only where the next three detections
-/// can use it: m is chosen for six of them, at the displacement since the search before this detection. After each list
-/// in a row that nothing could use, twice as many searches are made without one.
+/// After MeasureDrift, one item: the mode of this detection. A list costs about as much as a second search, so it is
+/// made only where the next three detections can use it: m is chosen for six of them, at the displacement since the
+/// search before this detection. After each list in a row that nothing could use, twice as many searches are made
+/// without one.
 struct ChooseSkinMode {
   /// Share of m that δ may reach: a list then still holds all that matters (head of this file).
   static constexpr float drift_of_margin = 0x7p-5F;

@@ -32,11 +32,11 @@ struct Rows {
 struct EdgeSeeds {
   int vertex[2];  ///< each has an edge that forms a pair with this one
 };
-/// Of a facet.
+/// Seeds of a facet.
 struct FacetSeeds {
   int vertex[3];  ///< across edge k of the facet: forms a pair with it
 };
-/// Of a vertex.
+/// Seeds of a vertex.
 struct VertexSeeds {
   int edge[2];  ///< each has a facet that forms a pair with the vertex
 };

@@ -58,7 +58,7 @@ OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squ
   return !(normal_squared > relative * length_squared * side_squared);
 }
 
-/// From e, a and b.
+/// The shape of a hinge with these e, a and b.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, const Vector<T>& b) {
   HingeShapeOf<T> shape;

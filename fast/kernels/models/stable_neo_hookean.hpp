@@ -20,7 +20,7 @@ struct AreaRatio {
   float ratio = 0, density = 0;  ///< J [1], q [1/m²]
 };
 
-/// Of the edges b, c and the gradients ∇N_b, ∇N_c.
+/// J, n and q of a triangle with the edges b, c and the gradients ∇N_b, ∇N_c.
 OGC_HD inline AreaRatio area_ratio(const Vec& to_b, const Vec& to_c, const float* gradient_b, const float* gradient_c) {
   Vec normal = cross(to_b, to_c);
   float scale = fabsf(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
