@@ -31,7 +31,7 @@ struct ConservativeBound {
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
   float bound_relaxation;  ///< γ_p of Eq. 21 [1]
   const int* overflow;     ///< as in ResetDistances
-  float* bound;            ///< b_v by vertex [m], at most γ_p r_q
+  float* bound;            ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
 
   /// The product of two single-precision numbers is exact in double, so the bound is the largest float that is not
   /// above it.

@@ -60,7 +60,7 @@ struct StepControl {
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;               ///< [m]
-  /// vertices cut since it was last asked whether a detection is due; those of that time, lagging ones included
+  /// vertices cut in this round or iteration; cut_last: in the one before, lagging ones included
   int cut = 0, cut_last = 0;
   /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
   /// one has asked for a detection in this step.

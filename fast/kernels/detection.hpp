@@ -39,7 +39,7 @@ struct PrepareAndRefit {
 
 /// The pairs of the Verlet list, in place of a search; index over all of them.
 struct RecheckPairs {
-  /// Whose `recheck` measures the pairs of a vertex and a facet, and those of two edges.
+  /// Their `recheck` measures the pairs of a vertex and a facet, and those of two edges.
   DetectVertexFacet vertex_facet;
   DetectEdgeEdge edge_edge;
 

@@ -136,7 +136,7 @@ OGC_HD inline bool is_within(const FeasibleRegion& region, const Vec& x) {
 
 /// The direction in which a vertex leaves a half-space with the least increase of its energy: H⁻¹ n.
 struct BlockMetric {
-  Symmetric3 block;    ///< H [N/m], positive semidefinite
+  Symmetric3 block;    ///< H of the update, inertia included [N/m]
   float fallback = 0;  ///< as of solve_symmetric
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }

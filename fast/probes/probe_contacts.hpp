@@ -23,7 +23,7 @@ struct ContactBatch {
   std::vector<compare::Vec3f> positions, previous, start;       ///< by vertex: x, X_prev, xᵗ [m]
   std::vector<float> rest_squared, contact_radius, slip_limit;  ///< by edge [m²]; by case: r, ε_v h [m]
   std::vector<int> body, role;                                  ///< by vertex; by case, as in contact_view.hpp
-  /// by case; bit k: the vertex of role k has the own one's colour
+  /// by case; bit k of `together`: the vertex of role k has the own one's colour
   std::vector<std::uint8_t> is_edge_edge, together;
   std::vector<AnyActivation> activation;  ///< by case
 };

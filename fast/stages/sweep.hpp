@@ -27,9 +27,9 @@ struct SweepStreams {
   std::vector<MembraneIncidence> membrane;       ///< row by row, in the order of slots
   std::vector<HingeIncidence> hinges;            ///< likewise
   std::vector<IsometricStencil> isometric;       ///< beside `hinges`; empty where no body bends isometrically
-  std::vector<SpringIncidence> springs;          ///< likewise
+  std::vector<SpringIncidence> springs;          ///< row by row, as spring_rows says
   std::vector<SpringRow> spring_rows;            ///< by slot; empty where there is no spring
-  std::vector<TetrahedronIncidence> tetrahedra;  ///< likewise
+  std::vector<TetrahedronIncidence> tetrahedra;  ///< row by row, as tetrahedron_rows says
   std::vector<TetrahedronGradients> gradients;   ///< beside `tetrahedra`; empty where no body damps
   std::vector<TetrahedronRow> tetrahedron_rows;  ///< by slot; empty where there is no tetrahedron
 };

@@ -21,7 +21,7 @@ namespace ogc::fast {
 struct Rounded {
   double value = 0;
 
-  /// A coordinate against another, rounded once, and a constant: all that polynomials are built of.
+  /// What polynomials are built of: the difference of two coordinates, rounded once, and a constant.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }

@@ -62,7 +62,7 @@ struct OgcActivation : TwoStages<OgcActivation> {
 
 /// ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
 struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
-  /// k'_c as Eq. 19 has it [J m], in place of joules.
+  /// k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
   OGC_HD static float logarithmic_stiffness(float r, float k) {
     const float stiffness = 0.25F * k * r * r;
     return 0.5F * r * stiffness;
