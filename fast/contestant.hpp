@@ -8,6 +8,7 @@
 
 namespace ogc::fast {
 
+/// What computes: the host's threads, or one CUDA device.
 enum class Backend { cpu, cuda };
 
 /// How launches are divided into blocks. No answer depends on it; tests of determinism let one device launch as another
@@ -23,8 +24,8 @@ compare::Contestant contestant(Backend backend, const LaunchShape& shape = {});
 
 /// Whether the program was built with the backend, and whether it can run here; the reason where it can't.
 struct BackendInfo {
-  bool built = false, usable = false;
-  std::string description;  ///< "2 threads", "NVIDIA H200, CUDA 13.0", or why not
+  bool built = false, usable = false;  ///< compiled in; and found on this machine
+  std::string description;             ///< "2 threads", "NVIDIA H200, CUDA 13.0", or why not
 };
 /// Of this program on this machine.
 BackendInfo backend_info(Backend backend);

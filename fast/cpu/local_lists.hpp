@@ -12,8 +12,10 @@ namespace ogc::fast {
 template <class Item, int room>
 class LocalList {
  public:
+  /// In place of the common list and its counter, for functors that add to these.
   Item* items() { return items_; }
   int* count() { return &count_; }
+  /// Whether so many more fit; asked before they are added, since beyond its room a list only counts.
   bool has_room_for(int more) const { return count_ + more <= room; }
 
   /// Moves all to a common list, which counts also those that find no room; these are left to without_room(item).

@@ -31,11 +31,13 @@ inline namespace OGC_PACKS {
 /// g++'s vector types of N numbers.
 template <int N>
 struct Register;
+/// 16 B: a register of SSE2.
 template <>
 struct Register<4> {
   using Numbers __attribute__((vector_size(16))) = float;
   using Bits __attribute__((vector_size(16))) = std::int32_t;
 };
+/// 32 B: a register of AVX2.
 template <>
 struct Register<8> {
   using Numbers __attribute__((vector_size(32))) = float;
@@ -46,7 +48,7 @@ struct Register<8> {
 template <int N>
 struct PackMaskOf {
   using Bits = typename Register<N>::Bits;  ///< all ones or none
-  Bits bits{};
+  Bits bits{};                              ///< by lane
 
   friend PackMaskOf operator!(PackMaskOf a) { return {~a.bits}; }
   friend PackMaskOf operator&&(PackMaskOf a, PackMaskOf b) { return {a.bits & b.bits}; }
@@ -70,10 +72,10 @@ struct PackMaskOf {
 /// N floats in one register, each in a lane.
 template <int N>
 struct PackOf {
-  static constexpr int width = N;
+  static constexpr int width = N;  ///< lanes
   using Numbers = typename Register<N>::Numbers;
   using Mask = PackMaskOf<N>;
-  Numbers value{};
+  Numbers value{};  ///< by lane
 
   PackOf() = default;
   PackOf(Numbers packed) : value(packed) {}                    // NOLINT: formulas mix packs with constants
@@ -86,6 +88,7 @@ struct PackOf {
     (std::make_integer_sequence<int, N>());
   }
 
+  /// Lane k to to[k], which needs no alignment.
   void store(float* to) const { std::memcpy(to, &value, sizeof value); }
   float operator[](int k) const { return value[k]; }
 
@@ -166,8 +169,9 @@ PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
 /// Of the four numbers of each 16 B: the first ones of a, b, c and d, then their second ones, and so on.
 template <int N>
 struct ColumnsOf {
-  PackOf<N> x, y, z, w;
+  PackOf<N> x, y, z, w;  ///< x: number 0 of each 16 B of a, b, c and d in this order; y, z and w: numbers 1, 2 and 3
 };
+/// The ColumnsOf of four rows.
 template <int N>
 ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>& c, const PackOf<N>& d) {
   const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d);
@@ -180,6 +184,7 @@ using Columns = ColumnsOf<4>;
 /// Two halves as one; registers all the way, as a pack that is read back from two halves in memory waits for both to
 /// arrive there.
 #if defined(__AVX2__)
+/// `low` in lanes 0 … 3, `high` in lanes 4 … 7.
 inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
 #endif
 
@@ -199,6 +204,7 @@ template <class P>
 
 }  // namespace OGC_PACKS
 
+/// Packs are compared lane by lane.
 template <int N>
 struct MaskOf<PackOf<N>> {
   using type = PackMaskOf<N>;

@@ -7,13 +7,14 @@ namespace ogc::fast {
 
 /// A part of so many items that was computed one by one: the sums of all team lanes; null: none.
 struct TeamLaneSums {
-  const ForceAndBlock* sums = nullptr;
-  int count = 0;
+  const ForceAndBlock* sums = nullptr;  ///< by team lane, W of them
+  int count = 0;                        ///< items of the part; where they are fewer than W the last sums are 0
 };
 
 /// Parts that are not computed in packs: triangles and hinges where they have sums here, springs, and tetrahedra where
 /// they have.
 struct OtherParts {
+  /// null sums: packs compute the part, or there is none
   TeamLaneSums triangles, hinges, springs, tetrahedra;
 };
 
@@ -22,7 +23,7 @@ using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const S
                                         const OtherParts& other);
 /// One function for each number W of team lanes.
 struct GatherByLanes {
-  GatherInPacks gather_4, gather_8, gather_16, gather_32;
+  GatherInPacks gather_4, gather_8, gather_16, gather_32;  ///< for W = 4, 8, 16, 32
 
   /// That of W.
   template <int W>
@@ -33,9 +34,10 @@ struct GatherByLanes {
 };
 /// Of scenes with surfaces, and of those whose free vertices all belong to solids.
 struct PackKernels {
-  GatherByLanes surfaces, solids;
+  GatherByLanes surfaces, solids;  ///< as GatherDefault, as GatherSolids
 };
 
+/// Compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
 extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 
 /// Whether this machine can run those for AVX2.
@@ -52,8 +54,8 @@ TeamLaneSums one_by_one(const AnyPart& part, ForceAndBlock (&sums)[W]) {
 
 /// As GatherDefault.
 struct GatherPacked {
-  static constexpr int parts = GatherDefault::parts;
-  const PackKernels& kernels = pack_kernels();
+  static constexpr int parts = GatherDefault::parts;  ///< of the sum; devices alone read it
+  const PackKernels& kernels = pack_kernels();        ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -67,8 +69,8 @@ struct GatherPacked {
 
 /// As GatherSolids: in packs but for tetrahedra that damp, which are computed one by one.
 struct GatherPackedSolids {
-  static constexpr int parts = GatherSolids::parts;
-  const PackKernels& kernels = pack_kernels();
+  static constexpr int parts = GatherSolids::parts;  ///< of the sum; devices alone read it
+  const PackKernels& kernels = pack_kernels();       ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -90,9 +92,9 @@ struct GatherPackedSolids {
 /// with other models than the default ones, which are computed one by one; as there with other activations.
 template <class Gather>
 struct GatherPackedModels {
-  static constexpr int parts = Gather::parts;
-  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything>;
-  const PackKernels& kernels = pack_kernels();
+  static constexpr int parts = Gather::parts;                                   ///< of the sum; devices alone read it
+  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything>;  ///< whether tetrahedra are a part
+  const PackKernels& kernels = pack_kernels();                                  ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,

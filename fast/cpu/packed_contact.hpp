@@ -18,8 +18,9 @@ ContactWeights weights_of_one(ContactKind kind, const Vec* x);
 
 inline namespace OGC_PACKS {
 
-/// OgcActivation within the radius.
+/// OgcActivation within the radius: both stages are computed, and one is selected.
 struct PackedActivation {
+  /// g' [N] and g'' [N/m] by lane, for distances 0 < d < r [m] and stiffnesses k_c [N/m].
   template <int N>
   static ActivationSlopeOf<PackOf<N>> slope(PackOf<N> d, float r, PackOf<N> k) {
     const PackMaskOf<N> logarithmic = d < 0.5F * r;
@@ -28,6 +29,7 @@ struct PackedActivation {
   }
 };
 
+/// friction_slope_over_slip of fast/kernels/friction_force.hpp by lane [1/m].
 template <int N>
 PackOf<N> friction_slope_over_slip(PackOf<N> slip, float limit) {
   return select(slip < limit, (2.0F - slip / limit) / limit, 1.0F / slip);
@@ -35,13 +37,14 @@ PackOf<N> friction_slope_over_slip(PackOf<N> slip, float limit) {
 
 namespace packed {
 
+/// t within [0, 1] by lane; 0 for NaN.
 template <class P>
 P clamp_unit(P t) {
   return select(t > 0.0F, select(t < 1.0F, t, 1.0F), 0.0F);
 }
 
-/// closest_on_segments; `usual`: where the result is that. False for a segment of length zero and for nearly parallel
-/// ones.
+/// closest_on_segments by lane, as weights. `usual`: lanes where this formula holds, that is neither segment has length
+/// zero, and they are not nearly parallel.
 template <class P>
 ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual) {
   const Vector<P> first = x[1] - x[0], second = x[3] - x[2], between = x[2] - x[0];
@@ -57,7 +60,8 @@ ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual)
   return {{1.0F - p, p, q - 1.0F, -q}};
 }
 
-/// closest_on_triangle; `usual`: where the point is over the interior, and the result is that.
+/// closest_on_triangle by lane, as weights. `usual`: lanes where this formula holds, that is the point lies over the
+/// interior.
 template <class P>
 ContactWeightsOf<P> triangle_weights(const Vector<P>* x, typename P::Mask& usual) {
   const Vector<P> ab = x[2] - x[1], ac = x[3] - x[1], ap = x[0] - x[1], normal = cross(ab, ac);
@@ -67,7 +71,8 @@ ContactWeightsOf<P> triangle_weights(const Vector<P>* x, typename P::Mask& usual
   return {{1.0F, -(a / area), -(b / area), -(c / area)}};
 }
 
-/// Of all that are counted.
+/// Weights of the closest points of the items that are counted, by slot. Those that are not `usual` are computed one by
+/// one.
 template <class P>
 ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vector<P>* x) {
   bool segments = false;
@@ -95,7 +100,7 @@ ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vecto
   return weights;
 }
 
-/// Of the slot that each item's own vertex has.
+/// By lane: weight of the slot that the item's own vertex has.
 template <class P>
 P own_weight(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights) {
   float slot[4][P::width];
@@ -103,7 +108,7 @@ P own_weight(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>&
   return P::of_each([&](int k) { return slot[items.at[k]->own][k]; });
 }
 
-/// ContactAt::majorant of each.
+/// ContactAt::majorant by lane.
 template <class P>
 P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights) {
   float slot[4][P::width];
@@ -116,7 +121,7 @@ P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& 
   });
 }
 
-/// add_friction at items with friction.
+/// add_friction of each item that has friction; the others' sums stay, bit for bit.
 template <class P>
 void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights,
               const Vector<P>* x, const Vector<P>& normal, P weight, P majorant, P normal_force,

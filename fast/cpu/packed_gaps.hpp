@@ -10,6 +10,7 @@
 
 namespace ogc::fast {
 
+/// The bits of the squared_gap of each child; a child without a box is infinitely far.
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   const Pack box_lower(Pack::Numbers{box.lower.x, box.lower.y, box.lower.z, 0}),
       box_upper(Pack::Numbers{box.upper.x, box.upper.y, box.upper.z, 0});

@@ -10,7 +10,7 @@ namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// As many sums as one.
+/// P::width sums as one of packs, sum k in lane k.
 template <class P>
 ForceAndBlockOf<P> together(const ForceAndBlock* a) {
   const auto each = [a](auto number) { return P::of_each([&](int k) { return number(a[k]); }); };
@@ -90,9 +90,9 @@ void add_tetrahedra(const SweepView& view, const Items<TetrahedronIncidence, P>&
 template <int W, class P>
 struct TeamLanes {
   static_assert(W >= P::width);
-  ForceAndBlockOf<P> packs[W / P::width];
+  ForceAndBlockOf<P> packs[W / P::width];  ///< team lane l in lane l mod P::width of pack l / P::width
 
-  /// A part of so many items; add(items, sum).
+  /// Adds a part of `count` items; add(items, sum) adds P::width of them at a time.
   template <class Item, class Add>
   void add_part(const Item* items, int count, Add add) {
     for (int first = 0; first < W && first < count; first += P::width) {
@@ -102,7 +102,7 @@ struct TeamLanes {
     }
   }
 
-  /// A part that was computed one by one.
+  /// Adds a part that was computed one by one.
   void add_part(const TeamLaneSums& part) {
     for (int first = 0; first < W && first < part.count; first += P::width)
       packs[first / P::width] += together<P>(part.sums + first);
@@ -128,7 +128,7 @@ struct TeamLanes {
   }
 };
 
-/// Both kinds of contacts.
+/// Adds the contacts of a slot, vertex–facet ones first.
 template <int W, class P>
 void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) {
   const ContactRow row = view.contact_rows[slot];

@@ -11,8 +11,8 @@ namespace packed {
 /// The items that as many team lanes take next of a part; lanes beyond it repeat its last item, and are not counted.
 template <class Item, class P>
 struct Items {
-  const Item* at[P::width];
-  typename P::Mask counted;
+  const Item* at[P::width];  ///< by lane
+  typename P::Mask counted;  ///< false in lanes beyond the part
 
   Items(const Item* first, int count) : counted(first_of<P>(count)) {
     for (int k = 0; k < P::width; ++k) at[k] = first + (k < count ? k : count - 1);

@@ -16,7 +16,7 @@ inline Vector<Pack> gathered(PaddedVecs positions, int a, int b, int c, int d) {
   return transposed<Pack>(vertex);
 }
 
-/// Lower bounds of the distances of four candidates.
+/// Lower bounds of the distances of an edge and four others, as `separation` gives them [m].
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
@@ -27,7 +27,7 @@ inline Pack separations(const DetectEdgeEdge& query, const Search& search, const
                                  gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
-/// Likewise.
+/// The same of a vertex and four facets.
 inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* primitive) {
   const int* corner[Pack::width];
   for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
@@ -40,11 +40,11 @@ inline Pack separations(const DetectVertexFacet& query, const Search& search, co
 /// Candidates that wait for three others.
 template <class Query>
 struct Waiting {
-  const Query& query;
-  LocalNotes& notes;
-  Search& search;
-  int primitive[Pack::width], count = 0;
-  float gap[Pack::width], within[Pack::width];
+  const Query& query;                           ///< notes pairs in `notes`
+  LocalNotes& notes;                            ///< of the thread
+  Search& search;                               ///< that they belong to; its limit falls as distances are taken
+  int primitive[Pack::width], count = 0;        ///< the first `count` wait
+  float gap[Pack::width], within[Pack::width];  ///< squared gaps of boxes, and what candidate_limit says [m²]
 
   /// One candidate more.
   void take(const Offer& offer) {
@@ -69,7 +69,8 @@ struct Waiting {
   }
 };
 
-/// Those from begin to end, by one thread. One that keeps pairs within a margin looks at them one by one.
+/// The searches begin … end − 1, by one thread. A search that keeps pairs within a margin looks at its candidates
+/// one by one.
 template <class Query>
 void run_searches(const Searches<Query>& searches, int begin, int end) {
   if (searches.query.is_off()) return;

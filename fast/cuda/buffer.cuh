@@ -24,6 +24,7 @@ void device_free(void* memory) noexcept;
 /// Counts allocations that moved: a recorded graph holds raw pointers and is stale once this number has changed.
 inline std::atomic<std::uint64_t> buffer_generation{0};
 
+/// A resident array on the device, movable, not copied.
 template <class T>
 class CudaBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -37,6 +38,7 @@ class CudaBuffer {
   }
   ~CudaBuffer() { device_free(items_); }
 
+  /// Items on the device, size() of them; null until there was one.
   T* data() { return items_; }
   const T* data() const { return items_; }
   std::size_t size() const { return size_; }

@@ -29,8 +29,9 @@ inline constexpr int largest_searched_count = 4 << 25;
 
 /// A node of the stack: level, search of the group, place in the level.
 struct SearchNode {
-  unsigned bits;
+  unsigned bits;  ///< from the top: level in 4, slot in 3, place in 25
 
+  /// To bits and back: level < max_levels, slot of the search in its group, place < 2²⁵ of the node in its level.
   __device__ static SearchNode of(int level, int slot, int j) {
     return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
   }
@@ -41,18 +42,22 @@ struct SearchNode {
 
 /// A primitive that a leaf offered to a search of the group.
 struct alignas(16) SearchItem {
-  int slot;
+  int slot;  ///< of the search in its group
   Offer offer;
 };
 
 /// Open ends of one warp. A list from which 32 could be taken gets nothing, and no round adds more than 32.
 struct SearchMemory {
+  /// A round that may add 32 items to a list finds at most 31 there; of nodes there is one for each search, and at most
+  /// 32 of each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
-  Search searches[largest_group];
+  Search searches[largest_group];  ///< by slot
+  /// stacks; what is_pair lets through goes from the first to the second
   SearchItem candidates[most_items], pairs[most_items];
-  SearchNode nodes[most_nodes];
+  SearchNode nodes[most_nodes];  ///< stack
 };
 
+/// The searches of one warp. Its 32 threads call `run` together.
 template <class Query>
 class WarpSearch {
  public:
@@ -152,12 +157,14 @@ class WarpSearch {
 /// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches
 /// lie side by side, and a warp that got them all would hold up the launch.
 struct SearchGroups {
-  int group, warps;
+  int group, warps;  ///< searches of a warp, at most; warps that have any
 
   SearchGroups(int count, int searches) : group(searches), warps((count + searches - 1) / searches) {}
+  /// Of `block_warps` warps each.
   int blocks(int block_warps) const { return (warps + block_warps - 1) / block_warps; }
 };
 
+/// The searches of warp number `warp` of a kind; none beyond groups.warps, or where the query is off.
 template <class Query>
 __device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
   if (warp >= groups.warps || searches.query.is_off()) return;

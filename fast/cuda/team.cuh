@@ -36,6 +36,7 @@ inline constexpr int serial_block_size = 128;  ///< threads of a block of Serial
 
 namespace detail {
 
+/// Size of an accumulator in words of 4 B, as shuffles move them.
 template <class Accumulator>
 __device__ constexpr int words() {
   static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0,
@@ -44,6 +45,7 @@ __device__ constexpr int words() {
   return sizeof(Accumulator) / sizeof(unsigned);
 }
 
+/// The accumulator of the thread whose lane is this one's xor `distance`; all threads of the warp call it together.
 template <class Accumulator>
 __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   unsigned word[words<Accumulator>()];
@@ -84,7 +86,7 @@ __device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
 /// Shared memory of a block for a pooled part.
 template <int W, class Accumulator>
 struct Pool {
-  static constexpr int teams = serial_block_size / W;
+  static constexpr int teams = serial_block_size / W;  ///< of a block
   using Scan = cub::BlockScan<int, serial_block_size>;
   typename Scan::TempStorage scan;
   int begins[teams], offsets[teams + 1];  ///< of the teams' items: in their arrays; in the order of the block
@@ -136,10 +138,11 @@ template <int W>
 class SpreadTeam {
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;
+  static constexpr int width = W;  ///< W, team lanes
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
 
+  /// Waits for the launch before, as `sum` does.
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
   __device__ static void prefetch(const void*, int) {}
@@ -163,6 +166,7 @@ class SpreadTeam {
     return detail::total_of_lanes<W>(total);
   }
 
+  /// Team lane 0 of warp 0, where the total is.
   __device__ bool leader() const { return present_ && warp() == 0 && lane() == 0; }
 
  private:
@@ -172,14 +176,16 @@ class SpreadTeam {
   bool present_;
 };
 
+/// A team whose team lanes run all parts of a sum (head of this file).
 template <int W>
 class SerialLaneTeam {
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;
+  static constexpr int width = W;  ///< W, team lanes
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
 
+  /// Waits for the launch before, as `sum` does.
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
   /// Fetches rows of a stream into the second-level cache while the team works on others: a launch of SerialLaneTeams
@@ -190,6 +196,7 @@ class SerialLaneTeam {
       asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
   }
 
+  /// The first part must not be a pooled one: what it loads is read while the launch before may still run.
   template <class Accumulator, class First, class... Others>
   __device__ Accumulator sum(const First& first, const Others&... others) const {
     Accumulator total{};
@@ -198,6 +205,7 @@ class SerialLaneTeam {
     return detail::total_of_lanes<W>(total);
   }
 
+  /// Team lane 0; each of them has the total.
   __device__ bool leader() const { return present_ && lane() == 0; }
 
  private:

@@ -18,12 +18,14 @@
 
 namespace ogc::fast {
 
+/// Beyond every distance: where an empty box lies, and a neighbour that a primitive lacks.
 inline constexpr float infinity = __builtin_huge_valf();
 
 /// A closed box; empty at first.
 struct Box {
-  Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};  ///< corners [m]
 
+  /// Grows the box just so far that it holds a point, another box.
   OGC_HD void include(const Vec& p) { include(Box{p, p}); }
   OGC_HD void include(const Box& b) {
     lower = {smaller(lower.x, b.lower.x), smaller(lower.y, b.lower.y), smaller(lower.z, b.lower.z)};
@@ -31,7 +33,7 @@ struct Box {
   }
 };
 
-/// Of two intervals; 0 where they meet.
+/// Gap of two intervals; 0 where they meet.
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
   // one instruction each; another zero has the same square
@@ -59,17 +61,17 @@ OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0
 
 /// A box with the gap limit of its reach and, in level 0, the primitive in it: two reads of 16 B.
 struct alignas(16) Child {
-  Vec lower{infinity, infinity, infinity};
-  float reach = 0;
-  Vec upper{-infinity, -infinity, -infinity};
-  int primitive = -1;
+  Vec lower{infinity, infinity, infinity};     ///< of the box [m]
+  float reach = 0;                             ///< gap limit of how far its primitives still look [m²]
+  Vec upper{-infinity, -infinity, -infinity};  ///< of the box [m]
+  int primitive = -1;  ///< number of the facet or edge; −1 above level 0 and in an empty child
 
   OGC_HD Box box() const { return {lower, upper}; }
 };
 
 /// A node: four children, those without a box empty; as long as a line of a device's cache, and none lies in two.
 struct alignas(128) Quad {
-  Child child[4];
+  Child child[4];  ///< child k of node j is node 4 j + k of the level below, or place 4 j + k of the order
 
   /// The box of all children.
   OGC_HD Box whole() const {
@@ -87,12 +89,13 @@ inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal
 
 /// A tree on the backend.
 struct TreeView {
-  Quad* nodes = nullptr;
+  Quad* nodes = nullptr;       ///< level by level, from start[level]
   const int* order = nullptr;  ///< primitive at each place
   int count = 0;               ///< primitives
   int levels = 0;              ///< at least 2; the last has one node
   int start[max_levels] = {};  ///< number of each level's first node
 
+  /// Node j of a level, in place.
   OGC_HD Quad& node(int level, int j) const { return nodes[start[level] + j]; }
 };
 
@@ -108,8 +111,8 @@ OGC_HD inline int lowest_bit(std::uint64_t n) {
 /// Squared gaps of a box and the four children, and a bit for each child whose gap is within the limit or the child's
 /// own reach.
 struct QuadGaps {
-  float child[4];
-  unsigned near;
+  float child[4];  ///< squared gaps [m²]
+  unsigned near;   ///< bit k: child k
 
   OGC_HD float operator[](int i) const {
     return i < 2 ? (i == 0 ? child[0] : child[1]) : (i == 2 ? child[2] : child[3]);
@@ -118,6 +121,7 @@ struct QuadGaps {
 
 #if defined(__CUDACC__)
 
+/// Limits are squared, as gap_limit makes them [m²].
 OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   QuadGaps gaps{{}, 0};
   for (unsigned i = 0; i < 4; ++i) {
@@ -136,8 +140,8 @@ inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit);
 
 /// A primitive that a leaf offers to a search: the squared gap of their boxes, and the gap limit of its reach.
 struct Offer {
-  int primitive;
-  float gap, reach;
+  int primitive;     ///< number of the facet or edge
+  float gap, reach;  ///< squared gap and gap limit [m²]
 };
 
 /// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own
@@ -181,17 +185,17 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
 /// so the smallest distance is not above it.
 struct Reach {
   SurfaceView surface;
-  const Vec* positions;
-  const float* query_radius;
+  const Vec* positions;             ///< by vertex [m]
+  const float* query_radius;        ///< r_q [m], on the backend
   const SkinState* skin = nullptr;  ///< null: a search that keeps no pairs
 
-  /// Of an edge [m].
+  /// Reach of an edge [m].
   OGC_HD float of_edge(int e) const {
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
     return above(nearest);
   }
-  /// Of a facet [m].
+  /// Reach of a facet [m].
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
     Nearest nearest;
@@ -199,7 +203,7 @@ struct Reach {
       consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
     return above(nearest);
   }
-  /// Of a vertex [m].
+  /// Reach of a vertex [m].
   OGC_HD float of_vertex(int v) const {
     Nearest nearest;
     for (const int e : surface.vertex_seeds[v].edge) {
@@ -235,11 +239,12 @@ OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count 
 /// never leave its registers.
 struct RefitTrees {
   Reach reach;
-  TreeView facets, edges;
+  TreeView facets, edges;               ///< in the order of the last rebuild; their boxes and reaches are written
   int *facet_arrivals, *edge_arrivals;  ///< a number for each node, 0 between two launches
-  float* vertex_limit;
+  float* vertex_limit;                  ///< by vertex: gap limit of its reach [m²], written
   int vertex_count;
 
+  /// Next multiple of a warp, and the items of the launch.
   OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
@@ -362,7 +367,7 @@ OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
 
 /// A cell of a grid of 2²⁰ in each direction.
 struct Cell {
-  std::uint32_t axis[3];
+  std::uint32_t axis[3];  ///< along x, y and z, below 2²⁰
 };
 
 /// The place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Cells one after the other
@@ -389,10 +394,10 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
 /// Hilbert keys of all vertices, edges and facets for one sort; the two highest bits keep the three kinds apart.
 struct HilbertKeys {
   SurfaceView surface;
-  const Vec* positions;
+  const Vec* positions;    ///< by vertex [m]
   TreeView facets, edges;  ///< refitted: their roots give the extent
-  std::uint64_t* keys;
-  int* values;
+  std::uint64_t* keys;     ///< bits 62 and 63: kind; below: place on the curve
+  int* values;             ///< number within its kind; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {
     const int e = i - surface.vertex_count, t = e - surface.edge_count;

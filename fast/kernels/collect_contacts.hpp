@@ -10,9 +10,10 @@ namespace ogc::fast {
 /// Enters the contacts among the noted pairs. Index over these pairs.
 struct CollectContacts {
   static constexpr int resident_blocks = 4;  ///< 128 registers; 6 spill more than more warps win (fast/PERFORMANCE.md)
-  CollectVertexFacet vertex_facet;
+  CollectVertexFacet vertex_facet;           ///< decides pairs whose first number is negative, ~vertex
+  /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
   CollectEdgeEdge edge_edge;
-  ListsView lists;
+  ListsView lists;                    ///< where contacts are entered, and whose overflow flag ends the launch
   const PairPlane* planes = nullptr;  ///< beside the noted pairs, where those beyond r are noted, too
 
   OGC_HD void operator()(int i) const {

@@ -23,9 +23,10 @@
 
 namespace ogc::fast {
 
+/// Which faces meet; the head of this file says which slots a kind has.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
-/// Of two bodies that meet.
+/// Of two bodies that meet (method.md §4.5).
 struct ContactMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
 };
@@ -40,7 +41,7 @@ OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) 
 
 /// Barycentric weights of the point of the closed triangle (a, b, c) closest to p.
 struct TriangleWeights {
-  float a = 0, b = 0, c = 0;
+  float a = 0, b = 0, c = 0;  ///< ≥ 0; they add up to 1 but for rounding
 };
 
 namespace detail {
@@ -52,7 +53,8 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 
 }  // namespace detail
 
-/// Of the triangle (x[1], x[2], x[3]) and the point x[0]. Never NaN; a collapsed triangle is its longest edge.
+/// Weights of the point of the triangle (x[1], x[2], x[3]) closest to x[0]. Never NaN; a collapsed triangle is its
+/// longest edge.
 ///
 /// A point that is not over the interior lies beyond one edge, and is closest to that, or beyond two, and then the foot
 /// that is not their common corner wins. Signs of weights decide: distances of points far above a corner agree in all
@@ -87,6 +89,7 @@ struct SegmentParameters {
   float first = 0, second = 0;
 };
 
+/// t within [0, 1]; 0 for NaN.
 OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
 
 /// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap
@@ -113,12 +116,12 @@ OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec&
   return {clamp_unit((to_start + end * ab) / aa), end};
 }
 
-/// By slot; 0 for a slot that the kind lacks.
+/// Weights w of the closest points by slot [1]; 0 for a slot that the kind lacks.
 template <class T>
 struct ContactWeightsOf {
-  T slot[4] = {};
+  T slot[4] = {};  ///< w, adding up to 0 but for rounding
 
-  /// By selection: a register has no address.
+  /// w of slot k, by selection: an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;
@@ -157,8 +160,8 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
 /// then, keeps them apart.
 template <class T>
 struct ContactShapeOf {
-  Vector<T> normal;
-  T distance{};
+  Vector<T> normal;  ///< n, a unit vector from the second side's closest point to the first side's
+  T distance{};      ///< d [m]
   Mask<T> acts{};
 };
 using ContactShape = ContactShapeOf<float>;

@@ -17,12 +17,12 @@ namespace ogc::fast {
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
   const ContactMaterial* materials = nullptr;  ///< of bodies a and b, at a · body_count + b
-  int body_count = 0;
+  int body_count = 0;                          ///< 0 in probes: then materials are by body b alone
   const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 without triangles: parallel strands must repel
   const Vec* previous = nullptr;        ///< X_prev, positions of the detection, for e_k
 };
 
-/// Stiffness and friction of a contact of two vertices' bodies.
+/// A contact with the k_c [N/m] and μ of two vertices' bodies (method.md §4.5), and nothing else.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;
@@ -52,7 +52,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord&
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
 }
 
-/// Plain vertex numbers as indices, `own` 0.
+/// A vertex–facet contact as a record has it: plain vertex numbers as indices, `own` 0.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
   ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
   set_slots(contact, record);
@@ -72,7 +72,7 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
-/// The same.
+/// The slots of an edge–edge record, likewise.
 OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
@@ -84,6 +84,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& re
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
 }
 
+/// The same of an edge–edge contact. The stiffness of two interiors holds e_k.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
   set_slots(contact, record);
@@ -93,13 +94,14 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
 
 /// Whether a vertex is part of an active contact. Of a detection with a margin some are not nearer than r.
 struct ActiveContacts {
-  const int* incidence_offsets;
-  // where there is a margin
+  const int* incidence_offsets;  ///< vertices + 1, on the backend
+  /// Read where contacts are listed with a margin; null without one: each contact that is listed acts.
   const Incidence* incidences = nullptr;
   const VertexFacetRecord* vertex_facet = nullptr;
   const EdgeEdgeRecord* edge_edge = nullptr;
-  float radius = 0;
+  float radius = 0;  ///< r [m]
 
+  /// Whether a contact of v acts at `position`.
   OGC_HD bool touch(int v, const Vec* position) const {
     const int begin = incidence_offsets[v], end = incidence_offsets[v + 1];
     if (incidences == nullptr) return end > begin;
@@ -137,11 +139,11 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
 /// for_each over slots: each vertex' row of the stream. `Item`: an incidence of whatever kind; rows may have any order.
 template <class Item>
 struct CopyContactRows {
-  const int* incidence_offsets;
-  const Item* incidences;
-  const int* overflow;  ///< not 0: the old rows stay; null: never
-  const SweepVertex* vertices;
-  ContactRow* rows;
+  const int* incidence_offsets;  ///< by vertex, vertices + 1
+  const Item* incidences;        ///< row of vertex v: from incidence_offsets[v]
+  const int* overflow;           ///< not 0: the old rows stay; null: never
+  const SweepVertex* vertices;   ///< by slot
+  ContactRow* rows;              ///< by slot, written; each begins where the vertex's row of incidences does
 
   OGC_HD void operator()(int slot) const {
     if (overflow != nullptr && *overflow != 0) return;
@@ -155,10 +157,10 @@ struct CopyContactRows {
 /// An incidence at its place in the stream (step_detection.hpp); or for_each_counted over all incidences of a row order
 /// that stands already.
 struct ResolveContact {
-  ContactView view;
+  ContactView view;  ///< records of the detection
   ContactTables tables;
-  const int* colour;
-  ContactIncidence* stream;
+  const int* colour;         ///< by vertex; −1: not free
+  ContactIncidence* stream;  ///< by place of the incidence in view.incidences, written
 
   OGC_HD void operator()(int place) const { (*this)(place, view.incidences[place]); }
   OGC_HD void operator()(int place, Incidence incidence) const {
@@ -192,10 +194,10 @@ OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* 
 /// Energy of the vertex–facet contacts, record by record; how many there are is known on the device only.
 struct VertexFacetTerm {
   ContactView view;
-  ContactTables tables;
-  const Vec* position;
+  ContactTables tables;  ///< of the last detection, whose e_k counts
+  const Vec* position;   ///< by vertex [m]
   AnyActivation activation;
-  float contact_radius;
+  float contact_radius;  ///< r [m]
 
   OGC_HD void operator()(int i, double* sum) const {
     sum[sum_vertex_facet] += contact_energy(contact_of(tables, view.vertex_facet[i]), position, activation,
@@ -206,10 +208,10 @@ struct VertexFacetTerm {
 /// Energy of the edge–edge contacts, likewise.
 struct EdgeEdgeTerm {
   ContactView view;
-  ContactTables tables;
-  const Vec* position;
+  ContactTables tables;  ///< of the last detection, whose e_k counts
+  const Vec* position;   ///< by vertex [m]
   AnyActivation activation;
-  float contact_radius;
+  float contact_radius;  ///< r [m]
 
   OGC_HD void operator()(int i, double* sum) const {
     sum[sum_edge_edge] += contact_energy(contact_of(tables, view.edge_edge[i]), position, activation, contact_radius);

@@ -16,6 +16,7 @@
 
 namespace ogc::fast {
 
+/// False for NaN and for infinities.
 OGC_HD inline bool is_finite(float a) { return fabsf(a) <= 3.40282347e38f; }
 OGC_HD inline bool is_finite(const Vec& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 
@@ -34,10 +35,10 @@ OGC_HD inline float float_from_bits(int bits) {
 
 /// Settings of the control, the same in each step.
 struct ControlSettings {
-  int redetect_count = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
-  int redetect_every = 0;
-  int iterations = 1 << 30;  ///< of a step; after the last no detection is made
-  int guess_rounds = 16;
+  int redetect_count = 1;          ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
+  int iterations = 1 << 30;        ///< of a step; after the last no detection is made
+  int guess_rounds = 16;           ///< of a step, at most
   int sort_every = 1;              ///< steps that keep the order of the trees
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
@@ -51,7 +52,7 @@ struct StepControl {
   int steps_done = 0;        ///< committed since the frame began: number of the row and of the row of targets
   int since_sort = 1 << 30;  ///< steps begun in the order that the trees have; the host carries it from frame to frame
   // Of the step. Flags that `when` reads hold `active` too.
-  int attempted = 0;
+  int attempted = 0;                      ///< 1: the step began active
   int sort = 0;                           ///< a new order of the trees
   int guess = 0;                          ///< another round of the guess loop
   int detect = 0;                         ///< detection before the next iteration
@@ -59,6 +60,7 @@ struct StepControl {
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;               ///< [m]
+  /// vertices cut in this round or iteration; cut_last: in the one before, lagging ones included
   int cut = 0, cut_last = 0;
   /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
   /// one has asked for a detection in this step.
@@ -66,6 +68,7 @@ struct StepControl {
   int not_finite = 0, violations = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
+  /// Threads of one launch call these together; sums and maxima do not depend on their order.
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
   OGC_HD void count_lag(bool has_advanced) {
     atomic_add(&lagging, 1);
@@ -94,7 +97,7 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
 
 /// First kernel of a step.
 struct BeginStep {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
 
   OGC_HD void operator()(int) const {
@@ -113,7 +116,7 @@ struct BeginStep {
 
 /// r_q = min(r + largest move, cap) (method.md §5.3).
 struct ChooseQueryRadius {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
 
   OGC_HD void operator()(int) const {
@@ -127,8 +130,8 @@ struct ChooseQueryRadius {
 
 /// After a detection. `overflow`: not zero where a list was too small.
 struct EndDetection {
-  StepControl* control;
-  const int* overflow;
+  StepControl* control;  ///< on the backend
+  const int* overflow;   ///< on the backend
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
@@ -143,7 +146,7 @@ struct EndDetection {
 
 /// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
 struct EndRound {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
 
   OGC_HD void operator()(int) const {
@@ -157,7 +160,7 @@ struct EndRound {
 /// Alg. 3 line 29, and the largest number of iterations between detections. `number`: of the iteration, which ends only
 /// if it was its turn; −1: it was.
 struct EndIteration {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
   int number = -1;
 

@@ -15,15 +15,17 @@ namespace ogc::fast {
 /// The searches of all edges in their tree; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
-  PaddedVecs positions;
-  TreeView tree;
-  ListsView lists;
-  SkinView skin;
-  float contact_radius;
-  float* d_min_edge;  ///< at most r_q before the launch
+  PaddedVecs positions;  ///< of the detection, by vertex [m]
+  TreeView tree;         ///< of all edges, refitted at these positions
+  ListsView lists;       ///< where pairs are noted; with its overflow flag set nothing is searched
+  SkinView skin;         ///< its mode decides whether the tree is searched, and how far beyond the radius
+  float contact_radius;  ///< r, with the contact margin [m]
+  float* d_min_edge;     ///< at most r_q before the launch
 
+  /// Whether a list has overflowed, or pairs of the skin take the place of the search.
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
+  /// The search of the edge at place i of the tree, from the place behind it.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     const float margin = skin.search_margin();
@@ -99,8 +101,8 @@ struct DetectEdgeEdge {
 /// doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
-  PaddedVecs positions;
-  float contact_radius;
+  PaddedVecs positions;  ///< of the detection, by vertex [m]
+  float contact_radius;  ///< r, with the contact margin [m]
 
   OGC_HD RawContact operator()(int low, int high, bool certain) const {
     constexpr RawContact none{-1, -1, -1, -1};

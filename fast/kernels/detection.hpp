@@ -14,8 +14,8 @@ namespace ogc::fast {
 /// Positions where they are gathered, empty lists, smallest distances at r_q. Index over the largest of buckets,
 /// vertices and primitives.
 struct PrepareDetection {
-  const Vec* positions;
-  PaddedVec* padded;
+  const Vec* positions;  ///< by vertex [m]
+  PaddedVec* padded;     ///< the same positions, written, where searches gather them
   PrepareLists lists;
   ResetDistances distances;
 
@@ -39,6 +39,7 @@ struct PrepareAndRefit {
 
 /// The pairs of the Verlet list, in place of a search; index over all of them.
 struct RecheckPairs {
+  /// Their `recheck` measures the pairs of a vertex and a facet, and those of two edges.
   DetectVertexFacet vertex_facet;
   DetectEdgeEdge edge_edge;
 

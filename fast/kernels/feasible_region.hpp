@@ -18,13 +18,13 @@ struct Ball {
 
 /// n·x ≤ o: a plane as one of its vertices sees it.
 struct alignas(8) HalfSpace {
-  Vec normal;
+  Vec normal;         ///< n in single precision: a unit vector but for rounding
   double offset = 0;  ///< [m], n being nearly a unit vector
 };
 
 /// n·x − o, and the sum of the moduli of its terms.
 struct Excess {
-  double value = 0, size = 0;
+  double value = 0, size = 0;  ///< [m]
 };
 
 /// Rounded to double where it is added up.
@@ -46,8 +46,8 @@ OGC_HD inline bool is_behind(const HalfSpace& plane, const Vec& x) {
 /// The part of a ball that lies in some half-spaces. Convex; it holds the centre.
 struct FeasibleRegion {
   Ball ball;
-  const HalfSpace* planes = nullptr;
-  int count = 0;
+  const HalfSpace* planes = nullptr;  ///< on the backend
+  int count = 0;                      ///< half-spaces, at most most_planes
 };
 
 /// N, planes of a vertex at most: a spot of collapsed triangles would have hundreds.
@@ -61,6 +61,7 @@ struct FeasibleRegions {
   const int* counts = nullptr;        ///< planes by vertex; null: there are balls alone
   bool is_off = false;                ///< nothing holds a vertex
 
+  /// Whether bounds are planes, so that regions are more than balls.
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// What a kernel reads early, with all else that it waits for.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }

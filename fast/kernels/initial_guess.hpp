@@ -21,12 +21,12 @@ struct BeginVertex {
   const Vec* velocity;            ///< vᵗ
   const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
   const Vec* prescribed_targets;  ///< [step of the frame][number]
-  int prescribed_count;
-  Vec acceleration;
-  float step;
-  Vec* position;
-  Vec* target;
-  StepControl* control;
+  int prescribed_count;           ///< of a row of targets
+  Vec acceleration;               ///< a [m/s²]
+  float step;                     ///< h [s]
+  Vec* position;                  ///< x by vertex [m], written
+  Vec* target;                    ///< y by vertex [m], written
+  StepControl* control;           ///< on the backend: raises largest_move, counts what is not finite
 
   OGC_HD void operator()(int v) const {
     const Vec x = start[v];
@@ -48,9 +48,9 @@ struct BeginVertex {
 
 /// for_each over triangles: Gᵗ, for the damping.
 struct BeginTriangle {
-  const TriangleRest* triangles;
-  const Vec* start;
-  Symmetric2* strain_start;
+  const TriangleRest* triangles;  ///< by triangle
+  const Vec* start;               ///< xᵗ by vertex [m]
+  Symmetric2* strain_start;       ///< Gᵗ by triangle, written
 
   OGC_HD void operator()(int t) const {
     const TriangleRest& rest = triangles[t];
@@ -62,9 +62,9 @@ struct BeginTriangle {
 
 /// for_each over hinges: θᵗ, for the damping.
 struct BeginHinge {
-  const HingeRest* hinges;
-  const Vec* start;
-  float* angle_start;
+  const HingeRest* hinges;  ///< by hinge
+  const Vec* start;         ///< xᵗ by vertex [m]
+  float* angle_start;       ///< θᵗ by hinge [rad], written; 0 where the hinge has collapsed
 
   OGC_HD void operator()(int i) const {
     const int* v = hinges[i].vertex;
@@ -75,9 +75,9 @@ struct BeginHinge {
 
 /// for_each over tetrahedra: Gᵗ, for the damping.
 struct BeginTetrahedron {
-  const TetrahedronRest* tetrahedra;
-  const Vec* start;
-  SolidStrain* strain_start;
+  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
+  const Vec* start;                   ///< xᵗ by vertex [m]
+  SolidStrain* strain_start;          ///< Gᵗ by tetrahedron, written
 
   OGC_HD void operator()(int t) const {
     const TetrahedronRest& rest = tetrahedra[t];
@@ -92,10 +92,10 @@ struct BeginTetrahedron {
 /// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
 /// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
 struct BeginRegions {
-  const Vec* position;
-  FeasibleRegions ended;
-  Vec* previous;
-  StepControl* control;
+  const Vec* position;    ///< x by vertex [m]
+  FeasibleRegions ended;  ///< those that the last detection left
+  Vec* previous;          ///< X_prev by vertex [m], written
+  StepControl* control;   ///< on the backend: counts vertices that their region does not hold
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
@@ -107,11 +107,11 @@ struct BeginRegions {
 /// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex of an active contact stays where
 /// it is. A free vertex slides as inertia alone would have it.
 struct GuessVertex {
-  const Vec* target;
-  FeasibleRegions regions;
+  const Vec* target;        ///< y by vertex [m]
+  FeasibleRegions regions;  ///< about X_prev
   ActiveContacts contacts;  ///< X_prev = x
-  Vec* position;
-  StepControl* control;
+  Vec* position;            ///< x by vertex [m], written
+  StepControl* control;     ///< on the backend: its flag `active` and its rounds are read, cuts are counted
   const int* prescribed_number = nullptr;  ///< as in BeginVertex; read where there are half-spaces
 
   OGC_HD void operator()(int v) const {
@@ -133,11 +133,11 @@ struct GuessVertex {
 /// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers,
 /// because the sweep writes no fixed vertex.
 struct BeginSweep {
-  const Vec* start;
-  const Vec* position;
-  PaddedVec* padded_start;
-  PaddedVec* padded;  ///< x, in both buffers: the second follows the first
-  int vertex_count;
+  const Vec* start;         ///< xᵗ by vertex [m]
+  const Vec* position;      ///< x by vertex [m]
+  PaddedVec* padded_start;  ///< xᵗ by vertex [m], written
+  PaddedVec* padded;        ///< x, in both buffers: the second follows the first
+  int vertex_count;         ///< length of one buffer
 
   OGC_HD void operator()(int v) const {
     const PaddedVec x(position[v]);

@@ -38,13 +38,13 @@ struct alignas(16) ContactSlot {
 /// A contact at its place in the list, and where the table has it.
 struct alignas(16) EnteredContact {
   static constexpr std::uint32_t nowhere = 0xffffffffU;  ///< of one that a single pair generates
-  int bucket, second;
-  std::uint32_t slot;
+  int bucket, second;                                    ///< as in RawContact
+  std::uint32_t slot;                                    ///< of the table, or `nowhere`
 };
 
 /// An incidence that has no order yet, and whose it is.
 struct alignas(8) LooseIncidence {
-  std::uint32_t code;
+  std::uint32_t code;  ///< as in Incidence
   int vertex;
 };
 
@@ -57,6 +57,7 @@ struct RoleVertices {
 struct ContactFaces {
   SurfaceView surface;
 
+  /// Buckets of vertices come first, those of faces of edge–edge contacts behind them.
   OGC_HD bool is_vertex_facet(int bucket) const { return bucket < surface.vertex_count; }
 
   /// Whether only one pair generates it: the pair of its two interiors, which a search notes once.
@@ -113,8 +114,8 @@ struct ListsView {
   /// grow.
   static constexpr int longest_search = 256;
 
-  NotedPair* noted = nullptr;
-  int noted_capacity = 0;
+  NotedPair* noted = nullptr;         ///< in any order; those surely nearer than r with their second number inverted
+  int noted_capacity = 0;             ///< pairs beyond it are counted in noted_count and lost
   int* noted_count = nullptr;         ///< also those that found no room
   ContactSlot* table = nullptr;       ///< empty before and after a detection that does not overflow
   std::uint32_t slot_mask = 0;        ///< slots − 1: a power of two, at least 2 · capacity
@@ -167,7 +168,7 @@ struct ListsView {
     atomic_add(without_slot, 1);
   }
 
-  /// The record of a contact and its incidences for one more or less.
+  /// Counts the record of a contact and its incidences: `amount` 1, or −1 to take them back.
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
@@ -286,7 +287,7 @@ struct WriteRecords {
   }
 
  private:
-  /// All contacts before it.
+  /// Contacts of all buckets before its own, and those of its own with a smaller second face.
   OGC_HD int rank(const RawContact& own) const {
     const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
     int before = begin;
@@ -306,7 +307,7 @@ struct WriteRecords {
 /// ones.
 struct FillIncidences {
   ListsView lists;
-  int vertex_facet_count;
+  int vertex_facet_count;  ///< vertex–facet records; edge–edge ones follow in the index
 
   OGC_HD void operator()(int i) const {
     if (i < vertex_facet_count) {

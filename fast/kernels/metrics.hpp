@@ -32,11 +32,14 @@ enum SumColumn : int {
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
 struct StepRow {
-  int status = 0;
-  int vertex_facet_contacts = 0, edge_edge_contacts = 0;
+  int status = 0;                                         ///< compare::StepStatus bits; 0: the step was committed
+  int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
+  /// of the step; cut_last: vertices that its last iteration cut
   int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
+  /// r_q, the largest lag, the smallest b_v or, with planes, distance [m]
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
-  double lost_guess = 0, lost_end = 0;
+  double lost_guess = 0, lost_end = 0;  ///< ‖Σ m (x − y)‖/‖Σ m (y − xᵗ)‖ after the guess loop and at the end [1]
+  /// at the end [J]; without StepSettings::energies elastic is that of tetrahedra alone, and contact is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
 };
@@ -44,11 +47,11 @@ struct StepRow {
 /// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
 /// smallest distance).
 struct CheckVertex {
-  const Vec* position;
-  FeasibleRegions regions;
-  const Vec* target;
-  const int* prescribed_number;
-  StepControl* control;
+  const Vec* position;             ///< x by vertex [m]
+  FeasibleRegions regions;         ///< of the last detection
+  const Vec* target;               ///< y by vertex [m]
+  const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  StepControl* control;            ///< on the backend: counts and extremes are written
   const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
 
   OGC_HD void operator()(int v) const {
@@ -65,18 +68,18 @@ struct CheckVertex {
 
 /// After the certificate: nothing that failed is committed.
 struct EndCheck {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
 
   OGC_HD void operator()(int) const { stop_if_failed(*control); }
 };
 
 /// for_each over all vertices of a step that is clean: v = (x − xᵗ)/h, xᵗ = x.
 struct CommitVertex {
-  const Vec* position;
-  float step;
-  const StepControl* control;
-  Vec* start;
-  Vec* velocity;
+  const Vec* position;         ///< x by vertex [m]
+  float step;                  ///< h [s]
+  const StepControl* control;  ///< on the backend; not active: the step failed, and nothing is written
+  Vec* start;                  ///< xᵗ by vertex [m], becomes x
+  Vec* velocity;               ///< by vertex [m/s], written
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
@@ -88,7 +91,7 @@ struct CommitVertex {
 
 /// for_each over all vertices, for a snapshot.
 struct CopyBound {
-  const float* from;
+  const float* from;  ///< b_v by vertex [m]
   float* to;
 
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
@@ -97,13 +100,13 @@ struct CopyBound {
 /// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet
 /// committed).
 struct VertexTerm {
-  const Vec* position;
-  const Vec* start;
-  const Vec* target;
-  const float* mass;
-  const int* prescribed_number;
-  Vec acceleration;
-  double step;
+  const Vec* position;           ///< x by vertex [m]
+  const Vec* start;              ///< xᵗ by vertex [m]
+  const Vec* target;             ///< y by vertex [m]
+  const float* mass;             ///< by vertex [kg]; 0 on fixed bodies
+  const int* prescribed_number;  ///< as in CheckVertex; momenta are those of free vertices
+  Vec acceleration;              ///< a [m/s²]
+  double step;                   ///< h [s]
 
   OGC_HD void operator()(int v, double* sum) const {
     const double m = mass[v];
@@ -127,7 +130,7 @@ struct VertexTerm {
 struct MembraneEnergy {
   const TriangleRest& rest;
   const SurfaceMaterial& material;
-  Vec to_b, to_c;
+  Vec to_b, to_c;  ///< edges from corner 0 to corners 1 and 2 [m]
 
   template <class Model>
   OGC_HD double operator()(Model) const {
@@ -137,10 +140,10 @@ struct MembraneEnergy {
 
 /// Term of a triangle.
 struct TriangleTerm {
-  const TriangleRest* triangles;
-  const SurfaceMaterial* materials;
-  const SurfaceModels* models;
-  const Vec* position;
+  const TriangleRest* triangles;     ///< by triangle
+  const SurfaceMaterial* materials;  ///< by body
+  const SurfaceModels* models;       ///< by body
+  const Vec* position;               ///< x by vertex [m]
 
   OGC_HD void operator()(int t, double* sum) const {
     const TriangleRest& rest = triangles[t];
@@ -155,7 +158,7 @@ struct HingeEnergy {
   const HingeRest& rest;
   const HingeWeights* weights;  ///< read where the model reads them
   int i;
-  const Vec* to;
+  const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
 
   template <class Model>
   OGC_HD double operator()(Model) const {
@@ -167,10 +170,10 @@ struct HingeEnergy {
 
 /// Term of a hinge.
 struct HingeTerm {
-  const HingeRest* hinges;
+  const HingeRest* hinges;      ///< by hinge
   const HingeWeights* weights;  ///< read where a body bends isometrically
-  const SurfaceModels* models;
-  const Vec* position;
+  const SurfaceModels* models;  ///< by body
+  const Vec* position;          ///< x by vertex [m]
 
   OGC_HD void operator()(int i, double* sum) const {
     const HingeRest& rest = hinges[i];
@@ -183,8 +186,8 @@ struct HingeTerm {
 
 /// Term of a spring.
 struct SpringTerm {
-  const SpringRest* springs;
-  const Vec* position;
+  const SpringRest* springs;  ///< by spring
+  const Vec* position;        ///< x by vertex [m]
 
   OGC_HD void operator()(int i, double* sum) const {
     const SpringRest& rest = springs[i];
@@ -195,9 +198,9 @@ struct SpringTerm {
 
 /// A tetrahedron: its energy, and whether it is inverted.
 struct TetrahedronTerm {
-  const TetrahedronRest* tetrahedra;
-  const SolidMaterial* materials;
-  const Vec* position;
+  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
+  const SolidMaterial* materials;     ///< by body
+  const Vec* position;                ///< x by vertex [m]
 
   OGC_HD void operator()(int t, double* sum) const {
     const TetrahedronRest& rest = tetrahedra[t];
@@ -220,11 +223,11 @@ OGC_HD inline double momentum_lost(const double* sums) {
 /// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
 /// repeated).
 struct FinishStep {
-  StepControl* control;
-  ContactView contacts;
-  const double* sums_guess;
-  const double* sums_end;
-  StepRow* rows;
+  StepControl* control;      ///< on the backend
+  ContactView contacts;      ///< whose counts are reported
+  const double* sums_guess;  ///< by SumColumn, after the guess loop
+  const double* sums_end;    ///< by SumColumn, at the end
+  StepRow* rows;             ///< by step of the frame, on the backend
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;

@@ -18,6 +18,7 @@ struct alignas(8) PairPlane {
   float below = 0;               ///< not above the pair's distance [m]
   double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
 
+  /// Whether there is a plane; where there is, the half-spaces that vertices of either side keep.
   OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   OGC_HD HalfSpace of_first() const { return {normal, first}; }
   OGC_HD HalfSpace of_second() const { return {-normal, -second}; }
@@ -26,7 +27,7 @@ struct alignas(8) PairPlane {
 /// The points of both sides of a pair, and which sides do not move.
 template <int first_count, int second_count>
 struct PairPoints {
-  Vec first[first_count], second[second_count];
+  Vec first[first_count], second[second_count];  ///< by vertex of the side [m]
   bool is_first_fixed, is_second_fixed;
 };
 
@@ -90,6 +91,7 @@ OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   return best;
 }
 
+/// Of the closed faces, with its slack. The distance alone: no exact sign decides which faces hold the closest points.
 OGC_HD inline Distance distance_of(const PairPoints<1, 3>& pair) {
   return point_triangle_distance(pair.first[0], {pair.second[0], pair.second[1], pair.second[2]});
 }
@@ -134,7 +136,7 @@ OGC_HD inline bool is_within(const FeasibleRegion& region, const Vec& x) {
 
 /// The direction in which a vertex leaves a half-space with the least increase of its energy: H⁻¹ n.
 struct BlockMetric {
-  Symmetric3 block;
+  Symmetric3 block;    ///< H of the update, inertia included [N/m]
   float fallback = 0;  ///< as of solve_symmetric
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
@@ -147,8 +149,9 @@ struct InertiaMetric {
 namespace slide {
 
 using Point = Vector<double>;
-inline constexpr int passes = 4, nudges = 3;
+inline constexpr int passes = 4, nudges = 3;  ///< over the half-spaces; of a stored position, at most
 
+/// To double without loss, and back with one rounding.
 OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
 OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};

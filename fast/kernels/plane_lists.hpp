@@ -35,20 +35,21 @@ struct PlaneListsView {
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
   const float* query_radius = nullptr;     ///< r_q [m]
-  const NotedPair* noted = nullptr;
-  PairPlane* planes = nullptr;  ///< by noted pair
-  int* pair_counts = nullptr;   ///< by vertex: pairs that it is part of
-  int* pair_offsets = nullptr;  ///< vertices + 1
-  int* pair_filled = nullptr;   ///< by vertex
-  int* pair_rows = nullptr;
-  float* threshold = nullptr;  ///< δ_v [m]
-  float* nearest = nullptr;    ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
-  float* unplaned = nullptr;   ///< the same of its nearest pair without a plane
-  HalfSpace* rows = nullptr;
-  NotedPair* pairs = nullptr;  ///< beside the rows: whose planes they are
-  int* counts = nullptr;
-  float* bound = nullptr;
+  const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
+  PairPlane* planes = nullptr;             ///< by noted pair
+  int* pair_counts = nullptr;              ///< by vertex: pairs that it is part of
+  int* pair_offsets = nullptr;             ///< vertices + 1
+  int* pair_filled = nullptr;              ///< by vertex
+  int* pair_rows = nullptr;                ///< numbers of a vertex's pairs, in any order: from pair_offsets[v]
+  float* threshold = nullptr;              ///< δ_v [m]
+  float* nearest = nullptr;                ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
+  float* unplaned = nullptr;               ///< the same of its nearest pair without a plane
+  HalfSpace* rows = nullptr;               ///< n·x ≤ o of vertex v from v · most_planes, in ascending order of pair
+  NotedPair* pairs = nullptr;              ///< beside the rows: whose planes they are
+  int* counts = nullptr;                   ///< half-spaces by vertex, at most most_planes
+  float* bound = nullptr;                  ///< b_v by vertex [m]: γ_p times `unplaned`
 
+  /// Such a pair is stored as ~vertex and facet.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
   /// A search stores the second number inverted where it is certain of something else.
   OGC_HD NotedPair pair(int i) const {
@@ -97,6 +98,8 @@ struct PreparePlanes {
   }
 };
 
+/// for_each_counted over noted pairs: their distances, rounded down, and the number of pairs and the smallest distance
+/// of each vertex.
 struct MeasurePairs {
   PlaneListsView lists;
 
@@ -111,6 +114,7 @@ struct MeasurePairs {
   }
 };
 
+/// for_each_counted over noted pairs: enters each in the rows of its vertices.
 struct FillPairRows {
   PlaneListsView lists;
 
@@ -121,6 +125,7 @@ struct FillPairRows {
   }
 };
 
+/// for_each over vertices: δ_v, infinite where there are at most N pairs.
 struct ChooseThreshold {
   PlaneListsView lists;
 
@@ -140,6 +145,8 @@ struct ChooseThreshold {
   }
 };
 
+/// for_each_counted over noted pairs: the plane, where the pair is nearer than δ_v of all vertices that can move and
+/// the points keep what is computed; otherwise the pair's distance lowers `unplaned` of its vertices.
 struct PlacePlanes {
   PlaneListsView lists;
 
@@ -156,6 +163,7 @@ struct PlacePlanes {
   }
 };
 
+/// for_each over vertices: the rows of half-spaces, their numbers and the balls.
 struct WriteHalfSpaces {
   PlaneListsView lists;
 

@@ -17,18 +17,18 @@ namespace ogc::fast {
 /// All primitives at a place ≥ `from` whose box lies within the squared gap `limit` of `box`, or within their own
 /// reach.
 struct alignas(16) Search {  // read whole, by few instructions
-  Box box;
-  int owner = -1;  ///< whose search it is: number of a vertex or an edge
-  int from = 0;
-  float limit = 0;
-  float margin = 0;  ///< by which it looks farther than it has to (skin.hpp) [m]
+  Box box;                   ///< of the vertex or edge that searches [m]
+  int owner = -1;            ///< whose search it is: number of a vertex or an edge
+  int from = 0;              ///< place in the tree's order from which on primitives are offered
+  float limit = 0;           ///< squared [m²]; falls as distances are taken
+  float margin = 0;          ///< by which it looks farther than it has to (skin.hpp) [m]
 };
 
 /// `count` searches in one tree.
 template <class Query>
 struct Searches {
-  TreeView tree;
-  int count;
+  TreeView tree;  ///< refitted at the positions that the query reads
+  int count;      ///< searches; their numbers are those of Query::begin
   Query query;
 
   /// The i-th, from begin to end.

@@ -10,8 +10,9 @@ using Real = Vector<Rounded>;
 
 /// A distance [m] and how far it can be from the exact one.
 struct Distance {
-  double value = 0, slack = 0;
+  double value = 0, slack = 0;  ///< [m]: the exact distance lies within value ± slack
 
+  /// Nearer than r: perhaps, where the slack leaves it open; for certain.
   OGC_HD bool may_be_within(float r) const { return sub(value, slack) < static_cast<double>(r); }
   OGC_HD bool is_surely_within(float r) const { return add(value, slack) < static_cast<double>(r); }
   /// Never above the exact distance.
@@ -26,6 +27,7 @@ OGC_HD inline double norm_1(const Real& a) {
   return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value));
 }
 
+/// ‖a‖², rounded operation by operation.
 OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
 
 /// Parameter of the point of the line nearest to x, u = x − a, e = b − a, clamped to [0, 1]; 0 where the edge has no

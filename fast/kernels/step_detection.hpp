@@ -36,7 +36,7 @@ struct PrepareStepAndRefit {
 struct EndStepDetection {
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;
-  int slots;
+  int slots;  ///< free vertices
 
   OGC_HD void operator()(int i) const {
     if (i == 0) end(i);

@@ -15,7 +15,7 @@ OGC_HD void add_terms(const Term& term, int count, int chunk, int chunks, double
 /// Momenta, kinetic and gravity energy.
 struct VertexSums {
   VertexTerm term;
-  int count;
+  int count;  ///< vertices
 
   /// Those of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
@@ -24,7 +24,7 @@ struct VertexSums {
 /// Energy of the tetrahedra and how many are inverted.
 struct TetrahedronSums {
   TetrahedronTerm term;
-  int count;
+  int count;  ///< tetrahedra
 
   /// Those of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
@@ -44,6 +44,7 @@ struct StateSums {
 
 /// The same and the energies of elements and contacts.
 struct EnergySums {
+  /// Terms, each with the number of its items; how many contacts there are only the device knows.
   StateSums state;
   TriangleTerm triangle;
   int triangles;

@@ -25,40 +25,41 @@ namespace ogc::fast {
 
 /// A free vertex in the order of the sweep, with its rows in the streams.
 struct alignas(16) SweepVertex {
-  int vertex = -1;
+  int vertex = -1;  ///< number in the mesh
   int body = -1;
-  float inertia = 0;  ///< m/h² [N/m]
-  int membrane_begin = 0, membrane_count = 0;
-  int hinge_begin = 0, hinge_count = 0;
+  float inertia = 0;                           ///< m/h² [N/m]
+  int membrane_begin = 0, membrane_count = 0;  ///< its row: first place in SweepView::membrane, and how many
+  int hinge_begin = 0, hinge_count = 0;        ///< likewise in SweepView::hinges
 };
 
 /// A triangle seen from one of its corners. `index`: the other two, in the triangle's order, encoded as said above.
 struct alignas(16) MembraneIncidence {
-  int index[2] = {0, 0};
-  int triangle = -1;  ///< number in RestState::triangles
-  MembraneStencil stencil{};
+  int index[2] = {0, 0};      ///< x_b, x_c
+  int triangle = -1;          ///< number in RestState::triangles
+  MembraneStencil stencil{};  ///< gradients and area
 };
 
 /// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex
 /// as x0); at an opposite vertex it is x0, x1, o1 (with the own vertex as o0).
 struct alignas(8) HingeIncidence {
-  int index[3] = {0, 0, 0};
-  int hinge = -1;  ///< number in RestState::hinges; ~number at an opposite vertex
-  HingeStencil stencil{};
+  int index[3] = {0, 0, 0};  ///< encoded
+  int hinge = -1;            ///< number in RestState::hinges; ~number at an opposite vertex
+  HingeStencil stencil{};    ///< c and θ₀
 };
 
 /// A contact seen from one of its vertices: slots as in contact_force.hpp; `own` is the slot of the vertex itself. The
 /// stiffness holds e_k of the detection.
 struct alignas(16) ContactIncidence {
-  int index[4] = {0, 0, 0, 0};
-  float stiffness = 0, friction = 0;
-  ContactKind kind = ContactKind::point_point;
-  std::uint8_t own = 0;
+  int index[4] = {0, 0, 0, 0};                  ///< by slot, encoded
+  float stiffness = 0, friction = 0;            ///< e_k k_c [N/m], μ [1]
+  ContactKind kind = ContactKind::point_point;  ///< says which slots it has
+  std::uint8_t own = 0;                         ///< 0 … 3
   std::uint8_t together = 0;  ///< bit k: the vertex of slot k, another one than the own, has its colour
 };
 
 /// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
 struct alignas(16) ContactRow {
+  /// first place in SweepView::contacts; how many of vertex–facet; how many in all
   int begin = 0, vertex_facet = 0, count = 0;
 };
 
@@ -74,37 +75,38 @@ OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
 /// Everything that an update reads and writes. Plain pointers, valid for one launch sequence.
 struct SweepView {
-  const SweepVertex* vertices = nullptr;
-  const MembraneIncidence* membrane = nullptr;
-  const HingeIncidence* hinges = nullptr;
-  const ContactRow* contact_rows = nullptr;  ///< by slot
-  const ContactIncidence* contacts = nullptr;
-  const SurfaceMaterial* materials = nullptr;
-  const Symmetric2* strain_start = nullptr;  ///< Gᵗ by triangle
-  const float* angle_start = nullptr;        ///< θᵗ by hinge
-  PaddedVecs start;                          ///< xᵗ
-  const Vec* target = nullptr;               ///< y
-  FeasibleRegions regions;
-  PaddedVec* old = nullptr;  ///< x before the iteration
-  int to_fresh = 0;          ///< from a vertex there to the same one in the fresh buffer
-  Vec* position = nullptr;   ///< as fresh, for all but the sweep, which does not read it
-  StepControl* control = nullptr;
-  const int* turn = nullptr;  ///< the iteration whose turn it is, on the device; null: this one's
-  int iteration = 0;          ///< number of this one; nothing is written where it is not its turn
-  float contact_radius = 0;   ///< r [m]
-  float friction_limit = 0;   ///< ε_v h [m]
+  const SweepVertex* vertices = nullptr;        ///< by slot
+  const MembraneIncidence* membrane = nullptr;  ///< row by row, in the order of slots
+  const HingeIncidence* hinges = nullptr;       ///< likewise
+  const ContactRow* contact_rows = nullptr;     ///< by slot
+  const ContactIncidence* contacts = nullptr;   ///< row by row, as contact_rows says
+  const SurfaceMaterial* materials = nullptr;   ///< by body
+  const Symmetric2* strain_start = nullptr;     ///< Gᵗ by triangle
+  const float* angle_start = nullptr;           ///< θᵗ by hinge
+  PaddedVecs start;                             ///< xᵗ
+  const Vec* target = nullptr;                  ///< y
+  FeasibleRegions regions;                      ///< about X_prev; every new position is truncated to them
+  PaddedVec* old = nullptr;                     ///< x before the iteration
+  int to_fresh = 0;                             ///< from a vertex there to the same one in the fresh buffer
+  Vec* position = nullptr;                      ///< as fresh, for all but the sweep, which does not read it
+  StepControl* control = nullptr;               ///< on the backend: cut vertices and such as are not finite are counted
+  const int* turn = nullptr;                    ///< the iteration whose turn it is, on the device; null: this one's
+  int iteration = 0;                            ///< number of this one; nothing is written where it is not its turn
+  float contact_radius = 0;                     ///< r [m]
+  float friction_limit = 0;                     ///< ε_v h [m]
   // Read by GatherEveryModel alone (sweep_models.hpp).
   const SurfaceModels* models = nullptr;        ///< by body
   const IsometricStencil* isometric = nullptr;  ///< beside `hinges`; null where no body has the model
   const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
-  const SpringIncidence* springs = nullptr;
+  const SpringIncidence* springs = nullptr;     ///< row by row, as spring_rows says
+  /// of all contacts; GatherEveryModel has the others than `ogc`
   ContactActivation activation = ContactActivation::ogc;
   // Read where there are tetrahedra (sweep_solids.hpp).
   const TetrahedronRow* tetrahedron_rows = nullptr;  ///< by slot
-  const TetrahedronIncidence* tetrahedra = nullptr;
-  const TetrahedronGradients* gradients = nullptr;  ///< beside `tetrahedra`; null where no body damps
-  const SolidMaterial* solids = nullptr;            ///< by body
-  const Symmetric3* solid_start = nullptr;          ///< Gᵗ by tetrahedron
+  const TetrahedronIncidence* tetrahedra = nullptr;  ///< row by row, as tetrahedron_rows says
+  const TetrahedronGradients* gradients = nullptr;   ///< beside `tetrahedra`; null where no body damps
+  const SolidMaterial* solids = nullptr;             ///< by body
+  const Symmetric3* solid_start = nullptr;           ///< Gᵗ by tetrahedron
 
   /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
@@ -130,8 +132,8 @@ struct SweepView {
 
 /// Of a triangle: the other corners, and Gᵗ where it is damped.
 struct MembraneReads {
-  Vec b, c;
-  Symmetric2 strain_start{};
+  Vec b, c;                   ///< positions [m]
+  Symmetric2 strain_start{};  ///< Gᵗ; 0 without damping
 };
 
 /// What a triangle reads.
@@ -163,7 +165,7 @@ OGC_HD inline HingeSeen read_hinge(const SweepView& view, const HingeIncidence& 
 
 /// Positions now and, with friction, at the start of the step.
 struct ContactReads {
-  Vec x[4], start[4];
+  Vec x[4], start[4];  ///< by slot [m]; start: xᵗ, 0 without friction
 };
 
 /// What a contact reads.
@@ -178,10 +180,10 @@ OGC_HD inline ContactReads read_contact(const SweepView& view, const ContactInci
 
 /// A contact at the positions that an update reads.
 struct ContactAt {
-  ContactWeights weights;
-  ContactShape shape;
-  float weight = 0;    ///< of the vertex itself
-  float majorant = 0;  ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
+  ContactWeights weights;  ///< w by slot
+  ContactShape shape;      ///< normal and distance
+  float weight = 0;        ///< of the vertex itself
+  float majorant = 0;      ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
 
   /// Whether the vertex feels it.
   OGC_HD bool acts() const { return shape.acts && weight != 0; }
@@ -226,9 +228,10 @@ OGC_HD ForceAndBlock contact_term(const SweepView& view, const Activation& activ
 template <class Activation>
 struct ContactParts {
   const SweepView& view;
-  ContactRow row;
+  ContactRow row;  ///< contacts of the vertex
   Activation activation;
 
+  /// The first row.vertex_facet of them, and the rest.
   OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.begin, row.vertex_facet); }
   OGC_HD auto edge_edge() const {
     return range<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);
@@ -259,7 +262,7 @@ OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, cons
 /// Venant–Kirchhoff, discrete hinges, activation `ogc`, damping of strains, no springs), in four parts: triangles,
 /// hinges, vertex–facet contacts, edge–edge contacts.
 struct GatherDefault {
-  static constexpr int parts = 4;
+  static constexpr int parts = 4;  ///< parts of the sum: warps of a block where teams are spread (fast/cuda/team.cuh)
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -302,8 +305,8 @@ template <class Gather>
 struct UpdateVertex {
   static constexpr int parts = Gather::parts;  ///< of its sum
   SweepView view;
-  int first_slot = 0;
-  bool asks_late;  ///< it overlaps the launch that decides whose turn it is, and looks only after its sum
+  int first_slot = 0;  ///< of the colour
+  bool asks_late;      ///< it overlaps the launch that decides whose turn it is, and looks only after its sum
 
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {
@@ -324,7 +327,7 @@ struct UpdateVertex {
 /// for_each over the prescribed vertices, before the first colour of an iteration.
 struct UpdatePrescribed {
   SweepView view;
-  const int* prescribed = nullptr;
+  const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
 
   OGC_HD void operator()(int i) const {
     if (view.is_off()) return;

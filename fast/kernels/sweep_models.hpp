@@ -19,18 +19,18 @@ OGC_HD inline bool are_default(const SurfaceModels& models) {
 /// A spring seen from its end `own`; `index`: all ends, encoded as in sweep.hpp.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
-  int own = 0;
-  SpringRest spring{};
+  int own = 0;          ///< number of the end, 0 … 2
+  SpringRest spring{};  ///< rest data, the same at each end
 };
 
 /// The springs of a vertex in their stream.
 struct SpringRow {
-  int begin = 0, count = 0;
+  int begin = 0, count = 0;  ///< first place in SweepView::springs, and how many
 };
 
 /// A vertex that is solved: where it is, and how far it has moved since the start of the step, for damping by vertex.
 struct OwnVertex {
-  Vec position, moved;
+  Vec position, moved;  ///< x, and x − xᵗ [m]
 };
 
 // The functors below are named, not lambdas: g++ and nvcc need not lay captures out alike (fast/stages/colouring.cpp).
@@ -40,6 +40,8 @@ struct OwnVertex {
 
 /// Adds a triangle with damping of strains, given the functor of its model.
 struct AddMembrane {
+  /// Arguments of a membrane model's `add` (models/membrane_models.hpp): edges to the other corners [m], Gᵗ. `moved` is
+  /// x − xᵗ of the vertex [m], for damping by vertex; `sum` takes force and block.
   const MembraneStencil& stencil;
   const SurfaceMaterial& material;
   Vec to_b, to_c;
@@ -84,6 +86,8 @@ OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneInciden
 
 /// Adds a hinge, given the functor of its model; `damping` is k_d/h.
 struct AddHinge {
+  /// Arguments of a bending model's `add_damped` (models/bending_models.hpp); k_d/h [1]; x − xᵗ of the vertex [m], for
+  /// damping by vertex; `sum` takes force and block.
   const HingeSeen& hinge;
   float damping;
   ForceAndBlock& sum;
@@ -151,12 +155,12 @@ OGC_HD inline void add_any_spring(const SweepView& view, const SpringIncidence& 
 /// A hinge with its weights, where it has any.
 struct AnyHinge {
   HingeIncidence hinge;
-  IsometricStencil isometric;
+  IsometricStencil isometric;  ///< 0 where no body bends isometrically
 };
 
 /// Spring k of a vertex.
 struct LoadSpring {
-  const SpringIncidence* first;
+  const SpringIncidence* first;  ///< of the vertex's row
 
   OGC_HD SpringIncidence operator()(int k) const { return first[k]; }
 };
@@ -207,7 +211,7 @@ OGC_HD ForceAndBlock every_model_sum(const SweepView& view, int slot, const Swee
 
 /// As GatherDefault, with springs as a fifth part.
 struct GatherEveryModel {
-  static constexpr int parts = 5;
+  static constexpr int parts = 5;  ///< of the sum, in the order of every_model_sum
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,

@@ -11,20 +11,20 @@ namespace ogc::fast {
 /// A tetrahedron seen from one of its corners. `index`: the others, in the order in which they have a positive volume
 /// at rest, encoded as in sweep.hpp.
 struct alignas(16) TetrahedronIncidence {
-  int index[3] = {0, 0, 0};
-  int tetrahedron = -1;  ///< number in RestState::tetrahedra
-  TetrahedronStencil stencil{};
+  int index[3] = {0, 0, 0};      ///< a, b, c of models/tetrahedron.hpp
+  int tetrahedron = -1;          ///< number in RestState::tetrahedra
+  TetrahedronStencil stencil{};  ///< w and i
 };
 
 /// The tetrahedra of a vertex in their stream.
 struct TetrahedronRow {
-  int begin = 0, count = 0;
+  int begin = 0, count = 0;  ///< first place in SweepView::tetrahedra, and how many
 };
 
 /// What a tetrahedron of a vertex reads beside its incidence: place in the stream, for the damping.
 struct LoadedTetrahedron {
   TetrahedronIncidence incidence;
-  int place;
+  int place;  ///< where view.gradients has what the damping needs
 };
 
 /// The elastic part alone, or with damping of strain.
@@ -56,8 +56,8 @@ OGC_HD inline void add_any_tetrahedron(const SweepView& view, const LoadedTetrah
 
 /// Tetrahedron k of a vertex.
 struct LoadTetrahedron {
-  const TetrahedronIncidence* first;
-  int begin;
+  const TetrahedronIncidence* first;  ///< of the vertex's row
+  int begin;                          ///< its place in the stream
 
   OGC_HD LoadedTetrahedron operator()(int k) const { return {first[k], begin + k}; }
 };
@@ -65,7 +65,7 @@ struct LoadTetrahedron {
 struct AddTetrahedron {
   const SweepView& view;
   SolidMaterial material;
-  Vec own;
+  Vec own;  ///< x of the vertex [m]
 
   OGC_HD void operator()(const LoadedTetrahedron& tetrahedron, ForceAndBlock& sum) const {
     add_tetrahedron_incidence(view, tetrahedron, material, own, sum);
@@ -93,7 +93,7 @@ OGC_HD Part<LoadTetrahedron, Add> tetrahedron_part(const SweepView& view, int sl
 /// Of scenes whose free vertices all belong to solids, with damping of strains and the activation `ogc`, in three
 /// parts: tetrahedra, vertex–facet contacts, edge–edge contacts.
 struct GatherSolids {
-  static constexpr int parts = 3;
+  static constexpr int parts = 3;  ///< of the sum
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -108,7 +108,7 @@ struct GatherSolids {
 
 /// As GatherEveryModel, with tetrahedra as a part between springs and contacts.
 struct GatherEverything {
-  static constexpr int parts = GatherEveryModel::parts + 1;
+  static constexpr int parts = GatherEveryModel::parts + 1;  ///< of the sum
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,

@@ -13,7 +13,7 @@ namespace ogc::fast {
 /// dependent launch).
 template <class Load, class Add>
 struct Part {
-  int count;
+  int count;  ///< items
   Load load;
   Add add;
 };
@@ -28,7 +28,7 @@ OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
 /// of all its teams: term(load(item)) is an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
-  int begin, count;
+  int begin, count;  ///< first item, and how many
   Load load;
   Term term;
 };
@@ -39,8 +39,7 @@ OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term 
   return {begin, count, load, term};
 }
 
-// Item k of either kind of part.
-
+/// Reads item k of either kind of part, and adds what was read, so that a team has one loop for both.
 template <class Load, class Add>
 OGC_HD auto load_item(const Part<Load, Add>& part, int k) {
   return part.load(k);
@@ -63,7 +62,7 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
 template <int W>
 struct SerialTeam {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;
+  static constexpr int width = W;  ///< W, team lanes
 
   /// Fetches `bytes` from `rows` on into a cache, where that helps: the team is going to read them.
   OGC_HD static void prefetch(const void*, int) {}

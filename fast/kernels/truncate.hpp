@@ -10,7 +10,7 @@ namespace ogc::fast {
 
 /// A position that its region holds, and whether the proposal was changed for it.
 struct Truncated {
-  Vec position;
+  Vec position;  ///< [m]
   bool cut = false;
 };
 
@@ -26,10 +26,10 @@ OGC_HD inline bool is_certainly_within(const Ball& ball, const Vec& x) {
 
 /// A sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not overlap.
 struct ExactTotal {
-  double part[8] = {};
-  int count = 0;
+  double part[8] = {};  ///< in use are the first `count`
+  int count = 0;        ///< at most 8: each square adds two
 
-  /// Adds a number.
+  /// Adds a number without rounding.
   OGC_HD void grow(double value) {
     for (int i = 0; i < count; ++i) {
       const double s = add(value, part[i]), v = sub(s, value);
@@ -43,7 +43,7 @@ struct ExactTotal {
     const double p = mul(a, a), rest = fused(a, a, -p);
     grow(sign * p), grow(sign * rest);
   }
-  /// Of the largest component that is not 0.
+  /// The sum has the sign of its largest component that is not 0.
   OGC_HD bool is_positive() const {
     for (int i = count - 1; i >= 0; --i)
       if (part[i] != 0) return part[i] > 0;

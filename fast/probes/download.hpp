@@ -45,8 +45,8 @@ inline compare::EdgeEdgeContact contact_of(const EdgeEdgeRecord& record) {
 /// to[i] = from[i].
 template <class T>
 struct CopyItems {
-  const T* from;
-  T* to;
+  const T* from;  ///< on the backend
+  T* to;          ///< on the backend
 
   OGC_HD void operator()(int i) const { to[i] = from[i]; }
 };

@@ -17,9 +17,9 @@ namespace ogc::fast {
 /// One question a case.
 struct ProbeBlock {
   SurfaceView surface;
-  PaddedVecs positions;
-  const compare::BlockQuestion* questions;
-  std::uint8_t* inside;
+  PaddedVecs positions;                     ///< of the question, by vertex [m]
+  const compare::BlockQuestion* questions;  ///< by case
+  std::uint8_t* inside;                     ///< by case: 1 where the block holds the point, written
 
   OGC_HD void operator()(int i) const {
     const compare::BlockQuestion& question = questions[i];

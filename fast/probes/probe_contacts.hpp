@@ -16,14 +16,16 @@ namespace ogc::fast {
 
 /// Cases as records: case i has the vertices 4 i … 4 i + 3, the body i and the edges 2 i and 2 i + 1.
 struct ContactBatch {
+  /// By case, of which is_edge_edge says which of the two counts.
   std::vector<VertexFacetRecord> vertex_facet;
   std::vector<EdgeEdgeRecord> edge_edge;
-  std::vector<ContactMaterial> materials;
-  std::vector<compare::Vec3f> positions, previous, start;
-  std::vector<float> rest_squared, contact_radius, slip_limit;
-  std::vector<int> body, role;
+  std::vector<ContactMaterial> materials;                       ///< by body: k_c [N/m], μ [1]
+  std::vector<compare::Vec3f> positions, previous, start;       ///< by vertex: x, X_prev, xᵗ [m]
+  std::vector<float> rest_squared, contact_radius, slip_limit;  ///< by edge [m²]; by case: r, ε_v h [m]
+  std::vector<int> body, role;                                  ///< by vertex; by case, as in contact_view.hpp
+  /// by case; bit k of `together`: the vertex of role k has the own one's colour
   std::vector<std::uint8_t> is_edge_edge, together;
-  std::vector<AnyActivation> activation;
+  std::vector<AnyActivation> activation;  ///< by case
 };
 
 /// Adds a case and its friction.
@@ -32,16 +34,17 @@ void append(ContactBatch& batch, const compare::ContactForceCase& contact, const
 
 /// Each contact alone, at its positions.
 struct ProbeContact {
-  SweepView view;
+  SweepView view;  ///< positions and xᵗ; radius and slip limit are those of the case
   ContactTables tables;
+  /// The arrays of a ContactBatch on the backend.
   const VertexFacetRecord* vertex_facet;
   const EdgeEdgeRecord* edge_edge;
   const float *contact_radius, *slip_limit;
   const int* role;
   const std::uint8_t *is_edge_edge, *together;
   const AnyActivation* activation;
-  bool friction;  ///< of friction alone, or of the normal force alone
-  ForceArrays out;
+  bool friction;    ///< of friction alone, or of the normal force alone
+  ForceArrays out;  ///< by case, written
 
   OGC_HD void operator()(int i) const {
     SweepView here = view;

@@ -24,10 +24,10 @@ std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array
   return all;
 }
 
-/// Where a probe leaves the sums.
+/// Where a probe leaves force and block of each case, on the backend.
 struct ForceArrays {
-  Vec* force;
-  Symmetric3* block;
+  Vec* force;         ///< by case: −∂E/∂x [N]
+  Symmetric3* block;  ///< by case [N/m]
 
   /// The sum of case i.
   OGC_HD void store(int i, const ForceAndBlock& sum) const {
@@ -36,7 +36,7 @@ struct ForceArrays {
   }
 };
 
-/// Room for n sums.
+/// Room on the backend for n cases; ProbeMemory::fetch copies it to `out`.
 template <class Backend>
 ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, std::size_t n) {
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
@@ -45,7 +45,7 @@ ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, s
 /// Each triangle alone; case i has a body of its own. A model that GatherDefault has is added as there, any other as
 /// GatherEveryModel does.
 struct ProbeMembrane {
-  SweepView view;
+  SweepView view;  ///< by case: incidences, materials and models; case i has the vertices 3 i … 3 i + 2
   ForceArrays out;
 
   OGC_HD void operator()(int i) const {
@@ -101,7 +101,7 @@ compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in
 /// Each hinge alone, likewise; `own`: the vertex that is solved.
 struct ProbeBending {
   SweepView view;
-  const int* own;
+  const int* own;  ///< by case
   ForceArrays out;
 
   OGC_HD void operator()(int i) const {
@@ -195,7 +195,8 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   return out;
 }
 
-/// Undamped or with damping of strain the way is that of GatherSolids, otherwise that of GatherEverything.
+/// Each tetrahedron alone: added as GatherSolids does where damping is that of strains, otherwise as GatherEverything
+/// does.
 struct ProbeTetrahedron {
   SweepView view;
   ForceArrays out;
@@ -209,7 +210,7 @@ struct ProbeTetrahedron {
   }
 };
 
-/// The case's numbers as a tetrahedron at rest, of which corner 0 is asked about: nobody asks for what it lacks.
+/// A tetrahedron at rest with the numbers of a case. Weights that corner 0 does not read stay 0.
 inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int number) {
   TetrahedronRest rest{
       {4 * number, 4 * number + 1, 4 * number + 2, 4 * number + 3}, number, {}, c.inverse, {}, c.volume};
@@ -218,6 +219,7 @@ inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int n
   return rest;
 }
 
+/// The stage `tetrahedron`.
 template <class Backend>
 compare::ForceOut probe_tetrahedron(Backend& backend, const compare::TetrahedronIn& in) {
   ProbeMemory<Backend> memory(backend);

@@ -14,12 +14,12 @@ namespace ogc::fast {
 
 /// Both kernels of a round, one vertex a case.
 struct ProbeGuess {
-  BeginVertex begin;
-  GuessVertex guess;
-  const Vec* acceleration;
-  const float* step;
-  StepControl* control;
-  std::uint8_t* cut;
+  BeginVertex begin;        ///< with arrays by case
+  GuessVertex guess;        ///< in its second round, where contacts are held
+  const Vec* acceleration;  ///< by case [m/s²]
+  const float* step;        ///< by case: h [s]
+  StepControl* control;     ///< by case
+  std::uint8_t* cut;        ///< by case: 1 where the guess was truncated, written
 
   OGC_HD void operator()(int i) const {
     BeginVertex own_begin = begin;

@@ -17,9 +17,9 @@ namespace ogc::fast {
 
 /// The contacts of a question as a detection would leave them.
 struct ContactRecords {
-  std::vector<VertexFacetRecord> vertex_facet;
-  std::vector<EdgeEdgeRecord> edge_edge;
-  std::vector<int> offsets;  ///< of the incidences by vertex, vertex_count + 1
+  std::vector<VertexFacetRecord> vertex_facet;  ///< by record
+  std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
+  std::vector<int> offsets;                     ///< of the incidences by vertex, vertex_count + 1
 };
 
 /// Those of a question.
@@ -47,6 +47,7 @@ class ProbeContacts {
     fill(facets, edges);
   }
 
+  /// Of all vertices.
   int incidences() const { return count_; }
 
   /// As a detection's.
@@ -102,6 +103,7 @@ class ProbeStart {
     backend.for_each(static_cast<int>(rest.tetrahedra.size()),
                      BeginTetrahedron{tetrahedra_.data(), start, solid_.data()});
   }
+  /// On the backend: Gᵗ by triangle, θᵗ by hinge [rad], Gᵗ by tetrahedron.
   const Symmetric2* strain() const { return strain_.data(); }
   const float* angle() const { return angle_.data(); }
   const SolidStrain* solid() const { return solid_.data(); }

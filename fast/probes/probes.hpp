@@ -26,11 +26,11 @@ namespace ogc::fast {
 
 /// Closest face, its weights, the distance and its lower bound, case by case.
 struct ProbeClosestFace {
-  const Vec* points;
-  const Corners* triangles;
-  TriangleFeature* feature;
-  Vec* weights;
-  float *distance, *distance_below;
+  const Vec* points;                 ///< by case [m]
+  const Corners* triangles;          ///< by case [m]
+  TriangleFeature* feature;          ///< by case, written
+  Vec* weights;                      ///< barycentric, by case, written
+  float *distance, *distance_below;  ///< by case [m], written; the second is never above the exact distance
 
   OGC_HD void operator()(int i) const {
     const Distance d = point_triangle_distance(points[i], triangles[i]);
@@ -65,11 +65,11 @@ struct StoredParameters {
 
 /// Closest features of two edges, their parameters, the distance there and its lower bound, case by case.
 struct ProbeClosestPoints {
-  const Ends *first, *second;
-  EdgeFeature *first_feature, *second_feature;
-  std::uint8_t* nearly_parallel;
-  StoredParameters* parameters;
-  float *contact_distance, *distance_below;
+  const Ends *first, *second;                   ///< by case [m]
+  EdgeFeature *first_feature, *second_feature;  ///< by case, written
+  std::uint8_t* nearly_parallel;                ///< by case: overlap included, written
+  StoredParameters* parameters;                 ///< by case, written
+  float *contact_distance, *distance_below;     ///< by case [m], written; the second is never above the exact distance
 
   OGC_HD void operator()(int i) const {
     const Ends &p = first[i], &q = second[i];
@@ -136,9 +136,9 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
 
 /// Energy and derivatives of an activation, case by case.
 struct ProbeActivation {
-  const float *distance, *contact_radius, *stiffness;
-  const AnyActivation* activation;
-  float *energy, *slope, *curvature;
+  const float *distance, *contact_radius, *stiffness;  ///< by case: d, r [m], k_c [N/m]
+  const AnyActivation* activation;                     ///< by case
+  float *energy, *slope, *curvature;                   ///< by case: g [J], g' [N], g'' [N/m], written
 
   OGC_HD void operator()(int i) const {
     const ActivationSlope at = activation[i].slope(distance[i], contact_radius[i], stiffness[i]);
@@ -167,10 +167,10 @@ compare::ActivationOut probe_activation(Backend& backend, const compare::Activat
 
 /// Truncation of a proposal, case by case.
 struct ProbeTruncate {
-  FeasibleRegions regions;
-  const Vec* position;
-  Vec* result;
-  std::uint8_t* cut;
+  FeasibleRegions regions;  ///< balls alone, by case
+  const Vec* position;      ///< proposals by case [m]
+  Vec* result;              ///< by case [m], written
+  std::uint8_t* cut;        ///< by case: 1 where the proposal was changed, written
 
   OGC_HD void operator()(int i) const {
     const Truncated kept = truncate(regions.ball(i), position[i]);

@@ -52,8 +52,8 @@ namespace ogc::fast {
 
 /// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ count; `out` may be `in`.
 struct Scan {
-  const int* in;
-  int* out;
+  const int* in;  ///< on the backend
+  int* out;       ///< on the backend, count + 1 sums
   int count;
 };
 

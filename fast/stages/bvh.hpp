@@ -33,6 +33,7 @@ class Bvh {
     facets_ = allocate(surface.triangle_count, facet_nodes_, facet_arrivals_, order_.data() + facets_at());
   }
 
+  /// On the backend; boxes and reaches are those of the last refit.
   const TreeView& facets() const { return facets_; }
   const TreeView& edges() const { return edges_; }
   /// Vertices in the order of a Hilbert curve.

@@ -65,9 +65,9 @@ class Lists {
   const int* edge_edge_count() const { return &status_.data()->edge_edge; }
   /// Not 0 once a list was too small; on the backend.
   const int* overflow() const { return &status_.data()->overflow; }
-  /// Contacts that have room.
+  /// Contacts that the lists have room for.
   int capacity() const { return capacity_; }
-  /// Noted pairs that have room.
+  /// Noted pairs that the lists have room for.
   int noted_capacity() const { return noted_capacity_; }
 
   /// After both searches: noted pairs to records and incidences. `bounds`, which need no list, stand beside the first

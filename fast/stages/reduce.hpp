@@ -10,6 +10,7 @@
 
 namespace ogc::fast {
 
+/// Rows that a thread adds.
 inline constexpr int reduce_run = 32;
 
 /// C for a mesh of so many vertices: an item or two a chunk, where there are enough of them to pay for the rows.
@@ -20,8 +21,8 @@ inline int reduce_chunks(int vertices) { return vertices <= 2048 ? 1024 : 32768;
 template <int columns, class All>
 struct AddChunk {
   All all;
-  int chunks;
-  double* partial;
+  int chunks;       ///< C
+  double* partial;  ///< [chunk][column], on the backend
 
   OGC_HD void operator()(int chunk) const {
     double sums[columns] = {};
@@ -33,8 +34,8 @@ struct AddChunk {
 /// for_each over runs and columns: a row of `to` is the sum of 32 rows of `from`.
 template <int columns>
 struct AddRun {
-  const double* from;
-  double* to;
+  const double* from;  ///< [row][column], on the backend
+  double* to;          ///< [row][column], on the backend
 
   OGC_HD void operator()(int i) const {
     const int run = i / columns, column = i % columns;

@@ -86,6 +86,7 @@ class ResidentSimulation : public compare::Simulation {
   }
   std::string device() const override { return device_; }
 
+  /// Made on the host at the start, of the scene rounded to single precision.
   const Colouring& colouring() const { return colouring_; }
   const RestState& rest_state() const { return rest_; }
   /// W, the width of the sweep's sums.
@@ -95,6 +96,7 @@ class ResidentSimulation : public compare::Simulation {
   void observe(StepObserver* observer) { step_.observe(observer); }
   // What an observer looks at.
   float query_radius() const { return query_radius_; }  ///< r_q of the last step [m]
+  /// For the observer alone, between launches: whatever it changes there changes the run.
   Backend& backend() { return backend_; }
   StepState<Backend>& state() { return state_; }
   Detection<Backend>& detection() { return detection_; }

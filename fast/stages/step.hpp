@@ -40,9 +40,9 @@ struct StepSettings {
   float step = 0, contact_radius = 0, friction_limit = 0, bound_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
   float detection_radius = 0;                                                    ///< r and the margin of contacts [m]
   Vec acceleration;                                                              ///< [m/s²]
-  int iterations = 0;
-  bool energies = false;
-  ControlSettings control;
+  int iterations = 0;                                                            ///< of a step
+  bool energies = false;    ///< whether a row has the energies of elements and contacts
+  ControlSettings control;  ///< what the device decides by
 };
 
 /// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order
@@ -87,25 +87,27 @@ struct StepState {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
+  /// of the whole mesh
   int vertex_count = 0, triangle_count = 0, hinge_count = 0, spring_count = 0, prescribed_count = 0;
   int tetrahedron_count = 0;
+  /// whether the step begins with Gᵗ and θᵗ; whether with Gᵗ of the tetrahedra
   bool damped = false, solids_damped = false;
-  Buffer<Vec> start, velocity, target, previous, position;
-  Buffer<PaddedVec> padded_start, padded;
-  Buffer<float> mass;
-  Buffer<int> prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  Buffer<Vec> prescribed_targets;  ///< [step of the frame][number]
-  Buffer<TriangleRest> triangles;
-  Buffer<HingeRest> hinges;
-  Buffer<HingeWeights> weights;
-  Buffer<SpringRest> springs;
-  Buffer<TetrahedronRest> tetrahedra;
-  Buffer<Symmetric2> strain_start;
-  Buffer<SolidStrain> solid_start;
-  Buffer<float> angle_start;
-  Buffer<StepControl> control;
-  Buffer<StepRow> rows;
-  Buffer<double> sums_guess, sums_end;
+  Buffer<Vec> start, velocity, target, previous, position;  ///< by vertex: xᵗ [m], vᵗ [m/s], y, X_prev, x [m]
+  Buffer<PaddedVec> padded_start, padded;                   ///< by vertex: xᵗ; x, twice as many [m]
+  Buffer<float> mass;                                       ///< by vertex [kg]
+  Buffer<int> prescribed_number;        ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  Buffer<Vec> prescribed_targets;       ///< [step of the frame][number]
+  Buffer<TriangleRest> triangles;       ///< by triangle
+  Buffer<HingeRest> hinges;             ///< by hinge
+  Buffer<HingeWeights> weights;         ///< by hinge; empty where no body bends isometrically
+  Buffer<SpringRest> springs;           ///< by spring
+  Buffer<TetrahedronRest> tetrahedra;   ///< by tetrahedron
+  Buffer<Symmetric2> strain_start;      ///< Gᵗ by triangle [1]
+  Buffer<SolidStrain> solid_start;      ///< Gᵗ by tetrahedron [1]
+  Buffer<float> angle_start;            ///< θᵗ by hinge [rad]
+  Buffer<StepControl> control;          ///< one item
+  Buffer<StepRow> rows;                 ///< by step of the frame
+  Buffer<double> sums_guess, sums_end;  ///< by SumColumn, after the guess loop and at the end
 };
 
 /// Follows a step from the host, event by event. It needs a clock that is on, because a recorded step has no host

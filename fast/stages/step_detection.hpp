@@ -9,9 +9,9 @@ namespace ogc::fast {
 
 /// First and last launch of a detection, with the step's own work in them.
 struct StepLaunches {
-  BeginRegions regions;
-  EndStepDetection end;
-  ResolveContact resolve;
+  BeginRegions regions;    ///< in the first launch: the certificate and X_prev
+  EndStepDetection end;    ///< in the last launch: the control, and rows of the contact stream
+  ResolveContact resolve;  ///< in the last launch: the stream's contacts
 
   /// As PlainLaunches::prepare.
   template <class Backend>

@@ -15,9 +15,9 @@ Facet facet_of(const compare::Topology& topology, std::size_t t);
 
 /// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor left out.
 struct Seeds {
-  std::vector<EdgeSeeds> edges;
-  std::vector<FacetSeeds> facets;
-  std::vector<VertexSeeds> vertices;
+  std::vector<EdgeSeeds> edges;       ///< by edge
+  std::vector<FacetSeeds> facets;     ///< by triangle
+  std::vector<VertexSeeds> vertices;  ///< by vertex
 };
 
 /// `groups`: one number for each vertex; `partners`: null where there is none (compare/problem/exclusions.hpp).

@@ -23,13 +23,13 @@ inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 :
 
 /// The streams on the host, slot by slot in the order of the colouring.
 struct SweepStreams {
-  std::vector<SweepVertex> vertices;
-  std::vector<MembraneIncidence> membrane;
-  std::vector<HingeIncidence> hinges;
-  std::vector<IsometricStencil> isometric;  ///< beside `hinges`; empty where no body bends isometrically
-  std::vector<SpringIncidence> springs;
-  std::vector<SpringRow> spring_rows;  ///< by slot; empty where there is no spring
-  std::vector<TetrahedronIncidence> tetrahedra;
+  std::vector<SweepVertex> vertices;             ///< by slot
+  std::vector<MembraneIncidence> membrane;       ///< row by row, in the order of slots
+  std::vector<HingeIncidence> hinges;            ///< likewise
+  std::vector<IsometricStencil> isometric;       ///< beside `hinges`; empty where no body bends isometrically
+  std::vector<SpringIncidence> springs;          ///< row by row, as spring_rows says
+  std::vector<SpringRow> spring_rows;            ///< by slot; empty where there is no spring
+  std::vector<TetrahedronIncidence> tetrahedra;  ///< row by row, as tetrahedron_rows says
   std::vector<TetrahedronGradients> gradients;   ///< beside `tetrahedra`; empty where no body damps
   std::vector<TetrahedronRow> tetrahedron_rows;  ///< by slot; empty where there is no tetrahedron
 };
@@ -41,6 +41,7 @@ inline int encoded(int vertex, const std::vector<int>& colour, int own_colour) {
   return colour[static_cast<std::size_t>(vertex)] < own_colour ? ~vertex : vertex;
 }
 
+/// A triangle as its corner sees it.
 inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle, int corner,
                                             const std::vector<int>& colour) {
   const TriangleRest& shape = rest.triangles[static_cast<std::size_t>(triangle)];
@@ -58,6 +59,7 @@ inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle,
 /// vertex. Exchanging both pairs at once keeps the angle (fast/kernels/models/discrete_hinge.hpp).
 inline constexpr int hinge_others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
 
+/// A hinge as its vertex of this role sees it.
 inline HingeIncidence hinge_incidence(const RestState& rest, int hinge, int role, const std::vector<int>& colour) {
   const HingeRest& shape = rest.hinges[static_cast<std::size_t>(hinge)];
   const int own = colour[static_cast<std::size_t>(shape.vertex[role])];
@@ -80,6 +82,7 @@ inline IsometricStencil isometric_stencil(const HingeWeights& rest, int role) {
   return stencil;
 }
 
+/// A spring as this end of it sees it.
 inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const std::vector<int>& colour) {
   const int own = colour[static_cast<std::size_t>(spring.end[end])];
   return {
@@ -214,6 +217,7 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
 /// GatherEveryModel, GatherSolids, GatherEverything.
 enum class SweepSum { surfaces, every_model, solids, everything };
 
+/// By the activation, springs, models and tetrahedra of the scene.
 inline SweepSum needed_sum(const RestState& rest) {
   const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
                            !std::all_of(rest.models.begin(), rest.models.end(), are_default);
@@ -222,8 +226,8 @@ inline SweepSum needed_sum(const RestState& rest) {
   return every_model || !alone ? SweepSum::everything : SweepSum::solids;
 }
 
-/// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each
-/// iteration (positions, bounds, control).
+/// The resident streams and their launches. `complete` gives a view what belongs to the sweep; positions, bounds and
+/// control of an iteration are the caller's.
 template <class Backend>
 class Sweep {
  public:
@@ -264,8 +268,8 @@ class Sweep {
     upload(prescribed_, prescribed_host_);
   }
 
-  int colours() const { return colours_; }
-  /// W.
+  int colours() const { return colours_; }  ///< launches of an iteration, beside that of the prescribed vertices
+  /// W, the width of the sums.
   int lanes() const { return lanes_; }
   /// By body; on the backend.
   const SurfaceMaterial* materials() const { return materials_.data(); }
@@ -324,7 +328,7 @@ class Sweep {
   }
 
   /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each
-  /// cut counted. `start`: overlapping after a launch that writes nothing of what a sweep reads but whose turn it is.
+  /// cut counted. `start`: overlapping where the launch before writes nothing that a sweep reads but StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
     // It writes only what a colour reads after its sum, so the first colour may overlap it.

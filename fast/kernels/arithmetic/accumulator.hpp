@@ -11,7 +11,7 @@ namespace ogc::fast {
 /// Symmetric 3×3 [N/m].
 template <class T>
 struct Symmetric3Of {
-  T xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+  T xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  ///< the upper triangle, row by row
 };
 using Symmetric3 = Symmetric3Of<float>;
 
@@ -21,6 +21,7 @@ struct ForceAndBlockOf {
   Vector<T> force{};        ///< −∂E/∂x_v [N]
   Symmetric3Of<T> block{};  ///< approximation of ∂²E/∂x_v², positive semidefinite [N/m]
 
+  /// force += scale · direction
   OGC_HD void add_force(const T& scale, const Vector<T>& direction) { force = force + scale * direction; }
 
   /// block += scale · a aᵀ

@@ -21,6 +21,7 @@ namespace ogc::fast {
 struct Rounded {
   double value = 0;
 
+  /// What polynomials are built of: the difference of two coordinates, rounded once, and a constant.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }
@@ -32,16 +33,17 @@ struct Rounded {
 
 /// A sign, and whether rounding errors cannot have changed it.
 struct Sign {
-  int value = 0;
+  int value = 0;  ///< −1, 0 or 1
   bool certain = true;
 };
 
+/// −1, 0 or 1; 0 for NaN.
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
 /// The same question in single precision: value and sum of the moduli of its terms, for degrees up to 4. How its
 /// operations are contracted changes no sign that it is certain of, as contraction only leaves roundings out.
 struct Single {
-  float value = 0, scale = 0;
+  float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
   /// A difference of floats has one relative error of u = 2⁻²⁴, however small. Its modulus counts as 2⁻³⁰ at least:
   /// then no scale of degree 4 is below 2⁻¹²⁰, and what products of values lose by underflow, 2⁻¹⁵⁰ each, is nothing
@@ -63,12 +65,14 @@ struct Single {
 
 /// A rounded double with the sum of the moduli of the terms that it consists of.
 struct Filtered {
-  double value = 0, scale = 0;
+  double value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
+  /// Exact where neither coordinate is 2²⁸ times the other; rounded once elsewhere.
   OGC_HD static Filtered difference(float a, float b) {
     const double d = sub(static_cast<double>(a), static_cast<double>(b));
     return {d, modulus(d)};
   }
+  /// `a` stands without an error.
   OGC_HD static Filtered exact(double a) { return {a, modulus(a)}; }
   friend OGC_HD Filtered operator+(Filtered a, Filtered b) { return {add(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }
@@ -82,8 +86,9 @@ struct Filtered {
 
 /// An unevaluated sum high + low of two doubles (|low| ≤ ulp(high)/2) with the sum of the moduli of its terms.
 struct Wide {
-  double high = 0, low = 0, scale = 0;
+  double high = 0, low = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of high + low
 
+  /// Neither has an error: two doubles hold the difference of any two floats.
   OGC_HD static Wide difference(float a, float b) { return sum_of(static_cast<double>(a), -static_cast<double>(b)); }
   OGC_HD static Wide exact(double a) { return {a, 0, modulus(a)}; }
   friend OGC_HD Wide operator+(const Wide& a, const Wide& b) {

@@ -18,6 +18,7 @@ namespace ogc::fast {
 #define OGC_ROUNDED(on_device, on_host) return on_host
 #endif
 
+/// One IEEE operation each, rounded to nearest and never contracted with another one.
 OGC_HD inline double add(double a, double b) { OGC_ROUNDED(__dadd_rn(a, b), a + b); }
 OGC_HD inline double sub(double a, double b) { OGC_ROUNDED(__dsub_rn(a, b), a - b); }
 OGC_HD inline double mul(double a, double b) { OGC_ROUNDED(__dmul_rn(a, b), a * b); }
@@ -26,6 +27,7 @@ OGC_HD inline double square_root(double a) { OGC_ROUNDED(__dsqrt_rn(a), std::sqr
 /// a·b + c with one rounding.
 OGC_HD inline double fused(double a, double b, double c) { OGC_ROUNDED(__fma_rn(a, b, c), std::fma(a, b, c)); }
 
+/// The same in single precision.
 OGC_HD inline float add(float a, float b) { OGC_ROUNDED(__fadd_rn(a, b), a + b); }
 OGC_HD inline float sub(float a, float b) { OGC_ROUNDED(__fsub_rn(a, b), a - b); }
 OGC_HD inline float mul(float a, float b) { OGC_ROUNDED(__fmul_rn(a, b), a * b); }
@@ -33,6 +35,7 @@ OGC_HD inline float square_root(float a) { OGC_ROUNDED(__fsqrt_rn(a), std::sqrt(
 
 #undef OGC_ROUNDED
 
+/// Minimum, maximum and |a|. Where one of two arguments is NaN the answer is the first.
 OGC_HD inline double smaller(double a, double b) { return b < a ? b : a; }
 OGC_HD inline double larger(double a, double b) { return a < b ? b : a; }
 OGC_HD inline double modulus(double a) { return a < 0 ? -a : a; }

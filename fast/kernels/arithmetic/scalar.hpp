@@ -17,6 +17,7 @@ struct MaskOf {
 template <class T>
 using Mask = typename MaskOf<T>::type;
 
+/// a where the condition holds, else b.
 OGC_HD inline float select(bool condition, float a, float b) { return condition ? a : b; }
 /// a where the condition holds, else b, component by component.
 template <class T, class M>

@@ -26,7 +26,7 @@ using Vec = Vector<float>;
 
 /// A position where it is gathered again and again: sixteen bytes are one read on a device, and one register on a CPU.
 struct alignas(16) PaddedVec {
-  float x = 0, y = 0, z = 0, unused = 0;
+  float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` fills it up to 16 B
 
   PaddedVec() = default;
   OGC_HD explicit PaddedVec(const Vec& a) : x(a.x), y(a.y), z(a.z) {}
@@ -35,7 +35,7 @@ struct alignas(16) PaddedVec {
 
 /// Such positions, read whole.
 struct PaddedVecs {
-  const PaddedVec* at = nullptr;
+  const PaddedVec* at = nullptr;  ///< by vertex [m]
 
   OGC_HD Vec operator[](int v) const {
     const PaddedVec whole = at[v];
@@ -63,6 +63,7 @@ template <class T>
 OGC_HD Vector<T> operator*(const Vector<T>& a, const T& s) {
   return {a.x * s, a.y * s, a.z * s};
 }
+/// Products are added from the left: where operations are rounded by themselves the order decides the bits.
 template <class T>
 OGC_HD T dot(const Vector<T>& a, const Vector<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

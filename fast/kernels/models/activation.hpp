@@ -35,11 +35,13 @@ struct ActivationOf {
 /// folded in: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
 template <class Stage>
 struct TwoStages : ActivationOf<TwoStages<Stage>> {
+  /// g' and g'' for 0 < d < r.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     if (d >= 0.5F * r) return {-k * (r - d), k};
     const float slope = Stage::logarithmic_stiffness(r, k) / d;
     return {-slope, slope / d};
   }
+  /// g for 0 < d < r.
   OGC_HD static float energy_within(float d, float r, float k) {
     if (d >= 0.5F * r) {
       const float depth = r - d;
@@ -60,6 +62,7 @@ struct OgcActivation : TwoStages<OgcActivation> {
 
 /// ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
 struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
+  /// k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
   OGC_HD static float logarithmic_stiffness(float r, float k) {
     const float stiffness = 0.25F * k * r * r;
     return 0.5F * r * stiffness;
@@ -68,6 +71,7 @@ struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
 
 /// ContactActivation::quadratic: k_c/2 (r − d)².
 struct QuadraticActivation : ActivationOf<QuadraticActivation> {
+  /// g' = −k_c (r − d), g'' = k_c, and g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) { return {-k * (r - d), k}; }
   OGC_HD static float energy_within(float d, float r, float k) {
     const float depth = r - d;
@@ -77,6 +81,7 @@ struct QuadraticActivation : ActivationOf<QuadraticActivation> {
 
 /// ContactActivation::ipc_log: k_c (r − d)² log(r/d).
 struct IpcLogActivation : ActivationOf<IpcLogActivation> {
+  /// With s = (r − d)/d: g' = −k_c (r − d) (2 ln(r/d) + s), g'' = k_c (2 ln(r/d) + s (4 + s)), and g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     const float depth = r - d, share = depth / d, log = 2.0F * log_ratio(r, d);
     return {-k * (depth * (log + share)), k * (log + share * (4.0F + share))};
@@ -89,6 +94,7 @@ struct IpcLogActivation : ActivationOf<IpcLogActivation> {
 
 /// ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
 struct CubicActivation : ActivationOf<CubicActivation> {
+  /// g' = −2 k_c/r (r − d)², g'' = 4 k_c/r (r − d), and g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     const float depth = r - d, slope = 2.0F * k / r * depth;
     return {-slope * depth, 2.0F * slope};
@@ -114,7 +120,7 @@ OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
 
 /// An activation that is known at run time only.
 struct AnyActivation {
-  ContactActivation activation = ContactActivation::ogc;
+  ContactActivation activation = ContactActivation::ogc;  ///< whose functor `slope` and `energy` call
 
   /// g' and g'', as ActivationOf::slope.
   OGC_HD ActivationSlope slope(float d, float r, float k) const {

@@ -8,6 +8,7 @@ namespace ogc::fast {
 
 /// BendingModel::none: hinges without energy, which no rest state holds.
 struct NoBending {
+  /// There is no stencil to add, so GatherDefault serves, and nothing is read.
   static constexpr bool is_default = true, reads_weights = false;
   OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}

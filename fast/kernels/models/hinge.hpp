@@ -32,7 +32,7 @@ struct HingeRest {
 
 /// w of x1, o0, o1 [1/m], of the isometric model; that of x0 is minus their sum.
 struct HingeWeights {
-  float weight[3] = {};
+  float weight[3] = {};  ///< of x1, o0, o1
 };
 
 /// Angle of a hinge and what its gradients need of the present shape.
@@ -58,7 +58,7 @@ OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squ
   return !(normal_squared > relative * length_squared * side_squared);
 }
 
-/// From e, a and b.
+/// The shape of a hinge with these e, a and b.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, const Vector<T>& b) {
   HingeShapeOf<T> shape;
@@ -110,7 +110,7 @@ struct IsometricStencil {
 
 /// All that a bending model reads of a hinge, seen from the vertex that is solved.
 struct HingeSeen {
-  HingeStencil stencil;
+  HingeStencil stencil;        ///< c and θ₀
   IsometricStencil isometric;  ///< where the body bends so
   bool opposite;               ///< the vertex is none of the edge
   Vec own, p[3];               ///< positions; p as in hinge_shape_seen

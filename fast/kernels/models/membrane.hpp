@@ -13,7 +13,7 @@ namespace ogc::fast {
 
 /// A triangle at rest.
 struct TriangleRest {
-  int corner[3] = {-1, -1, -1};
+  int corner[3] = {-1, -1, -1};  ///< vertices in the order of the mesh
   int body = -1;
   float gradient[3][2] = {};  ///< ∇N_k [1/m]
   float area = 0;             ///< A [m²]
@@ -29,7 +29,7 @@ using Symmetric2 = Symmetric2Of<float>;
 /// The two columns of F.
 template <class T>
 struct DeformationGradientOf {
-  Vector<T> first, second;
+  Vector<T> first, second;  ///< f₁, f₂ [1]
 };
 using DeformationGradient = DeformationGradientOf<float>;
 

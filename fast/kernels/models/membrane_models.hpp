@@ -8,6 +8,7 @@ namespace ogc::fast {
 
 /// MembraneModel::none: triangles without energy, which no rest state holds.
 struct NoMembrane {
+  /// There is no stencil to add, so GatherDefault serves.
   static constexpr bool is_default = true;
   OGC_HD static void add(const MembraneStencil&, const SurfaceMaterial&, const Vec&, const Vec&, const Symmetric2&,
                          ForceAndBlock&) {}

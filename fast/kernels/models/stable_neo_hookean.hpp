@@ -16,11 +16,11 @@ namespace ogc::fast {
 
 /// J, n and q; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
 struct AreaRatio {
-  Vec normal;
-  float ratio = 0, density = 0;
+  Vec normal;                    ///< n, a unit vector; 0 where the triangle has collapsed
+  float ratio = 0, density = 0;  ///< J [1], q [1/m²]
 };
 
-/// Of the edges b, c and the gradients ∇N_b, ∇N_c.
+/// J, n and q of a triangle with the edges b, c and the gradients ∇N_b, ∇N_c.
 OGC_HD inline AreaRatio area_ratio(const Vec& to_b, const Vec& to_c, const float* gradient_b, const float* gradient_c) {
   Vec normal = cross(to_b, to_c);
   float scale = fabsf(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
@@ -38,7 +38,7 @@ OGC_HD inline AreaRatio area_ratio(const Vec& to_b, const Vec& to_c, const float
 
 /// MembraneModel::stable_neo_hookean.
 struct StableNeoHookean {
-  static constexpr bool is_default = false;
+  static constexpr bool is_default = false;  ///< GatherDefault and the packs of the CPU lack it
 
   /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J.
   OGC_HD static void add_elastic(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b,

@@ -18,18 +18,17 @@ namespace ogc::fast {
 /// Of one body. Damping already divided by the step: k_d/h [1].
 struct alignas(16) SolidMaterial {
   float lame_lambda = 0, lame_mu = 0;  ///< [Pa]
-  float damping = 0;
+  float damping = 0;                   ///< k_d/h [1]
 };
 
-/// A tetrahedron at rest: w of the pairs 01, 02, 03, 12, 13, 23 [m], i [1/m³], and for the damping ∇N₁, ∇N₂, ∇N₃ [1/m]
-/// and V [m³].
+/// A tetrahedron at rest (method.md §8.4).
 struct TetrahedronRest {
-  int corner[4] = {-1, -1, -1, -1};
+  int corner[4] = {-1, -1, -1, -1};  ///< vertices, in the order of a positive volume at rest
   int body = -1;
-  float weight[6] = {};
-  float inverse = 0;
-  float gradient[3][3] = {};
-  float volume = 0;
+  float weight[6] = {};       ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
+  float inverse = 0;          ///< i = 1/(6 V) [1/m³]
+  float gradient[3][3] = {};  ///< ∇N₁, ∇N₂, ∇N₃ [1/m], for the damping
+  float volume = 0;           ///< V [m³], for the damping
 };
 
 /// One tetrahedron seen from one corner.
@@ -65,9 +64,10 @@ OGC_HD void add_tetrahedron(const TetrahedronStencilOf<T>& stencil, const SolidM
 
 /// The columns of F.
 struct SolidDeformation {
-  Vec column[3];
+  Vec column[3];  ///< ∂x along the axes of the rest shape [1]
 };
 
+/// F = Σ x_k ∇N_kᵀ, with a, b and c the vectors to the other corners.
 OGC_HD inline SolidDeformation solid_deformation(const TetrahedronGradients& gradients, const Vec& a, const Vec& b,
                                                  const Vec& c) {
   const Vec* g = gradients.other;
@@ -82,6 +82,7 @@ OGC_HD inline SolidStrain solid_strain(const SolidDeformation& f) {
           0.5f * (dot(*y, *y) - 1.0f), 0.5f * dot(*y, *z), 0.5f * (dot(*z, *z) - 1.0f)};
 }
 
+/// F times a vector of the rest shape.
 OGC_HD inline Vec along_columns(const SolidDeformation& f, const Vec& by) {
   return by.x * f.column[0] + by.y * f.column[1] + by.z * f.column[2];
 }
