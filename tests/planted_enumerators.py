@@ -17,18 +17,25 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+FAST_KERNELS = "fast/cpu/pack_kernels.cpp"  # compiles the sweep with every model
+
 # Enumeration, its header, and what must handle each of its values.
 DISPATCHES = (
     ("Stage", "compare/judge/cases/stage.hpp", ("compare/judge/cases/stage.cpp",)),
     ("MembraneModel", "compare/problem/scene.hpp",
-     ("reference/energies/membrane.cpp", "reference/solvers/vertex_system.cpp", "reference/solvers/potential.cpp")),
+     ("reference/energies/membrane.cpp", "reference/solvers/vertex_system.cpp", "reference/solvers/potential.cpp",
+      FAST_KERNELS)),
     ("BendingModel", "compare/problem/scene.hpp",
-     ("reference/energies/bending.cpp", "reference/energies/rest_state.cpp", "reference/solvers/vertex_system.cpp")),
+     ("reference/energies/bending.cpp", "reference/energies/rest_state.cpp", "reference/solvers/vertex_system.cpp",
+      FAST_KERNELS)),
     ("ContactActivation", "compare/problem/settings.hpp",
-     ("reference/energies/activation.cpp", "reference/energies/meeting.cpp", "reference/solvers/potential.cpp")),
+     ("reference/energies/activation.cpp", "reference/energies/meeting.cpp", "reference/solvers/potential.cpp",
+      FAST_KERNELS)),
     ("DampingForm", "compare/problem/settings.hpp",
      ("reference/energies/membrane.cpp", "reference/energies/bending.cpp", "reference/energies/spring.cpp",
-      "reference/solvers/potential.cpp")),
+      "reference/solvers/potential.cpp", FAST_KERNELS)),
+    ("Bounds", "compare/problem/settings.hpp",
+     ("reference/solvers/feasible_regions.cpp", "fast/cpu/simulation.cpp", "experiments/program/audits/auditor.cpp")),
     ("Solver", "experiments/program/runs/solvers.hpp", ("experiments/program/runs/solvers.cpp",)),
 )
 UNHANDLED = re.compile(r"enumeration value .planted. not handled in switch")
