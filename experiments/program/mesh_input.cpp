@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/scene.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/polygon_mesh.hpp"
+#include "compare/files/meshes/polygon_mesh.hpp"
 #include "compare/problem/element_names.hpp"
 #include "experiments/program/commands.hpp"
 

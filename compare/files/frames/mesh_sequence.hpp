@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/polygon_mesh.hpp"
+#include "compare/files/meshes/polygon_mesh.hpp"
 
 namespace ogc::compare {
 

@@ -11,7 +11,7 @@
 
 #include "compare/files/frames/mesh_sequence.hpp"
 #include "compare/files/frames/natural_order.hpp"
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/program/audits/auditor.hpp"

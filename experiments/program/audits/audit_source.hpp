@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/polygon_mesh.hpp"
+#include "compare/files/meshes/polygon_mesh.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/smallest_distances.hpp"
 #include "compare/problem/element_names.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "experiments/program/mesh_input.hpp"
 
 namespace ogc::experiments {

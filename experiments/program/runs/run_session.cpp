@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/record/run_folder.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/program/output.hpp"
