@@ -11,6 +11,7 @@
 
 namespace ogc::compare {
 
+/// The frames of a simulation, read one after another.
 class MeshSequence {
  public:
   virtual ~MeshSequence() = default;
@@ -41,7 +42,7 @@ std::unique_ptr<MeshSequence> npy_sequence(const std::filesystem::path& file, co
 /// little-endian).
 std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// Files of a folder with one of these extensions (".obj"; in any case), in natural order. Throws InputError where
+/// Files of a folder with one of these extensions (".obj"; capitals or not), in natural order. Throws InputError where
 /// there are several kinds of them or none.
 std::vector<std::filesystem::path> mesh_files_in(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& extensions);

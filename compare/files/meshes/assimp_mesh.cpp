@@ -1,5 +1,4 @@
-// Nothing is asked of assimp but to parse: what it would merge, cut or leave out, it does by tolerances, and in
-// silence.
+// assimp parses and nothing else: it would merge, cut and drop elements by tolerances, without a word.
 #include "compare/files/meshes/assimp_mesh.hpp"
 
 #include <algorithm>
@@ -24,16 +23,16 @@ class SceneCollector {
   SceneCollector(const aiScene& scene, PolygonMesh& mesh) : scene_(scene), mesh_(mesh) {}
 
   void collect(const aiNode& node, const aiMatrix4x4& parent) {
-    const aiMatrix4x4 place = parent * node.mTransformation;
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], place);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], place);
+    const aiMatrix4x4 transform = parent * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], transform);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], transform);
   }
 
  private:
-  void add(const aiMesh& part, const aiMatrix4x4& place) {
+  void add(const aiMesh& part, const aiMatrix4x4& transform) {
     const auto first = static_cast<Index>(mesh_.positions.size());
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      const aiVector3D p = place * part.mVertices[v];
+      const aiVector3D p = transform * part.mVertices[v];
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
         throw InputError(mesh_.source.file + ": vertex " + std::to_string(mesh_.positions.size()) +
                          ": a coordinate is not finite; give three finite numbers [m]");

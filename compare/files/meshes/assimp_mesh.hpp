@@ -10,7 +10,7 @@ namespace ogc::compare {
 /// Whether this program was built with assimp.
 bool has_assimp();
 
-/// All meshes of a file, one after the other, each at the places that the file's nodes put it (glTF), with faces
+/// All meshes of a file, one after the other, with the transforms of the file's nodes (glTF), with faces
 /// counted from 0 through all of them; lines become loose edges, points are left out. `shares_vertices`: the file's
 /// faces name vertices by number (OFF), so that vertices are counted, too. Throws InputError with assimp's reason where
 /// it can't be read, or where this program was built without assimp: then with what to install.

@@ -37,8 +37,9 @@ std::optional<MeshFormat> format_of(const std::filesystem::path& path) {
   return static_cast<MeshFormat>(found - extensions.begin());
 }
 
-/// What assimp read of an OFF file, if it is all of it: it leaves faces of more than nine corners out, in silence. The
-/// number of faces is the second after the word that ends in OFF; binary files have none there.
+/// The mesh that assimp read of an OFF file; throws InputError where faces are missing, as assimp drops those of more
+/// than nine corners without a word. The file's number of faces is the second number after the word that ends in OFF;
+/// binary files have none there.
 PolygonMesh whole_off(PolygonMesh mesh, const std::string& bytes) {
   std::istringstream lines(bytes);
   std::string line, header;

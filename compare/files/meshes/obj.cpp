@@ -1,5 +1,5 @@
-// Line by line; a face may name vertices that come later, so indices are checked at the end, and each face remembers
-// its line.
+// A face may name vertices that come later, so indices are checked when the whole file is read; each face keeps its
+// line for the message.
 #include "compare/files/meshes/obj.hpp"
 
 #include <algorithm>

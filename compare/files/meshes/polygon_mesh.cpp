@@ -1,4 +1,4 @@
-// Three changes, each only where it is needed and each with its sentence: weld, cut, leave out.
+// Welds vertices, cuts faces, leaves out unused vertices: each where it is needed, with a sentence for the user.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-struct PlaceHash {
+struct PositionHash {
   std::size_t operator()(const Vec3& p) const {
     std::size_t hash = 0;
     for (const double x : {p.x, p.y, p.z})
@@ -59,15 +59,15 @@ class MeshMaker {
            (f < lines.size() ? " (line " + std::to_string(lines[f]) + ")" : "");
   }
 
-  /// Each vertex becomes the first one at its place.
+  /// Each vertex becomes the first one at its position.
   void weld() {
-    std::unordered_map<Vec3, Index, PlaceHash> places;
+    std::unordered_map<Vec3, Index, PositionHash> first_at;
     std::vector<Index> kept, renamed;
-    places.reserve(in_.positions.size());
+    first_at.reserve(in_.positions.size());
     for (std::size_t v = 0; v < in_.positions.size(); ++v) {
-      const auto [place, is_new] = places.try_emplace(in_.positions[v], static_cast<Index>(kept.size()));
+      const auto [first, is_new] = first_at.try_emplace(in_.positions[v], static_cast<Index>(kept.size()));
       if (is_new) kept.push_back(static_cast<Index>(v));
-      renamed.push_back(place->second);
+      renamed.push_back(first->second);
     }
     if (!in_.source.shares_vertices) name_by_faces(kept);
     const std::size_t merged = in_.positions.size() - kept.size();

@@ -1,5 +1,5 @@
-// What a mesh file says before it is a mesh: faces of any number of corners, vertices that nothing uses, corners that
-// are written once a face. What is harmless becomes a mesh, with a word for each change; who wants none says so.
+// A mesh as its file gives it: faces of any number of corners, vertices that nothing uses, corners that each face
+// repeats. make_mesh turns it into a mesh of triangles, with a sentence for each change; options refuse changes.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,16 @@ namespace ogc::compare {
 
 /// All indices are valid; positions are finite.
 struct PolygonMesh {
-  std::vector<Vec3> positions;     ///< [m]
-  std::vector<Index> corners;      ///< of all faces, one after the other, each in its own order
-  std::vector<Index> face_ends{};  ///< by face: end of its corners
-  std::vector<Edge> loose_edges;   ///< edges of no face
-  std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Vec3> positions;            ///< [m]
+  std::vector<Index> corners;             ///< of all faces, one after the other, each in its own order
+  std::vector<Index> face_ends{};         ///< by face: end of its corners
+  std::vector<Edge> loose_edges;          ///< edges of no face
+  std::vector<Tetrahedron> tetrahedra{};  ///< by numbers of vertices
   MeshSource source;  ///< file, first number, lines; the numbers of vertices and faces are still the file's
   std::vector<std::string> notes{};  ///< what the file has and the mesh has not
 
   std::size_t face_count() const { return face_ends.size(); }  ///< number of polygons
+  /// The corners of polygon f, in its order.
   std::span<const Index> face(std::size_t f) const {
     const auto begin = static_cast<std::size_t>(f == 0 ? 0 : face_ends[f - 1]);
     return std::span(corners).subspan(begin, static_cast<std::size_t>(face_ends[f]) - begin);

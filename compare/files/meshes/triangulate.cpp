@@ -49,9 +49,9 @@ class Cutter {
       const std::size_t k = best_ear();
       if (k == left_.size()) return {};
       triangles.push_back(ear(k));
-      const auto place = static_cast<std::ptrdiff_t>(k);
-      left_.erase(left_.begin() + place);
-      shapes_.erase(shapes_.begin() + place);
+      const auto at = static_cast<std::ptrdiff_t>(k);
+      left_.erase(left_.begin() + at);
+      shapes_.erase(shapes_.begin() + at);
       const std::size_t count = left_.size();
       for (const std::size_t neighbour : {(k + count - 1) % count, k % count})
         shapes_[neighbour] = shape(ear(neighbour));
@@ -90,8 +90,8 @@ class Cutter {
     }
   }
 
-  /// Whether no other corner lies in the closed triangle, as seen along the normal. Corners at the place of one of its
-  /// own (a face that is joined to its hole by a pair of coinciding edges) do not count.
+  /// Whether no other corner lies in the closed triangle, as seen along the normal. Corners that coincide with one of
+  /// its own (a face that is joined to its hole by a pair of coinciding edges) do not count.
   bool is_empty(const Triangle& t) const {
     const auto inside = [&](const Vec3& p) {
       for (std::size_t k = 0; k < 3; ++k) {

@@ -24,7 +24,7 @@ std::string value_in(const XmlAttributes& attributes, const char* key) {
   return found == attributes.end() ? "" : found->second;
 }
 
-/// Bytes in their order, wherever they come from. An error is an announcement beyond the end.
+/// The bytes of an array in their order, base64 or raw. Throws InputError where the file announces more than it has.
 class Bytes {
  public:
   Bytes(std::string_view data, bool base64, std::string where)
@@ -57,8 +57,8 @@ class Bytes {
 
   static int digit(char c) {
     constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t place = alphabet.find(c);
-    return place == std::string_view::npos ? -1 : static_cast<int>(place);
+    const std::size_t digit = alphabet.find(c);
+    return digit == std::string_view::npos ? -1 : static_cast<int>(digit);
   }
 
   /// One group of four characters; false where there is none.

@@ -19,11 +19,13 @@ struct VtkArray {
   std::size_t line = 0;      ///< of its tag
 };
 
+/// One <Piece> of the file's data set.
 struct VtkPiece {
   XmlAttributes attributes;      ///< of its element
   std::vector<VtkArray> arrays;  ///< in the file's order
 };
 
+/// What the XML of a VTK file says.
 struct VtkDocument {
   XmlAttributes file;            ///< of <VTKFile>
   std::vector<VtkPiece> pieces;  ///< in the file's order

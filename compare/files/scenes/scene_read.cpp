@@ -161,7 +161,7 @@ class SceneReader {
   }
 
  private:
-  // First of all: what else is wrong with a file of another format means nothing.
+  // Checked first: other problems of a file in another format mean nothing.
   void check_version() const {
     if (!json_.is_object() || !json_.contains("format_version")) return;
     const JsonNode node = root_.child("format_version");
@@ -191,7 +191,7 @@ class SceneReader {
     for (std::size_t i = 0; i < array.size(); ++i) use(array.child(i));
   }
 
-  // Empty with problems noted where it can't be read.
+  // None where it can't be read; the problems are noted then.
   std::optional<PolygonMesh> read_polygons(const JsonNode& node) {
     std::string text;
     node.read(text);
@@ -211,7 +211,7 @@ class SceneReader {
     LoadedMesh loaded;
   };
 
-  // Read and validated; empty with problems noted where it can't be used.
+  // Reads and validates; none where it can't be used, with the problems noted.
   std::optional<BodyMesh> read_body_mesh(const JsonNode& node) {
     std::optional<PolygonMesh> polygons = read_polygons(node);
     if (!polygons) return std::nullopt;

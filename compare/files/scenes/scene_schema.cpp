@@ -28,7 +28,7 @@ Json object(const Json& properties, const std::vector<std::string>& required) {
   return json;
 }
 
-/// Of a key that nothing may stand at yet.
+/// The schema of a reserved key: no value is valid.
 Json reserved(const std::string& what) { return {{"not", Json::object()}, {"description", "reserved " + what}}; }
 
 std::string with_unit(std::string_view meaning, std::string_view unit) {

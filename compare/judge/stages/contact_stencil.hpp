@@ -28,7 +28,7 @@ Shape contact_shape(const ContactForceCase& c);  ///< its faces, the vertex aske
 void check_own(const ContactForceCase& c);
 
 /// "r" or "k_c" of the contact.
-inline float* contact_place(ContactForceCase& c, std::string_view name) {
+inline float* contact_parameter(ContactForceCase& c, std::string_view name) {
   return name == ranges::contact_radius.name ? &c.contact_radius : &c.stiffness;
 }
 

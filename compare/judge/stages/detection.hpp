@@ -265,6 +265,7 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 
+/// The length of each list that is not empty.
 template <class Contact>
 std::map<Index, std::size_t> lengths(const std::vector<Contact>& contacts, Owner<Contact> owner) {
   std::map<Index, std::size_t> count;

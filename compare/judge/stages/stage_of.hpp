@@ -110,13 +110,13 @@ struct NoParameters {
   }
 };
 
-/// Parameters that are numbers of the case: `S::place(case, name)` finds one.
+/// Parameters that are numbers of the case: `S::parameter(case, name)` points to one.
 template <class S>
-struct ParametersInPlace {
-  /// Each value to its place.
+struct ParametersOfCase {
+  /// Sets each number that the values name.
   template <class Case>
   static std::string set(Case& c, std::span<const Override> values) {
-    for (const Override& value : values) *S::place(c, value.name) = value.value;
+    for (const Override& value : values) *S::parameter(c, value.name) = value.value;
     return {};
   }
 };

@@ -423,7 +423,7 @@ TEST_CASE("each bad value is named with its file, its path and a remedy", "[unit
     content["bodies"][0]["rest_mesh"] = content["bodies"][1]["mesh"];
     CHECK_THAT(edited.error(), Contains("/bodies/0/rest_mesh: has other vertices, faces, edges or tetrahedra"));
   }
-  SECTION("two sorts of velocity") {
+  SECTION("two kinds of velocity") {
     content["bodies"][0]["velocity"] = {0, 0, 0};
     CHECK_THAT(edited.error(), Contains("/bodies/0/velocities: stands beside 'velocity'"));
   }

@@ -9,14 +9,14 @@
 
 namespace ogc::compare {
 
-/// Problems of one sort: lists the first `limit`; the destructor adds how many more there are.
-class ProblemSort {
+/// Problems of one kind: lists the first `limit`; the destructor adds how many more there are.
+class ProblemKind {
  public:
-  ProblemSort(std::vector<Problem>& problems, std::size_t limit, std::string what, std::string remedy)
+  ProblemKind(std::vector<Problem>& problems, std::size_t limit, std::string what, std::string remedy)
       : problems_(problems), limit_(limit), what_(std::move(what)), remedy_(std::move(remedy)) {}
-  ProblemSort(const ProblemSort&) = delete;
-  ProblemSort& operator=(const ProblemSort&) = delete;
-  ~ProblemSort() {
+  ProblemKind(const ProblemKind&) = delete;
+  ProblemKind& operator=(const ProblemKind&) = delete;
+  ~ProblemKind() {
     if (count_ > limit_) problems_.push_back({std::to_string(count_ - limit_) + " more", what_, remedy_});
   }
   /// One more of them, at `where`.
