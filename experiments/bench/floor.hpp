@@ -10,8 +10,9 @@
 
 namespace ogc::experiments {
 
+/// What a device can do at most, for the floors of a step.
 struct MachineLimits {
-  double flop_per_second = 0;
+  double flop_per_second = 0;  ///< in single precision
   /// up to so many bytes stay in the cache of the device
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
   double seconds_between_colours = 0;  ///< a kernel that waits for the one before, in a graph

@@ -25,6 +25,7 @@ compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, 
 class Outputs {
  public:
   explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
+  /// The next outputs, each as a vector of its element.
   template <class... Items>
   void to(Items&... items) {
     (next(items), ...);

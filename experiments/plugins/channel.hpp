@@ -36,15 +36,15 @@ Bytes bytes_of_one(const Item& item) {
 
 /// In front of each block.
 struct BlockHead {
-  std::uint64_t mark = right_mark;
-  std::uint64_t length = 0;  ///< of the block behind the head [bytes]
+  std::uint64_t mark = right_mark;  ///< tells a head from other bytes
+  std::uint64_t length = 0;         ///< of the block behind the head [bytes]
   /// The bytes "gc-block": no length, count or text that a plug-in sends by chance.
   static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
 };
 
 /// How long a block may be [bytes].
 struct BlockLength {
-  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();  ///< inclusive
 };
 /// A block of this length alone.
 constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }

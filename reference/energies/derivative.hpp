@@ -18,9 +18,9 @@ inline double plain(double x) { return x; }
 /// what is 0 need not be computed.
 template <class T, std::size_t N>
 struct Derivative {
-  T value{};
-  std::size_t count = 0;
-  std::array<T, N> slope{};
+  T value{};                 ///< of the expression
+  std::size_t count = 0;     ///< slopes that may differ from 0
+  std::array<T, N> slope{};  ///< by input
 
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}

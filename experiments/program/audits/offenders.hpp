@@ -17,11 +17,12 @@ struct Offenders {
   compare::Intersection first;            ///< in the order of the audit
 };
 
+/// Of an audit's listed intersections.
 Offenders offenders_of(const compare::AuditResult& result, const compare::Topology& topology);
 
 /// Where they are, in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m". Of all corners of the triangles, edges and
 /// vertices.
-std::string place_of(const Offenders& offenders, const compare::Topology& topology,
+std::string region_of(const Offenders& offenders, const compare::Topology& topology,
                      const std::vector<compare::Vec3>& positions);
 
 /// A .vtp file of the offenders alone, with the corners' numbers (point data `vertex`), and of each cell its number as

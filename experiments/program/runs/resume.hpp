@@ -11,7 +11,7 @@ namespace ogc::experiments {
 /// What a run that goes on is computed by, and what it is asked.
 struct ResumedRun {
   RunOptions options;  ///< for contestant_of
-  RunRequest request;
+  RunRequest request;  ///< for RunSession
 };
 
 /// Of the folder. Throws compare::InputError that says what to do: no run, finished, still going on, of another program

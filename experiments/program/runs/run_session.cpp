@@ -153,9 +153,9 @@ void RunSession::check_start() const {
 std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
   const compare::Topology topology = build_topology(request_.scene);
   const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
-  const std::string place = place_of(offenders_of(result, topology), topology, positions);
-  if (request_.show.empty()) return place + " (for a picture of them add --show DIR)";
-  return place + "\n" + show_offenders(request_.show, name, result, topology, positions);
+  const std::string where = region_of(offenders_of(result, topology), topology, positions);
+  if (request_.show.empty()) return where + " (for a picture of them add --show DIR)";
+  return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 
 void RunSession::open_folder() {
