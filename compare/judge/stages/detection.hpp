@@ -139,7 +139,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   using typename Base::Out;
   using typename Base::Truth;
   using Case = MeshCase;
-  /// R and r_q.
+  /// r and r_q.
   static constexpr std::array parameters{ranges::contact_radius, ranges::query_radius};
 
   /// Radii, which must be legal together.
