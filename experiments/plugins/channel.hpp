@@ -80,11 +80,11 @@ class Channel {
   Channel(Channel&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
   Channel& operator=(Channel&& other) noexcept;
 
-  /// The other side reads an end.
+  /// Closes this end; the other side then reads Transfer::end.
   void close();
   /// Whether there is another side.
   bool is_open() const { return descriptor_ >= 0; }
-  /// Of the socket; negative where closed.
+  /// The socket's descriptor; negative where closed.
   int descriptor() const { return descriptor_; }
   Transfer send(Bytes block, const Patience& patience = {});
   /// Waits for a block. Throws MalformedBlock, before it takes memory for it, where its head is none or its length not

@@ -30,7 +30,7 @@ enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in decides.
 enum class List : std::uint8_t { none, vertex_facet, edge_edge, triangles, hinges, events, detections };
 inline constexpr std::size_t list_count = 7;
-/// Of each list how many entries there are, or room for; 1 of `none`.
+/// For each list its number of entries, or the room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
 /// One array that a stage answers with.

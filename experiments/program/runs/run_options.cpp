@@ -84,7 +84,7 @@ bool set_stiffness(compare::Scene& scene, const std::string& key, const std::str
   return true;
 }
 
-/// Of what --set can be given.
+/// Throws where --set knows no such key.
 void expect_setting(const std::string& key) {
   std::vector<std::string_view> names{"membrane", "bending", "contact_stiffness"};
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);

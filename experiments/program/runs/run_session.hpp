@@ -58,7 +58,7 @@ struct RunRequest {
 struct RunSummary {
   /// as in run.json
   std::string scene, scale, solver, backend, device, folder, status;
-  std::vector<std::string> warnings;  ///< what can hardly be meant, in words (experiments/program/runs/warnings.hpp)
+  std::vector<std::string> warnings;  ///< about settings that are hardly meant (experiments/program/runs/warnings.hpp)
   std::string left_out_of_audits;     ///< in words; empty where nothing is
   std::string failure;                ///< what went wrong, naming primitives; empty where nothing did
   bool was_interrupted = false;       ///< Ctrl-C ended it
@@ -66,9 +66,9 @@ struct RunSummary {
   std::int64_t first_step = 0, last_step = 0;  ///< states: from, to
   double median_ms = 0, worst_ms = 0;          ///< of a step
   std::int64_t worst_step = 0;                 ///< the step of the largest time
-  std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0,
-               last_edge_edge_contacts = 0;  ///< of both kinds in one step; in the last one
-  /// detections: trees brought up to date and asked
+  /// of both kinds in one step, and of each kind in the last one
+  std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
+  /// broad phases, then detections as StepMetrics counts them
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
   double largest_share_cut = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
