@@ -51,7 +51,7 @@ std::size_t rows_in_chunk(std::size_t part) {
 /// Chunked and compressed where that pays.
 Hdf5Handle creation_list(const std::vector<hsize_t>& shape, std::size_t part) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  // The same content is the same file, whenever it is written.
+  // Without times the same content makes the same file, whenever it is written.
   H5Pset_obj_track_times(list.id(), false);
   std::vector<hsize_t> chunk = shape;
   chunk[0] = rows_in_chunk(part);

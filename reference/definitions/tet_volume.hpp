@@ -65,7 +65,7 @@ class TetVolume {
   /// tetrahedra are refused, not handled.
   TetVolume(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra);
 
-  /// By tetrahedron, then by the corner that is left out.
+  /// The boundary triangles, by tetrahedron, then by the corner that is left out.
   const std::vector<BoundaryTriangle>& boundary() const { return boundary_; }
 
   /// Whether the vertex is one of its four corners.

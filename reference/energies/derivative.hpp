@@ -60,7 +60,7 @@ struct Derivative {
   Derivative& operator+=(const Derivative& b) { return *this = *this + b; }
   Derivative& operator-=(const Derivative& b) { return *this = *this - b; }
   Derivative& operator*=(const Derivative& b) { return *this = *this * b; }
-  /// Of the values, for branches.
+  /// Compares values, for branches.
   friend bool operator==(const Derivative& a, double b) requires(!std::is_same_v<T, double>) { return a.value == b; }
   friend bool operator==(const Derivative& a, const T& b) { return a.value == b; }
 };

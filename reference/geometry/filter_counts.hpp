@@ -46,8 +46,8 @@ struct FilterCounts {
   FilterCounts since(const FilterCounts& earlier) const;
 };
 
-/// Of all threads since the program began. Complete for work that has been joined; a predicate that another thread asks
-/// meanwhile may be missing.
+/// The counts of all threads since the program began. Complete for work that has been joined; a predicate that another
+/// thread asks meanwhile may be missing.
 FilterCounts filter_counts();
 
 /// For the predicates themselves.

@@ -93,7 +93,7 @@ struct GapDistance {
   double distance = 0;  ///< [m]
   float below = 0;      ///< [m], as distance_below
 };
-/// Of a gap margin.
+/// Both distances of a gap.
 GapDistance measure(const Margin& gap);
 
 /// scale · d < b for the distance d of the gap, exactly; scale, b ≥ 0. Denominator as above.

@@ -92,7 +92,7 @@ compare::SpringCase spring_question(const compare::SweepIn& in, const compare::S
 /// The other corners in the order in which a corner sees a positive volume at rest: those of the face opposite to it.
 constexpr std::array<std::array<std::size_t, 3>, 4> seen_from{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Of two corners, the index of V ∇N_k·∇N_l among the weights.
+/// The index of V ∇N_k·∇N_l among the weights of a tetrahedron.
 std::size_t index_of_pair(std::size_t k, std::size_t l) {
   const auto [low, high] = std::minmax(k, l);
   return low == 0 ? high - 1 : low + high;

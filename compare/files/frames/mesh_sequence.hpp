@@ -35,7 +35,7 @@ std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::p
 /// archive has neither; its positions are not looked at.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// The same for one array of positions (numpy.save).
+/// The frames of one array of positions (numpy.save), as of an archive.
 std::unique_ptr<MeshSequence> npy_sequence(const std::filesystem::path& file, const Mesh* topology);
 
 /// The samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,

@@ -156,7 +156,7 @@ class Scalars {
 
   bool at_end() { return data_.find_first_not_of(" \t\r\n") == std::string_view::npos; }
   std::size_t bytes_left() const { return data_.size(); }
-  // Of the scalar that comes next, in ascii; called before it is read.
+  // The line of the scalar that comes next, in ascii; called before it is read.
   std::size_t next_line() {
     skip_blanks();
     return line_;
