@@ -29,7 +29,7 @@ struct Options {
   std::string show;  ///< folder of the pictures; empty: none
 };
 
-/// Of how many states pictures are made: the first ones tell what the others would.
+/// How many states get pictures: the first ones tell what the others would.
 constexpr std::size_t most_shown = 8;
 
 struct State {

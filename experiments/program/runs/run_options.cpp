@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/files/numbers.hpp"
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
@@ -84,7 +84,7 @@ bool set_stiffness(compare::Scene& scene, const std::string& key, const std::str
   return true;
 }
 
-/// Of what --set can be given.
+/// Throws where --set knows no such key.
 void expect_setting(const std::string& key) {
   std::vector<std::string_view> names{"membrane", "bending", "contact_stiffness"};
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
