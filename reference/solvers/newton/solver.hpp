@@ -48,6 +48,7 @@
 #include "reference/solvers/contact_step.hpp"
 #include "reference/solvers/newton/factor.hpp"
 #include "reference/solvers/newton/line_search.hpp"
+#include "reference/solvers/newton/moving_planes.hpp"
 #include "reference/solvers/newton/settings.hpp"
 
 namespace ogc::reference {
@@ -98,7 +99,14 @@ class NewtonSolver : public StepSolver, private ContactStep {
   bool factorized();
   /// Of the matrix at hand, which is factorised, and of what is left of it without friction and without contact.
   void measure_condition(compare::IterationMetrics& row);
+  void detect_with_planes();
+  /// Towards their targets, as far as planes allow; how many lag.
+  std::size_t move_prescribed_between_planes();
+  std::uint32_t end_between_planes(std::uint32_t status);
   Direction direction_of();
+  void truncate(Direction& direction) const;
+  /// The share of δ that stays inside, scaled as a whole.
+  double room_for(const State& delta) const;
   bool pin(const Direction& direction, std::vector<double>& pins);
   Accepted pinned(Direction direction, const PotentialTerms& before, double noise);
   /// The share of the best direction that was taken, or 0.
@@ -106,6 +114,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
 
   NewtonSettings newton_;
+  MovingPlanes planes_;  ///< of the last detection, where pairs are held
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration
