@@ -79,14 +79,6 @@ void MovingPlanes::enter(State& x) const {
     if (stays(v)) x[v] = centre_[v];
 }
 
-bool MovingPlanes::holds(const State& x) const {
-  for (std::size_t v = 0; v < x.size(); ++v)
-    if (length(x[v] - centre_[v]) > radius_[v]) return false;
-  return std::ranges::all_of(pairs_, [&](const Pair& pair) {
-    return separation(pair, [&](std::size_t v) { return x[v]; }) >= pair.least;
-  });
-}
-
 /// Of Eq. 27's kind: ‖a + s b‖ = R with ‖a‖ ≤ R has one root s ≥ 0.
 double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const {
   const Triple<double> away = x - centre_[vertex];

@@ -63,15 +63,9 @@ std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
 void NewtonSolver::detect_with_planes() {
   detect_here();
   planes_ = timed(detection, [&] {
-    const std::vector<std::uint8_t> is_fixed = [&] {
-      std::vector<std::uint8_t> fixed;
-      for (const Mobility mobility : potential_.mobility()) fixed.push_back(mobility == Mobility::fixed ? 1 : 0);
-      return fixed;
-    }();
-    const auto relaxation = static_cast<float>(settings_.bound_relaxation);
-    return MovingPlanes(near_pairs_with_planes(
-                            {&topology_, exclusions_, detected_.previous, is_fixed, query_radius_, relaxation}),
-                        detected_.previous, potential_.mobility(), double{query_radius_}, settings_.bound_relaxation);
+    const double relaxation = settings_.bound_relaxation;
+    return MovingPlanes(detect_pairs(topology_, exclusions_, detected_.previous, query_radius_, relaxation),
+                        detected_.previous, potential_.mobility(), double{query_radius_}, relaxation);
   });
   planes_.enter(x_);
 }

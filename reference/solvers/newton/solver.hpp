@@ -32,6 +32,11 @@
 //           allows. Rounds go on while they lower the energy more. Where all vertices were cut `scaled` does the same.
 // A line search that leaves less than 10⁻³ of a step with cut vertices asks for new balls.
 //
+// Balls and half-spaces stand still, so that vertices which travel together, or along each other, need as many
+// detections as their gap goes into their way: with `truncation=pair` near pairs are held apart by planes that travel
+// with them (moving_planes.hpp), and δ' is δ with such pairs moved apart. The guess loop keeps its balls; a step ends
+// with a detection at what it stores.
+//
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far
 // from the solution it rarely is. Always projected, a step of a crumpled cloth ends in a long linear tail, for the
 // projection keeps curvature that other stencils cancel.
