@@ -17,10 +17,10 @@ struct NearPair {
   compare::PrimitivePair pair;
   std::array<compare::Index, 4> vertices{};
   std::size_t second_from = 1;
-  float below = 0;                              ///< [m]
-  bool has_plane = false;                       ///< every vertex keeps it in single precision, exactly
-  compare::Vec3f normal{};                      ///< n, from the first side to the second
-  double first_offset = 0, second_offset = 0;   ///< what n·x is at most on the first side, at least on the second [m]
+  float below = 0;                             ///< [m]
+  bool has_plane = false;                      ///< every vertex keeps it in single precision, exactly
+  compare::Vec3f normal{};                     ///< n, from the first side to the second
+  double first_offset = 0, second_offset = 0;  ///< what n·x is at most on the first side, at least on the second [m]
 
   /// As its k-th vertex bears it.
   compare::VertexPlane as_borne(std::size_t k) const;

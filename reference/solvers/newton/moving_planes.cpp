@@ -40,10 +40,7 @@ double MovingPlanes::separation(const Pair& pair, At at) {
 
 MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector<compare::Vec3f>& previous,
                            const std::vector<Mobility>& mobility, double query_radius, double relaxation)
-    : centre_(widened(previous)),
-      ball_(relaxation * query_radius),
-      radius_(previous.size(), 0),
-      mobility_(mobility) {
+    : centre_(widened(previous)), ball_(relaxation * query_radius), radius_(previous.size(), 0), mobility_(mobility) {
   for (std::size_t v = 0; v < centre_.size(); ++v)
     if (mobility_[v] != Mobility::fixed)
       radius_[v] = std::max(0.0, (ball_ - rounding_of(largest(centre_[v]) + ball_)) * (1 - 0x1p-50));

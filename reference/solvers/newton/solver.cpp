@@ -288,8 +288,7 @@ double NewtonSolver::accepted_share(const Direction& direction) {
 double NewtonSolver::room_for(const State& delta) const {
   if (newton_.truncation == Truncation::pair) return planes_.share_inside(x_, delta);
   double room = 1;
-  for (const std::size_t v : matrix_.free_vertices())
-    room = std::min(room, regions_.share_inside(v, x_[v], delta[v]));
+  for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, regions_.share_inside(v, x_[v], delta[v]));
   return room;
 }
 
