@@ -16,7 +16,7 @@ from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
 from paper_figures.workflow.common import baseline_arguments, label
 from paper_figures.workflow.evidence import RESULTS
-from paper_figures.workflow.jobs import Job, Limit, RunFailure
+from paper_figures.workflow.jobs import ENDED_BY_TIME, Job, Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.run_folder import Run, RunError, commits_in_words
@@ -38,11 +38,17 @@ def runs_of(arguments):
             job.make(arguments.ogc, folder, Limit(), True)
     except RunFailure as error:
         raise RunError(str(error)) from error
-    found = {name: Run(folder / name) for name in names if (folder / name / "run.json").is_file()}
+    found = {name: Run(folder / name) for name in names if has_steps(folder / name)}
     if not {"ball/whole", "planes/whole"} <= set(found):
         raise RunError(f"{folder} lacks the whole runs, ball/whole and planes/whole; leave --made out, and they are "
                        "made")
     return found
+
+
+def has_steps(run):
+    """A step that was given up leaves none."""
+    rows = run / "steps.csv"
+    return (run / "run.json").is_file() and rows.is_file() and rows.read_text().count("\n") > 1
 
 
 def gipc_times(scale):
@@ -77,7 +83,7 @@ def row_of(what, run, **more):
                  run.manifest.get("guarantee_kept") if int(run.manifest.get("audited_states", 0)) else None],
              "GIPC's time over ours [1]": "", "residual [1]": "", "iterations [1]": np.mean(run.column("iterations")),
              "rms distance to Newton [m]": "", "largest distance to Newton [m]": "", "rms motion of the step [m]": "",
-             "status": run.status}
+             "status": "ended by time" if (run.folder / ENDED_BY_TIME).is_file() else run.status}
     return {**cells, **more, **provenance(run)}
 
 
@@ -102,7 +108,8 @@ def one_step_iterations(runs):
 
 def cells_of_distance(run, newton, whole):
     first = int(run.column("step")[0])
-    residual = run.column("residual")[0] if "residual" in run.steps else np.nan
+    own = run.manifest["solver"] == "ipc"  # whose residual is a measure of its own
+    residual = np.nan if own or "residual" not in run.steps else run.column("residual")[0]
     cells = {"residual [1]": residual if np.isfinite(residual) else ""}
     begin, end, least = ends_of(whole, first - 1), ends_of(run, first), ends_of(newton, first) if newton else None
     if begin is None or end is None or least is None:
@@ -181,7 +188,8 @@ def draw_gipc(axes, runs, theirs):
                   label=f"GIPC, another program's times ({GIPC_DEVICE})")
         axes.set_title(f"No friction, the {len(theirs):,} steps that were measured of GIPC")
     axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log")
-    axes.legend(fontsize=6)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=6)
 
 
 def draw_windows(axes, runs):

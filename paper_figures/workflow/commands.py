@@ -225,7 +225,8 @@ GIPC_STEPS = {"smoke": 216, "small": 576, "paper": 2303}  # at the paper's size 
 MAT_WINDOWS = (0, 25, 50, 75)  # of the run's steps [%]: t = 0, 4, 8 and 12 s
 MAT_WINDOW_STEPS = {"smoke": 4, "small": 20, "paper": 20}
 MAT_ITERATIONS = {"smoke": (20, 80), "small": (20, 40, 80, 160), "paper": (20, 40, 80, 160, 320)}
-IPC_SECONDS, IPC_STEPS = {"smoke": 5, "small": 120, "paper": 120}, 2  # as many steps as so long gives, at least so many
+# IPC does as many steps as so long gives, and at least two; Newton's step is given up then.
+WINDOW_SECONDS, IPC_STEPS = {"smoke": 5, "small": 120, "paper": 120}, 2
 # So that only bounds, and no list of iterations, keep a step from its minimum: one vertex that is cut asks.
 MAT_NEWTON = ("--solver", "newton", *TOLERANCE, *ANY, *PLANES)
 
@@ -251,20 +252,21 @@ def from_mat(share, name, options, more_steps, scale, **more):
     return Job(f"window_{share}/{name}", words, state, more_steps, **more)
 
 
-def mat_windows(scale):
-    """VBD on the CPU with both kinds of bounds, then IPC for a while, from each state."""
+def mat_windows(scale, seconds=0):
+    """VBD on the CPU with both kinds of bounds, then IPC for so long, from each state."""
     steps = MAT_WINDOW_STEPS[scale]
     for share in MAT_WINDOWS:
         yield from (from_mat(share, f"vbd_{bounds}", ("--backend", "cpu", *options), steps, scale, pictured=False)
                     for bounds, (_, options) in MAT_BOUNDS.items())
-        yield from_mat(share, "ipc", ("--solver", "ipc"), 50 * steps, scale, seconds=IPC_SECONDS[scale],
-                       least=IPC_STEPS)
+        yield from_mat(share, "ipc", ("--solver", "ipc"), 50 * steps, scale, least=IPC_STEPS,
+                       seconds=seconds or WINDOW_SECONDS[scale])
 
 
-def mat_one_step(scale):
+def mat_one_step(scale, seconds=0):
     """One step from each state, by VBD with more and more iterations, and by Newton until nothing is left."""
     for share in MAT_WINDOWS:
-        yield from_mat(share, "newton", (*MAT_NEWTON, "--residual"), 1, scale, may_fail=True)
+        yield from_mat(share, "newton", (*MAT_NEWTON, "--residual"), 1, scale, may_fail=True,
+                       seconds=seconds or WINDOW_SECONDS[scale])
         yield from (from_mat(share, f"step_{n}", (*PLANES, "--backend", "cpu", "--residual", "--set",
                                                   f"iterations={n}"), 1, scale)
                     for n in MAT_ITERATIONS[scale])

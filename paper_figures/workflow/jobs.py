@@ -20,6 +20,7 @@ from pathlib import Path
 SECONDS_TO_STOP = 60  # for the step at hand, and its checkpoint
 KEPT, FINISHED, STOPPED, FAILED = "kept", "finished", "stopped at the limit; call again to go on", "FAILED"
 CALL_AGAIN = 75  # exit status where a limit came first (EX_TEMPFAIL of sysexits.h)
+STOPPED_BY_US = (130, -signal.SIGINT, -signal.SIGKILL)  # exit status
 LINES = 5
 PROCESSOR_TIME = "processor_time.json"  # beside the manifest of a run whose processor time was asked for [s]
 MEMORY = "_device_memory.json"  # ends the name of what was sampled while a run was on a device
@@ -95,7 +96,7 @@ class Job:
     `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
     that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
     beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed. `seconds`: it is
-    asked to stop after so long, and is then whole if it has `least` steps; it goes on for as long again otherwise."""
+    asked to stop after so long, and is whole then; where it must have `least` steps, not before it has them."""
 
     name: str
     arguments: tuple
@@ -152,8 +153,8 @@ class Job:
         if shown:
             print(" ".join(command), file=sys.stderr, flush=True)
         used_before = taken_before(folder) if goes_on and self.processor_time else {}
-        code, used = command_in(command, limit, log, seconds=self.seconds)
-        if self.seconds and manifest_of(folder).get("status") == "interrupted" and limit.left() > 0:
+        code, used = command_in(command, limit, log, seconds=self.seconds, waits=self.least > 0)
+        if self.seconds and code in STOPPED_BY_US and limit.left() > 0:
             return self.end_by_time(program, root, limit, shown)
         if self.processor_time and used_before is not None and folder.is_dir():
             together = {name: used_before.get(name, 0) + seconds for name, seconds in used.items()}
@@ -162,7 +163,8 @@ class Job:
 
     def end_by_time(self, program, root, limit, shown):
         """It was asked to stop, and not by the limit."""
-        steps = (root / self.name / "steps.csv").read_text().count("\n") - 1
+        rows = root / self.name / "steps.csv"
+        steps = rows.read_text().count("\n") - 1 if rows.is_file() else 0
         if steps < self.least:
             return self.make(program, root, limit, shown)
         (root / self.name / ENDED_BY_TIME).write_text(json.dumps({"seconds": self.seconds, "steps": steps}) + "\n")
@@ -291,26 +293,24 @@ def chosen_frames(folder, frames, last):
     return [frame for i, frame in enumerate(found) if i in spread or i >= len(found) - last]
 
 
-def command_in(command, limit=Limit(), log=None, out=None, seconds=0):
-    """(exit status, processor time) of a command that is asked to stop at the limit and killed a minute later; where
-    `seconds` are given, it is asked after so many. What it prints goes to the file `log`; its standard output to `out`
-    where that is named; without both, errors and progress to the screen."""
+def command_in(command, limit=Limit(), log=None, out=None, seconds=0, waits=False):
+    """(exit status, processor time) of a command that is asked to stop at the limit, or after so many `seconds`, and
+    killed a minute later; `waits`: asked before the limit, it has until then. What it prints goes to the file `log`;
+    its standard output to `out` where that is named; without both, errors and progress to the screen."""
     command = list(map(str, command))
     apart = {"start_new_session": True}  # an interrupt of ours, told once: a second one kills
     if log is None:
-        return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit, seconds)
+        return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit, seconds, waits)
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as errors, (out.open("w") if out else contextlib.nullcontext(errors)) as output:
-        return waited(subprocess.Popen(command, stdout=output, stderr=errors, **apart), limit, seconds)
+        return waited(subprocess.Popen(command, stdout=output, stderr=errors, **apart), limit, seconds, waits)
 
 
-def waited(process, limit, seconds=0):
-    """(exit status, processor time by kind [s]) of a process, which is asked to stop at the limit, or after so many
-    seconds, and then has until a minute after the limit for the step at hand."""
-    end = Limit(limit.left() + SECONDS_TO_STOP)
-    asked = ((None, Limit(seconds, limit)), (signal.SIGINT, end)) if seconds else (
-        (None, limit), (signal.SIGINT, Limit(SECONDS_TO_STOP)))
-    for stop, until in (*asked, (signal.SIGKILL, Limit())):
+def waited(process, limit, seconds=0, waits=False):
+    """(exit status, processor time by kind [s]) of a process, which is asked to stop; see command_in."""
+    asked = Limit(seconds, limit) if seconds else limit
+    for stop, until in ((None, asked), (signal.SIGINT, None), (signal.SIGKILL, Limit())):
+        until = until or Limit((limit.left() if waits else 0) + SECONDS_TO_STOP)
         if stop is not None:
             os.kill(process.pid, stop)
         try:

@@ -40,8 +40,8 @@ class Part:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What all parts are made of; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `share`, `seed` and
-    `stages` (none: all) the judge's counts."""
+    """What all parts are made of; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `window_seconds` Fig.
+    19, `share`, `seed` and `stages` (none: all) the judge's counts."""
 
     scale: str = "paper"
     backend: str = "cuda"
@@ -50,6 +50,7 @@ class Wanted:
     steps: int = 0
     audit: str = "afterwards"
     data: str = ""
+    window_seconds: float = 0
     share: float = 1
     seed: int = 1
     stages: tuple = ()
@@ -106,8 +107,10 @@ def of_mat(wanted):
     free = tuple(commands.mat_without_friction(wanted.scale, wanted.backend))
     return {"fig19": Part(folder, (whole_mat,), "fig19", frames=17),
             "fig19_free": Part(folder, (free,), "fig19"),
-            "fig19_windows": Part(folder, (tuple(commands.mat_windows(wanted.scale)),), "fig19", frames=2),
-            "fig19_one_step": Part(folder, (tuple(commands.mat_one_step(wanted.scale)),), "fig19", frames=0, last=1)}
+            "fig19_windows": Part(folder, (tuple(commands.mat_windows(wanted.scale, wanted.window_seconds)),),
+                                  "fig19", frames=2),
+            "fig19_one_step": Part(folder, (tuple(commands.mat_one_step(wanted.scale, wanted.window_seconds)),),
+                                   "fig19", frames=0, last=1)}
 
 
 def whole(row, wanted):
