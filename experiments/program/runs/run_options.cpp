@@ -48,7 +48,8 @@ void check_scene_options(const RunOptions& options, const std::string& data) {
 compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   const std::string data = data_folder(options.assignments);
   check_scene_options(options, data);
-  if (compare::is_mesh_file(options.scene)) return mesh_scene(options.scene, options.mesh, options.ground);
+  if (compare::is_mesh_file(options.scene))
+    return mesh_scene(options.scene, options.mesh, options.ground, options.assignments);
   if (is_scene_file(options.scene)) {
     compare::SceneFile file = compare::load_scene_file(options.scene);
     for (const std::string& note : file.notes) log_line("ogc: " + note);
@@ -103,8 +104,9 @@ const std::vector<std::string> backend_names{"cpu", "cuda"};
 }  // namespace
 
 CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
-  const std::string kinds = "A built-in scene (" + scene_names() +
-                            "), a scene file, or a mesh file: cloth that falls on a ground";
+  const std::string kinds =
+      "A built-in scene (" + scene_names() +
+      "), a scene file, or a mesh file: cloth, or with tetrahedra a solid, that falls on a ground";
   CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
   command
       .add_option("--ground", options->ground,

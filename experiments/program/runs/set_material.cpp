@@ -1,7 +1,7 @@
 #include "experiments/program/runs/set_material.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 #include "compare/files/numbers.hpp"
 #include "compare/problem/error.hpp"
@@ -29,8 +29,9 @@ bool is_offered(const MaterialInfo& info) {
 }
 
 std::vector<MaterialInfo> offered() {
-  std::vector<MaterialInfo> all{young, poisson};
+  std::vector<MaterialInfo> all;
   std::ranges::copy_if(compare::material_table(), std::back_inserter(all), is_offered);
+  all.insert(all.end(), {young, poisson});
   return all;
 }
 
@@ -68,6 +69,14 @@ bool set_material(compare::Scene& scene, const std::string& key, const std::stri
   for (compare::Body& body : scene.bodies)
     if (!solids_alone || body.is_solid()) set(body.material, *info, number);
   return true;
+}
+
+void set_solid_constants(compare::Scene& scene, const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals != std::string::npos && is_of_solids(assignment))
+      set_material(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
 }
 
 }  // namespace ogc::experiments

@@ -24,4 +24,8 @@ std::vector<MaterialSetting> material_settings();
 /// and for a constant of solids where the scene has none.
 bool set_material(compare::Scene& scene, const std::string& key, const std::string& value);
 
+/// Of all "key=value" those that name a constant of solids, given to the scene: what a solid is made of must be known
+/// before settings can follow from it. Others are left alone.
+void set_solid_constants(compare::Scene& scene, const std::vector<std::string>& assignments);
+
 }  // namespace ogc::experiments
