@@ -1,5 +1,6 @@
-"""Fig. 19: the twisted mat. Time a step of VBD-OGC with balls and with planes; without friction beside GIPC's times over
-the same steps; windows on the CPU beside IPC's; how far one step ends from Newton's converged one; lag of the ends.
+"""Fig. 19: the twisted mat. Time a step of VBD-OGC with balls and with planes; without friction beside GIPC's times
+over the same steps; windows on the CPU beside IPC's; how far one step ends from Newton's converged one; lag of the
+ends.
 
 GIPC's times were measured on one H200, settings as far as they were kept (paper_figures/results/h200/README.md), and
 end after 2,303 steps: no curve and no average goes beyond them, and below the paper's size there are none.

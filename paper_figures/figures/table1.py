@@ -1,5 +1,5 @@
-"""Table 1, rows of cloth and of the mat: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the runner makes
-(FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
+"""Table 1, rows of cloth and of the mat: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the
+runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
 Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the
 average, not in the maximum, and counted. The CPU's average is that of its windows, each with the same weight. With

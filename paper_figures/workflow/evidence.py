@@ -178,8 +178,8 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
-        membrane, activation, bounds, redetect_fraction (rounded to single precision in the manifest), and steps: so many from
-        the scene's start, not a window."""
+        membrane, activation, bounds, redetect_fraction (rounded to single precision in the manifest), and steps: so
+        many from the scene's start, not a window."""
         m = self.manifest
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,

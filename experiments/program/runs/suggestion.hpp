@@ -1,6 +1,6 @@
-// What to run a mesh of cloth, or a solid, with where nobody says: numbers that follow from its edges, its gaps, its weight and the
-// height that it falls from, each with its reason. No search and no trial run: whoever asks gets the same answer at
-// once.
+// What to run a mesh of cloth, or a solid, with where nobody says: numbers that follow from its edges, its gaps, its
+// weight and the height that it falls from, each with its reason. No search and no trial run: whoever asks gets the
+// same answer at once.
 #pragma once
 
 #include <string>
