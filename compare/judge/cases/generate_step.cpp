@@ -102,10 +102,11 @@ struct StepBuilder {
     add(mesh, velocity, fixed);
   }
 
-  /// A block of tetrahedra whose lowest vertex, or highest, is where a sheet at `origin` would be. Now and then it
-  /// starts turned inside out: upside down in its own place.
+  /// A block of tetrahedra that stands on the plane of a sheet at `origin`, with a vertex inside, or hangs from it. Now
+  /// and then it starts turned inside out: upside down in its own place.
   void block(const Vec3& origin, const Vec3& velocity, bool hangs) {
-    Mesh mesh = jittered_block(random, spacing, random.between(0.5, 1.5));
+    const double height = random.between(0.5, 1.5);
+    Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);
     const auto higher = [](const Vec3& a, const Vec3& b) { return a.z < b.z; };
     const auto [low, high] = std::minmax_element(mesh.positions.begin(), mesh.positions.end(), higher);
     const double lowest = low->z, highest = high->z;

@@ -395,8 +395,8 @@ int ogc_rest_state(const ogc_scene* in, ogc_rest_state_out* out) {
   write(rest, *out);
   if (breaks("area not a number") && !rest.triangles.empty()) out->area[0] = std::numeric_limits<float>::quiet_NaN();
   if (breaks("mass of a third"))
-    for (const RestTetrahedron& t : rest.tetrahedra)
-      for (const Index v : t.corner) out->mass[v] *= 4.0f / 3;
+    for (const Body& body : scene.bodies)
+      for (Index v = 0; body.is_solid() && v < body.vertex_count; ++v) out->mass[body.first_vertex + v] *= 4.0f / 3;
   if (breaks("behind the solids")) out->solid_body[in->tetrahedron_count] = 0;
   if (breaks("behind the list")) out->corner[in->topology.triangle_count][0] = 0;
   if (breaks("short list")) ++out->hinge_count;
