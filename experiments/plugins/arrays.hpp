@@ -18,6 +18,9 @@ QuestionSizes sizes_of(const compare::Topology& topology);
 /// The arrays of ogc_topology, in its order.
 std::vector<Bytes> inputs_of(const compare::Topology& topology);
 
+/// By vertex, also where there is no solid.
+std::vector<std::uint8_t> inside_solid(const compare::Topology& topology);
+
 /// A row for each of `count` vertices, all empty where there are none.
 compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, std::size_t count);
 

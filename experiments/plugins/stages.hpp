@@ -18,7 +18,8 @@ struct QuestionSizes {
   std::int32_t vertices = 0, edges = 0, triangles = 0;  ///< of a mesh
   float first = 0, second = 0;  ///< the stage's numbers beside its arrays: r and r_q of a detection
   /// of a scene, and of its rest state
-  std::int32_t hinges = 0, bodies = 0, springs = 0, rest_triangles = 0, rest_hinges = 0;
+  std::int32_t hinges = 0, bodies = 0, springs = 0, tetrahedra = 0;
+  std::int32_t rest_triangles = 0, rest_hinges = 0, rest_tetrahedra = 0;
   std::int64_t vertex_facet = 0, edge_edge = 0;  ///< contacts that are given
   ogc_settings settings{};
   ogc_vec3 gravity{};
@@ -28,8 +29,8 @@ struct QuestionSizes {
 enum class Element : std::uint8_t { number, byte, index };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in decides.
-enum class List : std::uint8_t { none, vertex_facet, edge_edge, triangles, hinges, events, detections };
-inline constexpr std::size_t list_count = 7;
+enum class List : std::uint8_t { none, vertex_facet, edge_edge, triangles, hinges, tetrahedra, events, detections };
+inline constexpr std::size_t list_count = 8;
 /// For each list its number of entries, or the room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
@@ -92,6 +93,7 @@ struct PluginStage {
   std::size_t inputs;                               ///< how many arrays
   std::span<const OutputInfo> outputs;              ///< in the order of the function's arguments
   int (*call)(void* function, CallArrays& arrays);  ///< what the function returned
+  int oldest_version = OGC_PLUGIN_OLDEST_VERSION;   ///< of compare/plugin.h whose structures it takes
 };
 
 /// All of them.

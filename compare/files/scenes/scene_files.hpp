@@ -16,10 +16,6 @@ namespace ogc::compare {
 /// does not simulate by name.
 inline constexpr int scene_format_version = 2;
 
-/// Young's modulus [Pa] and Poisson's ratio [1] that stand in place of Lamé constants: within these both constants are
-/// within their ranges (compare/problem/material_table.cpp).
-inline constexpr double least_young = 0x1p-28, most_young = 0x1p30, most_poisson = 0.4999;
-
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that
 /// lists every problem found.
 Scene read_scene(const std::filesystem::path& file);

@@ -68,7 +68,7 @@ double read_between(const JsonNode& node, double least, double most, const char*
   return value;
 }
 
-/// E and ν in place of both Lamé constants: μ = E/(2(1 + ν)), λ = Eν/((1 + ν)(1 − 2ν)).
+/// E and ν in place of both Lamé constants.
 void read_elasticity(JsonObject& object, Material& material) {
   std::optional<double> modulus, ratio;
   object.optional("solid_young", [&](const JsonNode& node) {
@@ -82,8 +82,7 @@ void read_elasticity(JsonObject& object, Material& material) {
     ratio = read_between(node, 0, most_poisson, "Poisson's ratio of tetrahedra");
   });
   if (!modulus || !ratio) return;
-  material.solid_mu = *modulus / (2 * (1 + *ratio));
-  material.solid_lambda = *modulus * *ratio / ((1 + *ratio) * (1 - 2 * *ratio));
+  set_elasticity(material, {*modulus, *ratio});
 }
 
 void read_material(const JsonNode& node, Material& material) {
