@@ -1,5 +1,6 @@
 """Audits the stored states of a finished run exactly, after the run: what the audit takes is no part of the run's time.
-Where time runs out it stops after the state at hand, and goes on with the next ones when it is called again.
+It goes through them in rounds, so that what is known at any time is spread evenly over the run, and keeps what each
+round found. Where time runs out it stops, and goes on with the others when it is called again.
 
 Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit
 status 0: no state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Python's own library
@@ -19,6 +20,7 @@ from pathlib import Path
 from paper_figures.workflow.jobs import AUDIT, CALL_AGAIN, FINISHED, KEPT, STOPPED, Limit, RunFailure, command_in
 
 INTERRUPTED = (130, -signal.SIGINT)
+SHORT_ROUND = 10.0  # [s]; the next one has twice as many states, because each round reads the scene anew
 
 
 def found_before(run):
@@ -33,26 +35,35 @@ def step_of(frame):
     return int(frame.stem.rpartition("_")[2])
 
 
-def left_over(run, steps, folder):
-    """The run itself, or, where some of its steps were audited before, a folder that shows the other frames alone."""
-    if not steps:
-        return run
+def spread(frames):
+    """The frames in an order any beginning of which is spread evenly over them: first, last, middle, quarters, …"""
+    bits = max(1, (len(frames) - 1).bit_length())
+    halves = sorted(range(len(frames)), key=lambda i: int(f"{i:0{bits}b}"[::-1], 2))
+    order = dict.fromkeys([*halves[:1], len(frames) - 1, *halves]) if frames else {}
+    return [frames[i] for i in order]
+
+
+def shown_alone(run, frames, folder):
+    """The folder, as a run that has these frames of `run` alone."""
     (folder / "frames").mkdir()
     for path in (run / "run.json", run / "scene"):
         (folder / path.name).symlink_to(path)
-    for frame in sorted((run / "frames").glob("frame_*")):
-        if step_of(frame) not in steps:
-            (folder / "frames" / frame.name).symlink_to(frame)
+    for frame in frames:
+        (folder / "frames" / frame.name).symlink_to(frame)
     return folder
 
 
-def ask(program, run, limit, folder):
-    """(what `ogc audit RUN --json` says, exit status), asked to stop at the limit; `folder` is for what it prints."""
-    said = folder / "said.json"
-    status, _ = command_in([program, "audit", run, "--json"], limit, folder / "errors", said)
-    text = said.read_text()
-    sys.stderr.write((folder / "errors").read_text())
-    return json.loads(text) if text.strip() else {}, status
+def ask(program, run, frames, limit):
+    """(what `ogc audit --json` says of these frames, exit status), asked to stop at the limit."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        said, errors = folder / "said.json", folder / "errors"
+        command = [program, "audit", shown_alone(run, frames, folder), "--json"]
+        status, _ = command_in(command, limit, errors, said)
+        if status == 2:
+            sys.stderr.write(errors.read_text())
+        text = said.read_text()
+        return json.loads(text) if text.strip() else {}, status
 
 
 def together(before, said, seconds, frames):
@@ -63,26 +74,32 @@ def together(before, said, seconds, frames):
     return {"states": before["states"] + len(steps), "intersections": found, "clean": found == 0,
             "complete": before["states"] + len(steps) == frames, "seconds": round(before["seconds"] + seconds, 2),
             "threads": len(os.sched_getaffinity(0)), **({"left_out": said["left_out"]} if "left_out" in said else {}),
-            "intersecting_steps": [*before.get("intersecting_steps", []), *wrong], "steps": [*before["steps"], *steps]}
+            "intersecting_steps": sorted([*before.get("intersecting_steps", []), *wrong]),
+            "steps": sorted([*before["steps"], *steps])}
 
 
 def audit(program, run, limit=Limit()):
-    """Exit status, and what is known now; kept in RUN/audit.json."""
+    """Exit status, and what is known now; kept in RUN/audit.json after each round of some seconds."""
     run = Path(run).resolve()
-    before, begun = found_before(run), time.monotonic()
-    if before["complete"]:
-        return (0 if before["clean"] else 1), before
-    with tempfile.TemporaryDirectory() as folder:
-        shown = left_over(run, set(before["steps"]), Path(folder))
-        said, status = ask(program, shown, limit, Path(folder))
-    if not said.get("states"):
-        return (CALL_AGAIN if said or limit.left() == 0 or status in INTERRUPTED else 2), before
-    found = together(before, said, time.monotonic() - begun, len(list((run / "frames").glob("frame_*"))))
-    partial = run / f"{AUDIT}.partial"
-    partial.write_text(json.dumps(found) + "\n")
-    partial.replace(run / AUDIT)
-    if status == 2 or not found["complete"]:
-        return (2 if status == 2 else CALL_AGAIN), found
+    frames, found = sorted((run / "frames").glob("frame_*")), found_before(run)
+    size = len(os.sched_getaffinity(0))
+    while not found["complete"]:
+        if limit.left() == 0:
+            return CALL_AGAIN, found
+        known, begun = set(found["steps"]), time.monotonic()
+        ahead = [frame for frame in spread(frames) if step_of(frame) not in known][:size]
+        said, status = ask(program, run, ahead, limit)
+        if not said.get("states"):
+            return (CALL_AGAIN if said or limit.left() == 0 or status in INTERRUPTED else 2), found
+        seconds = time.monotonic() - begun
+        found = together(found, said, seconds, len(frames))
+        partial = run / f"{AUDIT}.partial"
+        partial.write_text(json.dumps(found) + "\n")
+        partial.replace(run / AUDIT)
+        print(f"{run.name}: {in_words(found)}", file=sys.stderr, flush=True)
+        if status == 2 or status in INTERRUPTED:
+            return (2 if status == 2 else CALL_AGAIN), found
+        size = 2 * size if seconds < SHORT_ROUND else size
     return (0 if found["clean"] else 1), found
 
 
