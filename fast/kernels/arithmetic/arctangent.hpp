@@ -7,7 +7,8 @@
 
 namespace ogc::fast {
 
-/// Angle of (x, y) in [−π, π]; 0 where both are 0. Relative error at most 4 u (tests/fast/kernels/arctangent.cpp): the
+/// Angle of (x, y) in [−π, π]; 0 where both are 0. Relative error at most 4 u
+/// (tests/fast/kernels/arithmetic/arctangent.cpp): the
 /// polynomial, a minimax fit of (atan t − t)/t³ in t² on |t| ≤ tan(π/8), is off by 0.02 u; the rest is one division,
 /// one or two sums and the rounded π/4, π/2 or π.
 template <class T>
