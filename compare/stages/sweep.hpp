@@ -33,6 +33,7 @@ struct SweepIn {
   std::span<const EdgeEdgeContact> edge_edge;
 };
 
+/// The answer.
 struct SweepOut {
   std::vector<Vec3f> position;  ///< [m]; each obeys its bound exactly
   Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay beyond its bound

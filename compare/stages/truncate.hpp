@@ -9,6 +9,7 @@
 
 namespace ogc::compare {
 
+/// The question: vertices that have nothing to do with each other.
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
@@ -20,6 +21,7 @@ struct TruncateOut {
   std::vector<std::uint8_t> cut;  ///< 1 where ‖x − x_prev‖ > b_v
 };
 
+/// The exact answer.
 struct TruncateTruth {
   std::vector<std::uint8_t> cut, grey;  ///< grey: the exact margin lies in the grey zone, either flag is accepted
   std::vector<std::uint8_t> near;       ///< 1 where the margin lies within near_factor

@@ -313,17 +313,17 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Contacts: a guess. Events and detections: all that Algorithm 3 can have, a detection before each round and each
-// iteration.
+// Room for contacts is a guess; for events and detections it holds all that Algorithm 3 can have, with a detection
+// before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
   return {1, contacts, contacts, sizes.triangles, sizes.hinges, sizes.tetrahedra, 2 * rounds + 1, rounds + 1};
 }
 
-// Of contacts: each vertex with each triangle, each edge with each other one as first and as second, at each detection;
-// and those of the guess above, so that contacts which are listed twice in a small mesh are told as what they are. The
-// products fit into 64 bits: sizes do into 31, and 2^40 ends them.
+// Contacts at most: each vertex with each triangle, each edge with each other one as first and as second, at each
+// detection; and those of the guess above, so that contacts which are listed twice in a small mesh are told as what
+// they are. The products fit into 64 bits: sizes do into 31, and 2^40 ends them.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

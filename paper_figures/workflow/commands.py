@@ -24,6 +24,7 @@ THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd":
                            "paper": {"vbd": 1000, "newton": 150}}
 ANY = ("--set", "redetect_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
+PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "truncation=pair")  # what Newton's step is cut to
 NEWTON = ("--solver", "newton", "--residual",
           *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
                                                for word in ("--set", value)))
@@ -70,8 +71,8 @@ def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=2
 def three_cloths(scale, backends, start_iterations=None):
     """Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that step by VBD in
     single precision; and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which the paper may
-    have printed in cm/s, and other steps, because the paper does not say which it draws. `start_iterations`: of each
-    step before, where the scene's own take too long."""
+    have printed in cm/s, and other steps, because the paper does not say which it draws; Newton also with other bounds
+    than balls. `start_iterations`: of each step before, where the scene's own take too long."""
     step, iterations = THREE_CLOTHS_STEP[scale], THREE_CLOTHS_ITERATIONS[scale]
     base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
     before = ("--set", f"iterations={start_iterations or iterations['vbd']}")
@@ -85,11 +86,16 @@ def three_cloths(scale, backends, start_iterations=None):
     with_slow = (*variants, *([] if scale == "smoke" else [slow]))
     single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *vbd, *more), state) for backend in backends
               for suffix, more in (with_slow if backend == backends[-1] else variants)]
-    again = (*base, "--iterations", "--profile", "--backend", backends[-1], *vbd, *ANY)
-    single += [Job(f"vbd_{backends[-1]}_any_at_{other}", (*again, "--steps", other), ("start", Step(other - 1)))
-               for other in THREE_CLOTHS_OTHERS.get(scale, ())]
+    others = [(other, ("start", Step(other - 1))) for other in THREE_CLOTHS_OTHERS.get(scale, ())]
+    again = (*base, "--iterations", "--profile")
+    single += [Job(f"vbd_{backends[-1]}_any_at_{other}",
+                   (*again, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
+               for other, begin in others]
+    bounds = [] if scale == "smoke" else [("_any_planes", (*ANY, *PLANES)), ("_any_pairs", (*ANY, *PAIRS))]
     double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *vbd), state),
-              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in with_slow)]
+              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in (*with_slow, *bounds)),
+              *(Job(f"newton{suffix}_at_{other}", (*again, *newton, *more, "--steps", other), begin)
+                for other, begin in others for suffix, more in (("_any", ANY), ("_any_pairs", (*ANY, *PAIRS))))]
     return [start, *single], double
 
 

@@ -57,8 +57,8 @@ struct StepBuilder {
     scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
   }
 
-  /// Stiffer than inertia by up to a thousand times: beyond, a sweep's single-precision solve says little, and what it
-  /// says is stage sweep's affair.
+  /// Stiffer than inertia by up to a thousand times: beyond, a single-precision solve says little, and stage sweep asks
+  /// about it.
   Material material() {
     Material m;
     m.density = 0.2 * random.magnitude(-0.5, 0.5);

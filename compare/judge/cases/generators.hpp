@@ -18,7 +18,7 @@ struct Generator {
   double share;           ///< of a stage's cases, relative to the other rows
   bool generic;           ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
   CaseData (*make)(Random&);
-  /// left out of a run of fewer cases than this, of which one of its meshes would be too large a part
+  /// runs of fewer cases than this leave the row out, as one of its meshes would be too large a share
   std::uint64_t least = 0;
   bool solids = false;  ///< scenes with tetrahedra, which only a contestant with that stage is asked about
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "experiments/program/mesh_input.hpp"
 
 namespace ogc::experiments {
@@ -13,7 +13,7 @@ namespace ogc::experiments {
 /// How far a mesh falls where nobody says: a tenth of its size [m].
 double default_fall(const compare::Mesh& mesh);
 
-/// Its smallest y [m].
+/// The smallest y of the mesh [m].
 double lowest_point(const compare::Mesh& mesh);
 
 /// The mesh of `file` as body "cloth" (scenes/materials.hpp, `layer_cloth`) above a fixed square, body "ground", at the

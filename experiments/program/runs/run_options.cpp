@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "compare/files/mesh_files.hpp"
-#include "compare/files/scene_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
@@ -71,7 +71,7 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
-/// Of what --set can be given.
+/// Throws where --set knows no such key.
 void expect_setting(const std::string& key) {
   std::vector<std::string_view> names{"membrane", "bending"};
   for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);

@@ -11,8 +11,8 @@ namespace ogc::experiments {
 
 /// A number and the sentence that says where it comes from.
 struct SuggestedNumber {
-  double value = 0;
-  std::string reason;
+  double value = 0;    ///< in the unit of its setting
+  std::string reason;  ///< for people
 };
 
 /// Values that are easy to say (two digits, or 1, 2, 5 times a power of ten), within the ranges of `setting_table` and

@@ -23,7 +23,7 @@ from paper_figures.workflow.jobs import Limit  # noqa: E402
 
 
 def make_run(folder, backend, rows, first=1, **changes):
-    """Rows: (time [ms], contacts of either sort, repeats)."""
+    """Rows: (time [ms], contacts of either kind, repeats)."""
     folder.mkdir(parents=True)
     manifest = {"status": "finished", "dirty": False, "commit": "0123456789abcdef", "device": backend + " device",
                 "ended": "2026-01-01T00:00:00Z", "backend": backend,
