@@ -27,11 +27,11 @@ constexpr double membrane_flop = 174;
 /// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections
 /// 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
 constexpr double hinge_flop = 141;
-/// fast/kernels/models/tetrahedron.hpp, elastic: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces 6
-/// + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
+/// fast/kernels/models/tetrahedron.hpp, elastic: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
+/// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
 constexpr double tetrahedron_flop = 85;
-/// Its damping: F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks 2
-/// + 15 + 45.
+/// Its damping: F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks
+/// 2 + 15 + 45.
 constexpr double solid_damping_flop = 238;
 /// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10,
 /// activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.

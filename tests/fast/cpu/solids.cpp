@@ -211,7 +211,9 @@ TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free co
   // A held vertex costs nothing itself, and no stencil of its own.
   scene.bodies[0].fixed = false;
   scene.bodies[1].material.solid_damping = 0;
-  scene.motions.push_back({.name = "held", .vertices = {0}});
+  scene.motions.resize(1);
+  scene.motions[0].name = "held";
+  scene.motions[0].vertices = {0};
   const double own = two.flop - sweep_work(scene).flop;
   const auto of_corner = std::ranges::count_if(
       scene.mesh.tetrahedra, [](const compare::Tetrahedron& t) { return std::ranges::count(t, 0) > 0; });
