@@ -10,6 +10,7 @@
 
 #include "fast/cpu/backend.hpp"
 #include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep_solids.hpp"
 #include "fast/probes/contact_engine.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -26,6 +27,12 @@ constexpr double membrane_flop = 174;
 /// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections
 /// 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
 constexpr double hinge_flop = 141;
+/// fast/kernels/models/tetrahedron.hpp, elastic: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
+/// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
+constexpr double tetrahedron_flop = 85;
+/// Its damping: F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks
+/// 2 + 15 + 45.
+constexpr double solid_damping_flop = 238;
 /// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10,
 /// activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
 constexpr double contact_flop = 145;
@@ -105,6 +112,22 @@ SearchWork work_of(const SearchCount& count, double distance_flop, double candid
   return work;
 }
 
+/// Adds what tetrahedra cost, each for every free corner of it.
+void add_tetrahedra(const RestState& rest, SweepWork& work) {
+  const auto is_free = [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; };
+  double all = 0, damped = 0;
+  for (const TetrahedronRest& tetrahedron : rest.tetrahedra) {
+    const auto corners = static_cast<double>(std::ranges::count_if(tetrahedron.corner, is_free));
+    all += corners;
+    if (rest.solids[static_cast<std::size_t>(tetrahedron.body)].damping > 0) damped += corners;
+  }
+  if (all == 0) return;
+  work.flop += all * tetrahedron_flop + damped * solid_damping_flop;
+  work.bytes += all * sizeof(TetrahedronIncidence) + damped * sizeof(TetrahedronGradients) +
+                static_cast<double>(work.vertices) * sizeof(TetrahedronRow);
+  if (damped > 0) work.bytes += static_cast<double>(rest.tetrahedra.size() * sizeof(SolidStrain));
+}
+
 }  // namespace
 
 SweepWork sweep_work(const compare::Scene& scene) {
@@ -129,6 +152,7 @@ SweepWork sweep_work(const compare::Scene& scene) {
                triangles * sizeof(MembraneIncidence) + hinges * sizeof(HingeIncidence);
   if (damped)
     work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
+  add_tetrahedra(rest, work);
   work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
   work.flop_edge_edge = contact_vertices * (contact_flop + on_segments_flop);
   work.bytes_contact = contact_vertices * sizeof(ContactIncidence);

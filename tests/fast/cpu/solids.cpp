@@ -9,7 +9,9 @@
 
 #include "compare/oracle/audit.hpp"
 #include "compare/problem/validate.hpp"
+#include "fast/contestant.hpp"
 #include "fast/cpu/simulation.hpp"
+#include "fast/kernels/sweep_solids.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"
@@ -186,6 +188,37 @@ TEST_CASE("a solid alone has the sum of tetrahedra and contacts, one with a shee
   compare::Scene by_vertex = drop_scene(false);
   by_vertex.settings.damping = compare::DampingForm::per_vertex;
   CHECK(needed(by_vertex) == SweepSum::everything);
+}
+
+TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free corners", "[unit]") {
+  compare::Scene scene = empty_scene();
+  add_block(scene, 3, 0.1, {});
+  const SweepWork one = sweep_work(scene);
+  const auto stencils = static_cast<double>(4 * scene.mesh.tetrahedra.size());
+  CHECK(one.bytes > stencils * sizeof(TetrahedronIncidence));
+  CHECK(one.flop > 80 * stencils);
+  add_block(scene, 3, 0.1, {1, 0, 0});
+  const SweepWork two = sweep_work(scene);
+  CHECK(two.vertices == 2 * one.vertices);
+  CHECK(two.flop == 2 * one.flop);
+  CHECK(two.bytes == 2 * one.bytes);
+  // Damping of one block costs its own stencils alone; of a fixed block there is nothing to do.
+  scene.bodies[1].material.solid_damping = 1e-3;
+  const double damping = sweep_work(scene).flop - two.flop;
+  CHECK(damping > 200 * stencils);
+  scene.bodies[0].fixed = true;
+  CHECK(sweep_work(scene).flop == one.flop + damping);
+  // A held vertex costs nothing itself, and no stencil of its own.
+  scene.bodies[0].fixed = false;
+  scene.bodies[1].material.solid_damping = 0;
+  scene.motions.resize(1);
+  scene.motions[0].name = "held";
+  scene.motions[0].vertices = {0};
+  const double own = two.flop - sweep_work(scene).flop;
+  const auto of_corner = std::ranges::count_if(
+      scene.mesh.tetrahedra, [](const compare::Tetrahedron& t) { return std::ranges::count(t, 0) > 0; });
+  CHECK(own > 80 * static_cast<double>(of_corner));
+  CHECK(own < 90 * static_cast<double>(of_corner) + 100);
 }
 
 TEST_CASE("no two vertices of a tetrahedron share a colour, and a grid about one diagonal has four", "[unit]") {

@@ -304,6 +304,15 @@ class Book(Scratch):
         windows = [name for name in book if name.startswith("windows_")]
         self.assertEqual((len(windows), windows[-1]), (len(parts.ROWS), "windows_fifty_layers_1m"))
 
+    def test_the_whole_runs_of_fig_19_are_those_of_its_rows(self):
+        book = parts.book(parts.Wanted())
+        for bounds, (row, _) in commands.MAT_BOUNDS.items():
+            of_row, of_figure = book[row].jobs[0], next(job for job in book["fig19"].jobs
+                                                        if job.name == f"{bounds}/whole")
+            self.assertEqual(of_row.arguments, of_figure.arguments)
+            self.assertEqual(book[row].shown_as, f"fig19-paper-cuda/{of_figure.name}")
+            self.assertEqual(parts.SHOWN[row], of_figure.name)
+
     def test_a_figure_is_all_of_its_parts_and_a_part_itself(self):
         book = parts.book(parts.Wanted())
         self.assertEqual(list(parts.chosen(book, ["fig02"])), ["fig02"])

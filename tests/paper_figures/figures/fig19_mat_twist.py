@@ -1,0 +1,95 @@
+"""Fig. 19 from smoke runs: windows count alike, GIPC's times stand beside as many steps as were measured of it or
+nowhere, one step of VBD ends near Newton's, and what the claims read is there.
+
+Usage: fig19_mat_twist.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h5py is missing.
+"""
+
+import argparse
+import json
+import statistics
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
+del sys.argv[1:3]
+sys.path.insert(0, str(SOURCE))
+try:
+    import numpy as np
+    from paper_figures.figures import fig19_mat_twist as fig19
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+from paper_figures.workflow import commands  # noqa: E402
+
+RMS = "rms distance to Newton [m]"
+
+
+class Smoke(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(holder.cleanup)
+        cls.folder = Path(holder.name)
+        commands.WINDOW_SECONDS["smoke"] = 1
+        asked = argparse.Namespace(scale="smoke", folder=holder.name, backend="cpu", made=False, ogc=OGC)
+        cls.runs = fig19.runs_of(asked)
+        cls.rows = fig19.table(cls.runs, None)
+
+    def of(self, **wanted):
+        return [row for row in self.rows if all(row[key] == value for key, value in wanted.items())]
+
+    def test_whole_runs_are_audited_and_all_runs_are_there(self):
+        self.assertEqual(len(self.runs), 4 + 4 * 3 + 4 * (1 + len(commands.MAT_ITERATIONS["smoke"])))
+        for row in (*self.of(what="whole"), *self.of(what="without friction")):
+            self.assertEqual(row["intersections"], "none", row)
+        self.assertEqual([row["friction [1]"] for row in self.of(what="without friction")], [0, 0])
+
+    def test_each_window_has_the_same_weight(self):
+        for solver, bounds in (("vbd", "ball"), ("vbd", "planes"), ("ipc", "")):
+            windows, (mean,) = (self.of(what=what, solver=solver, bounds=bounds) for what in ("window", "windows"))
+            self.assertEqual(len(windows), len(commands.MAT_WINDOWS))
+            self.assertAlmostEqual(mean["mean [ms]"], statistics.fmean(row["mean [ms]"] for row in windows))
+            self.assertEqual(mean["steps [1]"], sum(row["steps [1]"] for row in windows))
+        for row in self.of(what="window", solver="ipc"):
+            self.assertGreaterEqual(row["steps [1]"], commands.IPC_STEPS)
+
+    def test_gipc_stands_beside_as_many_steps_as_were_measured_of_it_or_nowhere(self):
+        self.assertIsNone(fig19.gipc_times("smoke"))
+        self.assertEqual(self.of(solver="gipc"), [])
+        theirs = fig19.gipc_times("paper")
+        self.assertEqual(len(theirs), commands.GIPC_STEPS["paper"])
+        self.assertAlmostEqual(np.mean(theirs), 180.5, delta=0.05)
+        ours = self.runs["planes/free"].column("wall")
+        for steps, ratio in ((len(ours), 7 * len(ours) / np.sum(ours)), (len(ours) - 1, "")):
+            _, planes, gipc = fig19.without_friction(self.runs, np.full(steps, 7.0))
+            self.assertEqual(planes["GIPC's time over ours [1]"], ratio)
+            self.assertEqual((gipc["device"], gipc["mean [ms]"], gipc["steps [1]"]), (fig19.GIPC_DEVICE, 7, steps))
+
+    def test_one_step_of_vbd_ends_near_newtons_where_nothing_is_in_contact(self):
+        newton, swept = self.of(what="one step", solver="newton"), self.of(what="one step", solver="vbd")
+        self.assertEqual([row[RMS] for row in newton], [0] * len(commands.MAT_WINDOWS))
+        for row in swept:  # floats of half a metre are 6e-8 m apart
+            self.assertLess(row["largest distance to Newton [m]"], 6e-7, row)
+            self.assertGreater(row["rms motion of the step [m]"], 1e-4)
+        for row in self.of(what="one step", solver="ipc"):
+            self.assertEqual(row["residual [1]"], "", "IPC's is another measure")
+
+    def test_what_the_claims_read_is_there(self):
+        claims = json.loads((SOURCE / "paper_figures/claims/mat_twist.json").read_text())["claims"]
+        read = [claim["measure"] for claim in claims if claim.get("measure", {}).get("table") == "fig19"]
+        self.assertEqual(len(read), 2)
+        for measure in read:
+            self.assertIn(measure["column"], self.rows[0])
+            for key in ("over", "under", "where"):
+                wanted = {name: value for name, value in measure.get(key, {}).items() if name != "backend"}
+                self.assertTrue(not wanted or self.of(**wanted), (measure, key))
+
+    def test_it_is_drawn(self):
+        fig19.draw(self.runs, None, "cpu", self.folder / "fig19.png")
+        self.assertGreater((self.folder / "fig19.png").stat().st_size, 50_000)
+
+
+if __name__ == "__main__":
+    unittest.main()
