@@ -111,9 +111,8 @@ TEST_CASE("pair by pair: sheets leave one another as far as the balls let them, 
   const State step = held.planes.truncated(x, uniform(held, {0, 2e-3, 0}, {0, -1e-3, 0})), end = shifted(x, 1, step);
   const auto distances = compare::smallest_distances(held.topology, compare::to_double(rounded(end)), held.exclusions);
   const double least = std::min(distances.vertex_triangle, distances.edge_edge);
-  // 1 − 2γ_p of the gap is left, and what sweeps give back
+  // 1 − 2γ_p of the gap is left at least; sweeps, which are no projection, may leave more
   CHECK(least > 0.0999e-4);
-  CHECK(least < 0.15e-4);
 }
 
 TEST_CASE("pair by pair: what is nearer than rounding stays where it is", "[unit]") {
