@@ -36,8 +36,8 @@ class MovingPlanes {
   /// Puts vertices that must stay at X_prev there; x is X_prev up to rounding.
   void enter(State& x) const;
   /// A step of the free vertices near `step` [m] that stays inside from x on, which is: into the balls, then both sides
-  /// of pairs that would
-  /// come too near are moved apart, in sweeps; what these leave is scaled, for the vertices concerned.
+  /// of pairs that would come too near are moved apart, in sweeps; what these leave is scaled, for the vertices
+  /// concerned.
   State truncated(const State& x, State step) const;
   /// The largest share in [0, 1] of `step` that surely stays inside.
   double share_inside(const State& x, const State& step) const;
