@@ -79,7 +79,7 @@ void run(const Options& options, const CommandContext& context) {
   std::vector<std::vector<std::string>> lines;
   for (const auto& [setting, unit, suggested] : rows)
     lines.push_back({setting, number(suggested.value), unit, suggested.reason});
-  const std::string what = is_solid ? "a soft solid of " + number(density) + " kg/m³"
+  const std::string what = is_solid ? "a soft solid of " + compare::shortest(density) + " kg/m³"
                                     : "cloth of " + number(density) + " kg/m²";
   print_result(what + " that falls by " + number(fall) + " m:\n" + table(lines, 4) + "\n" + command + "\n");
 }

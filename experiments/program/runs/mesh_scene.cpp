@@ -73,9 +73,9 @@ std::string made_of(const compare::Body& body) {
   const compare::Material& material = body.material;
   if (!body.is_solid()) return "cloth of " + number(material.density) + " kg/m²";
   const compare::Elasticity elasticity = compare::elasticity_of(material);
-  return "a solid of " + number(material.solid_density) + " kg/m³ (solid_density), " + number(elasticity.young) +
-         " Pa (solid_young), Poisson's ratio " + number(elasticity.poisson) + " (solid_poisson), damping " +
-         number(material.solid_damping) + " s (solid_damping)";
+  return "a solid of " + compare::shortest(material.solid_density) + " kg/m³ (solid_density), " +
+         number(elasticity.young) + " Pa (solid_young), Poisson's ratio " + number(elasticity.poisson) +
+         " (solid_poisson), damping " + number(material.solid_damping) + " s (solid_damping)";
 }
 
 void say(const compare::Scene& scene, const Suggestion& found) {
