@@ -32,11 +32,6 @@ def baseline_arguments(description, scales=("smoke", "small", "paper"), backends
     return parser
 
 
-def options_of(arguments):
-    """Options of `ogc run` that all runs of such a figure share."""
-    return list(commands.shared(arguments.scale, arguments.membrane))
-
-
 def ipc_windows(arguments, scene, whole, starts, steps=20):
     """IPC on windows of so many steps from states of the run `whole`, where it is too slow for the run itself."""
     last = int(whole.column("step")[-1])

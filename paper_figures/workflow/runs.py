@@ -22,12 +22,6 @@ class Iterations:
         return self.columns[name]
 
 
-def run_once(ogc, arguments, folder):
-    """`ogc run ARGUMENTS --out FOLDER`, unless the folder holds that run, finished, already; one that was cut off goes
-    on. Throws RunError where ogc fails."""
-    return run_job(ogc, Job(Path(folder).name, tuple(arguments)), Path(folder).parent)
-
-
 def run_job(ogc, job, folder):
     """The run of a job (paper_figures.workflow.commands) below `folder`. Throws RunError."""
     try:
