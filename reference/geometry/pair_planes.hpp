@@ -5,9 +5,6 @@
 
 namespace ogc::reference {
 
-/// Planes that a vertex bears at most.
-inline constexpr std::size_t most_planes = 16;
-
 /// Of each pair within r_q the closest points c_p, c_q, found exactly, give n = (c_q − c_p)/d; its two offsets lie
 /// γ_p d from the sides, or 2γ_p d from one where the other is fixed. A pair gets the plane if every vertex keeps it in
 /// single precision, exactly, and if it is nearer than the 17th nearest pair of each of its vertices that can move; the

@@ -51,13 +51,13 @@ struct TwoSheets {
             topology.edges[f]);
   }
 
-  compare::PlaneTruth truth() const {
+  compare::PlaneGuarantee truth() const {
     compare::PlaneOut out{{{0}, {}}, bound};
     for (const auto& row : rows) {
       out.planes.items.insert(out.planes.items.end(), row.begin(), row.end());
       out.planes.offsets.push_back(static_cast<Index>(out.planes.items.size()));
     }
-    return reference::plane({&topology, {}, surface.positions, is_fixed, query_radius, relaxation}, out);
+    return reference::plane_guarantee({&topology, {}, surface.positions, is_fixed, query_radius, relaxation}, out);
   }
 
  private:
@@ -80,7 +80,7 @@ struct TwoSheets {
 
 TEST_CASE("plane: two sheets with planes between them, each vertex as free as its own sheet leaves it", "[unit]") {
   const TwoSheets sheets;
-  const compare::PlaneTruth truth = sheets.truth();
+  const compare::PlaneGuarantee truth = sheets.truth();
   CHECK(truth.kept());
   CHECK(truth.separated > 100);
 }
@@ -174,7 +174,7 @@ TEST_CASE("pair_planes: of every mesh they hold all pairs within r_q, and no ver
     const float r_q = 2 * specimen.radius;
     const compare::PlaneIn in{&topology, specimen.surface.groups, specimen.surface.positions, is_fixed, r_q, 0.45f};
     const compare::PlaneOut out = reference::pair_planes(in);
-    CHECK(reference::plane(in, out).kept());
+    CHECK(reference::plane_guarantee(in, out).kept());
     const auto balls = reference::exact_bounds(question(specimen.surface, topology, specimen.radius, r_q), 0.45f);
     std::size_t narrower = 0, most = 0;
     for (std::size_t v = 0; v < balls.size(); ++v) {
@@ -182,6 +182,6 @@ TEST_CASE("pair_planes: of every mesh they hold all pairs within r_q, and no ver
       most = std::max(most, out.planes.of(static_cast<Index>(v)).size());
     }
     CHECK(narrower == 0);
-    CHECK(most <= reference::most_planes);
+    CHECK(most <= compare::planes_of_vertex);
   }
 }

@@ -45,6 +45,7 @@ std::span<const Generator> rest_state_generators();
 std::span<const Generator> block_generators();
 std::span<const Generator> detect_generators();
 std::span<const Generator> bound_generators();
+std::span<const Generator> plane_generators();
 std::span<const Generator> contact_force_generators();
 std::span<const Generator> friction_force_generators();
 std::span<const Generator> membrane_generators();

@@ -34,6 +34,8 @@ std::vector<Fault> pair_faults();
 void add_right_pairs(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> set_faults();
 void add_right_sets(compare::Contestant& exact, const compare::Authority& authority);
+std::vector<Fault> plane_faults();
+void add_right_planes(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> scalar_faults();
 void add_right_scalars(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> contact_faults();

@@ -99,7 +99,7 @@ TEST_CASE("planes: each pair within r_q has a plane or is covered by balls, exac
     for (const float r_q : {0.3F, 1.2F}) {
       const Held held = detect(topology, surface.positions, is_fixed, 0.3F, r_q);
       const compare::PlaneIn in{&topology, {}, surface.positions, is_fixed, r_q, 0.45F};
-      const compare::PlaneTruth truth = reference::plane(in, held.out);
+      const compare::PlaneGuarantee truth = reference::plane_guarantee(in, held.out);
       CHECK(truth.kept());
       separated += truth.separated;
       for (compare::Index v = 0; v < topology.vertex_count; ++v)
