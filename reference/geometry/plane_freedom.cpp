@@ -47,7 +47,7 @@ struct MeasuredPair {
 /// What PlaneFreedom says of the room of one pair: L, the largest distance of two of its points, is at most Σ|δ| and at
 /// least a third of it over √3; the larger one is taken for it.
 bool has_room_for_plane(double distance, double scale, double largest_coordinate, double share) {
-  return distance >= 0x1p-18 * scale && std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
+  return distance > 0 && distance >= 0x1p-18 * scale && std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
 }
 
 class FreedomCheck {

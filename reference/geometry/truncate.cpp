@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "reference/geometry/margin.hpp"
+#include "reference/geometry/truncate_region.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -25,6 +26,16 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
     const Vec3f &from = in.previous[i], &to = in.position[i];
     const Margin gap = gap_points(from, to, in.bound[i]);
     const MarginAnswer margin = examine(gap);
+    if (!in.half_spaces.offsets.empty()) truth.accepted.push_back(0);
+    if (!in.half_spaces.of(i).empty()) {
+      const RegionTruth region = truncate_region(in, i, margin);
+      truth.cut.push_back(region.cut);
+      truth.grey.push_back(region.grey);
+      truth.near.push_back(region.near);
+      truth.position.push_back(region.position);
+      truth.accepted.back() = region.accepted;
+      continue;
+    }
     const bool cut = margin.sign > 0;
     truth.cut.push_back(cut);
     truth.grey.push_back(margin.grey);

@@ -185,14 +185,13 @@ std::vector<Fault> ball_by_ball() {
       ball_fault("a pair without a separator left free",
                  [share_of_reach](const PlaneIn& in, PlaneOut& out) {
                    for (float& b : out.bound)
-                     if (b < std::numeric_limits<float>::max())
-                       b = std::min(std::nextafter(share_of_reach(in), 0.0f), share_of_reach(in));
+                     if (b < std::numeric_limits<float>::max()) b = std::nextafter(share_of_reach(in), 0.0f);
                  }),
       ball_fault("a ball one ulp too large",
                  [](const PlaneIn&, PlaneOut& out) {
                    for (float& b : out.bound) b = std::nextafter(b, std::numeric_limits<float>::infinity());
                  }),
-      ball_fault("no planes, and the balls that go with them", [](const PlaneIn&, PlaneOut& out) { out.planes = {}; }),
+      ball_fault("planes dropped, their balls kept", [](const PlaneIn&, PlaneOut& out) { out.planes = {}; }),
       ball_fault("balls of nothing", [](const PlaneIn&, PlaneOut& out) { std::ranges::fill(out.bound, 0.0f); }),
       ball_fault("vertices inside solids bounded",
                  [share_of_reach](const PlaneIn& in, PlaneOut& out) {

@@ -16,6 +16,7 @@
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
+#include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
 
@@ -126,8 +127,12 @@ struct ActivationCase {
 
 /// A vertex that moved.
 struct TruncateCase {
-  Vec3f previous, position;  ///< X_prev, x [m]
-  float bound = 0;           ///< b_v [m]
+  Vec3f previous, position;              ///< X_prev, x [m]
+  float bound = 0;                       ///< b_v [m]
+  std::vector<HalfSpace> half_spaces{};  ///< none: a ball alone, and what follows is not read
+  Vec3f current{};                       ///< in the region [m]
+  std::array<float, 6> block{};          ///< H [N/m]
+  std::uint8_t is_prescribed = 0;        ///< 1: it does not slide
 };
 
 /// The data of a case; its type is that of the stage (compare/judge/stages).

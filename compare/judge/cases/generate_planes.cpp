@@ -186,7 +186,7 @@ constexpr std::array<Generator, 20> table{{{"soup", 20, true, soup},
                                            {"ladder.fixed", 10, false, fixed},
                                            {"ladder.corner", 8, false, corner},
                                            {"ladder.far", 8, false, far},
-                                           {"solid", 4, false, solid, 0, true}}};
+                                           {"solid", 4, false, solid, 0, Stage::tetrahedron}}};
 
 }  // namespace
 
