@@ -139,6 +139,8 @@ struct ContestantFailure : std::runtime_error {
 /// Empty functions are stages that the contestant does not have.
 struct Contestant {
   std::string name;  ///< for reports
+  /// Whether its steps know bounds=planes. A plug-in's do not: compare/plugin.h has no planes in its trace.
+  bool has_steps_with_planes = true;
   /// By stage: compare/stages/STAGE.hpp says what is asked.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;

@@ -1,5 +1,6 @@
 // Stage truncate: a vertex's position kept within its feasible region until the next detection: the ball of its
-// conservative bound about X_prev (Eq. 27, Alg. 3 lines 24–27), and half-spaces where bounds are planes (method.md §5.6).
+// conservative bound about X_prev (Eq. 27, Alg. 3 lines 24–27), and half-spaces where bounds are planes
+// (method.md §5.6).
 #pragma once
 
 #include <array>

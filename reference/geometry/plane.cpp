@@ -106,8 +106,8 @@ void require(bool holds, const char* what, std::size_t count, std::size_t vertic
 
 }  // namespace
 
-/// Seven terms, the products exact, are summed up with at most 2⁻⁵³ of their moduli lost by each addition: under 2⁻⁴⁹ of
-/// the sum of the moduli.
+/// Seven terms, the products exact, are summed up with at most 2⁻⁵³ of their moduli lost by each addition: under 2⁻⁴⁹
+/// of the sum of the moduli.
 int compared(const Height& a, const Height& b) {
   double sum = a.offset - b.offset, size = std::abs(a.offset) + std::abs(b.offset);
   const auto add = [&](float n, float x, double sign) {

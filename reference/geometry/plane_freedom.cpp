@@ -1,6 +1,6 @@
 // What an answer's planes and balls leave to the vertices. Distances (within 2⁻⁴⁰ of their scale) and rooms are in
-// double, whose errors are far below the units in which they are judged; which pair is due is asked with the tolerances of a single-precision kernel, so
-// that no rounding of its distances decides.
+// double, whose errors are far below the units in which they are judged; which pair is due is asked with the tolerances
+// of a single-precision kernel, so that no rounding of its distances decides.
 #include <tbb/combinable.h>
 
 #include <algorithm>
@@ -44,10 +44,10 @@ struct MeasuredPair {
   double surely_above() const { return std::max(0.0, distance - compare::detect_below_tolerance * u * scale); }
 };
 
-/// What PlaneFreedom says of the room of one pair: L, the largest distance of two of its points, is at most Σ|δ| and at
-/// least a third of it over √3; the larger one is taken for it.
+/// Whether single precision can hold a plane of the pair (PlaneFreedom).
 bool has_room_for_plane(double distance, double scale, double largest_coordinate, double share) {
-  return distance > 0 && distance >= 0x1p-18 * scale && std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
+  return distance > 0 && distance >= 0x1p-18 * scale &&
+         std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
 }
 
 class FreedomCheck {

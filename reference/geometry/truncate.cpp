@@ -45,6 +45,18 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
   return truth;
 }
 
+compare::HalfSpacesIn half_spaces_of(std::span<const compare::VertexPlane> planes, const Vec3f& current,
+                                     const std::array<float, 6>& block, bool is_prescribed) {
+  compare::HalfSpacesIn all;
+  if (planes.empty()) return all;
+  for (const compare::VertexPlane& plane : planes) all.items.push_back({plane.normal, plane.offset});
+  all.offsets = {0, static_cast<compare::Index>(planes.size())};
+  all.current = {current};
+  all.block = {block};
+  all.is_prescribed = {static_cast<std::uint8_t>(is_prescribed)};
+  return all;
+}
+
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound) {
   compare::Vec3f x{static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)};
   while (sign(gap_points(previous, x, bound)) > 0)

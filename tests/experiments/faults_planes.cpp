@@ -123,7 +123,7 @@ std::vector<Fault> plane_by_plane() {
                   [](const PlaneIn&, Index, VertexPlane& plane) { plane.offset = static_cast<float>(plane.offset); }),
       plane_fault("one offset in the middle of a pair, which both sides may reach",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
-                    // of a gap g each side had γ_p g: up to the middle 1/2 − γ_p are left, of which 1 − 2γ_p is the whole
+                    // of a gap g each side had γ_p g, up to the middle g/2 are left
                     const auto& x = in.positions[static_cast<std::size_t>(v)];
                     const Vec3f& n = plane.normal;
                     const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);

@@ -99,6 +99,12 @@ std::vector<Fault> step_faults() {
               [](const StepIn&, StepOut& out) {
                 for (StepEvent& event : out.events) event.cut = std::max(0, event.cut - 1);
               }),
+      spoiled("planes of the first detection kept",
+              [](const StepIn&, StepOut& out) {
+                for (StepEvent& event : out.events)
+                  if (is_detection(event)) event.planes = out.events.front().planes;
+              }),
+      asked_wrongly("balls where planes are asked for", [](Scene& scene) { scene.settings.bounds = Bounds::ball; }),
       spoiled("two neighbours of one colour",
               [](const StepIn&, StepOut& out) {
                 for (Index& colour : out.colour) colour = std::min(colour, 1);

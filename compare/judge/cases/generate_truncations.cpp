@@ -160,8 +160,10 @@ CaseData on_plane(Random& random) {
   region.add(n, bound * std::abs(random.rung()));
   if (random.one_in(3)) region.add(direction(random), bound * random.unit());
   region.set_current(random.unit());
-  const Vec3 aside = scaled(direction(random), bound * random.between(0.1, 2));
-  return region.finish(random.one_in(2) ? scaled(n, random.sign() * bound * std::abs(random.rung())) : aside);
+  // along the half-space, so that the proposal lies next to it, too
+  const Vec3 any = direction(random), across = scaled(n, n.x * any.x + n.y * any.y + n.z * any.z);
+  const Vec3 along = scaled(sum(any, scaled(across, -1)), bound * random.between(0.1, 2));
+  return region.finish(sum(random.one_in(2) ? along : Vec3{}, scaled(n, bound * random.rung())));
 }
 
 /// Three half-spaces through one point, a rung from X_prev: of a cube's corner, or of any.
@@ -235,18 +237,18 @@ constexpr std::array<Generator, 16> table{{{"uniform", 20, true, truncate_unifor
                                            {"bits", 20, false, truncate_bits},
                                            {"dust", 8, false, truncate_uniform},
                                            {"lattice", 20, false, truncate_lattice},
-                                           {"ladder.bound", 60, false, truncate_bound},
+                                           {"ladder.bound", 75, false, truncate_bound},
                                            {"ladder.far", 10, false, truncate_far},
                                            {"ladder.zero", 10, false, truncate_zero},
-                                           {"regions", 30, true, regions, 0, Stage::plane},
-                                           {"regions.lattice", 10, false, regions_lattice, 0, Stage::plane},
-                                           {"ladder.on_plane", 12, false, on_plane, 0, Stage::plane},
-                                           {"ladder.corner", 12, false, corner, 0, Stage::plane},
-                                           {"ladder.wedge", 12, false, wedge, 0, Stage::plane},
-                                           {"ladder.outside", 12, false, outside, 0, Stage::plane},
-                                           {"ladder.sub_ulp", 12, false, sub_ulp, 0, Stage::plane},
-                                           {"ladder.stiff", 12, false, stiff, 0, Stage::plane},
-                                           {"ladder.crowded", 8, false, crowded, 0, Stage::plane}}};
+                                           {"regions", 16, true, regions, 0, Stage::plane},
+                                           {"regions.lattice", 6, false, regions_lattice, 0, Stage::plane},
+                                           {"ladder.on_plane", 30, false, on_plane, 0, Stage::plane},
+                                           {"ladder.corner", 8, false, corner, 0, Stage::plane},
+                                           {"ladder.wedge", 8, false, wedge, 0, Stage::plane},
+                                           {"ladder.outside", 8, false, outside, 0, Stage::plane},
+                                           {"ladder.sub_ulp", 20, false, sub_ulp, 0, Stage::plane},
+                                           {"ladder.stiff", 8, false, stiff, 0, Stage::plane},
+                                           {"ladder.crowded", 6, false, crowded, 0, Stage::plane}}};
 
 }  // namespace
 

@@ -81,6 +81,7 @@ class Bits {
     add(event.vertex_facet);
     add(event.edge_edge);
     add(event.bound);
+    add(event.planes.items);
   }
   void add(const StepOut& out) {
     add(out.colour);
