@@ -22,8 +22,8 @@ class StepOrder {
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
-  /// last detection (method.md §5.6, Asking).
+  /// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since
+  /// the last detection (method.md §5.6, Asking).
   struct Lag {
     compare::Index lagging = 0;
     bool has_advanced = false;

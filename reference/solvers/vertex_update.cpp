@@ -5,7 +5,8 @@
 //
 // Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no
 // farther apart; what it does to single directions depends on where they lie, so a vertex that may be cut is held to
-// the largest of the three errors. One that half-spaces cut, or may, is held to its region alone, which the judge checks.
+// the largest of the three errors. One that half-spaces cut, or may, is held to its region alone, which the judge
+// checks.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>

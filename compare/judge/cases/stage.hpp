@@ -38,8 +38,8 @@ struct StageTraits;
 namespace stages {
 /// Each defined in compare/judge/stages, in the file of its name.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
-    plane, initial_guess, activation, contact_force, friction_force, membrane, bending, spring, tetrahedron, sweep, truncate,
-    step;
+    plane, initial_guess, activation, contact_force, friction_force, membrane, bending, spring, tetrahedron, sweep,
+    truncate, step;
 }  // namespace stages
 
 /// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
