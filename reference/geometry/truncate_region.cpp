@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "reference/geometry/separating_plane.hpp"
-#include "reference/solvers/symmetric3.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -50,17 +49,25 @@ struct Way {
   double relative_error = infinity;  ///< ‖δw‖/‖w‖
 };
 
+/// By cofactors; κ is that of Frobenius norms, at most three times that of ‖·‖₂.
 Way way_out(const std::array<float, 6>& block, const Vec3f& normal) {
-  Symmetric3 h{};
-  std::copy(block.begin(), block.end(), h.begin());
-  const Eigen3 eigen = eigen_of(h);
-  const double backward = u * compare::truncate_solve_tolerance * eigen.value[2] / eigen.value[0];
-  if (!(eigen.value[0] > 0) || backward >= 0.5) return {};
+  const auto [xx, xy, xz, yy, yz, zz] = std::array<Long, 6>{block[0], block[1], block[2], block[3], block[4], block[5]};
+  const std::array<Long, 6> cofactor{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
+                                     xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
+  const auto frobenius = [](const std::array<Long, 6>& a) {
+    return std::sqrt(a[0] * a[0] + a[3] * a[3] + a[5] * a[5] + 2 * (a[1] * a[1] + a[2] * a[2] + a[4] * a[4]));
+  };
+  const Long determinant = xx * cofactor[0] + xy * cofactor[1] + xz * cofactor[2];
+  if (!(determinant > 0)) return {};
+  const Long condition = frobenius({xx, xy, xz, yy, yz, zz}) * frobenius(cofactor) / determinant;
+  const double backward = u * compare::truncate_solve_tolerance * static_cast<double>(condition);
+  if (!(backward < 0.5)) return {};
+  const Point n = wide(normal);
   Way way{{}, backward / (1 - backward)};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point axis{eigen.axis[k].x, eigen.axis[k].y, eigen.axis[k].z};
-    way.w = plus(way.w, inner(axis, wide(normal)) / Long{eigen.value[k]}, axis);
-  }
+  const std::array<Point, 3> rows{Point{cofactor[0], cofactor[1], cofactor[2]},
+                                  Point{cofactor[1], cofactor[3], cofactor[4]},
+                                  Point{cofactor[2], cofactor[4], cofactor[5]}};
+  for (std::size_t k = 0; k < 3; ++k) way.w[k] = inner(rows[k], n) / determinant;
   return way;
 }
 
