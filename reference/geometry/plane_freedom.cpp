@@ -59,26 +59,38 @@ class FreedomCheck {
     NearPairs(mesh, in_.exclusions, double{in_.query_radius}).each([this](const auto& pair) { measure_pair(pair); });
     measured_.combine_each([this](const auto& part) { pairs_.insert(pairs_.end(), part.begin(), part.end()); });
     std::ranges::sort(pairs_, {}, [](const MeasuredPair& pair) { return order(pair.name); });
-    const std::vector<double> threshold = thresholds();
-    for (const compare::VertexPlane& plane : out_.planes.items) freedom_.needless += is_measured(plane.pair) ? 0 : 1;
-    std::erase_if(pairs_, [this](const MeasuredPair& pair) { return !is_within(pair.distance); });
-    freedom_.pairs = pairs_.size();
-    judge_planes(threshold);
+    for (const MeasuredPair& pair : pairs_) freedom_.pairs += is_within(pair.distance) ? 1 : 0;
+    for (const compare::VertexPlane& plane : out_.planes.items) freedom_.needless += may_have_plane(plane.pair) ? 0 : 1;
+    judge_planes(thresholds());
     judge_balls();
     return freedom_;
   }
 
  private:
-  bool is_measured(const PrimitivePair& name) const {
+  /// Whether a kernel may take them for a pair within r_q. Of pairs so slender that their distance has no bits to spare
+  /// the search for all pairs does not find each.
+  bool may_have_plane(const PrimitivePair& name) const {
     const auto found = std::ranges::lower_bound(pairs_, order(name), {},
                                                 [](const MeasuredPair& pair) { return order(pair.name); });
-    return found != pairs_.end() && found->name == name;
+    if (found != pairs_.end() && found->name == name) return true;
+    const Complex mesh{*in_.topology, in_.positions};
+    const auto is_near = [&](const auto& pair) {
+      return !is_excluded(in_.exclusions, pair.first, pair.second) && is_within(measurement(pair).surely_above());
+    };
+    return name.kind == PrimitivePair::Kind::edge_edge ? is_near(EdgesPair(mesh, name.first, name.second))
+                                                       : is_near(FacetPair(mesh, name.first, name.second));
   }
   bool is_within(double distance) const { return distance < double{in_.query_radius}; }
 
   template <class Pair>
   void measure_pair(const Pair& pair) {
     if (pair.surely_beyond(double{in_.query_radius} * search_margin)) return;
+    const MeasuredPair found = measurement(pair);
+    if (is_within(found.surely_above())) measured_.local().push_back(found);
+  }
+
+  template <class Pair>
+  MeasuredPair measurement(const Pair& pair) const {
     MeasuredPair measured{pair.name};
     measured.distance = measure(pair.gap()).distance;
     std::ranges::copy(pair.second, std::ranges::copy(pair.first, measured.vertices.begin()).out);
@@ -91,14 +103,13 @@ class FreedomCheck {
       largest = std::max({largest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
     }
     measured.scale = std::max(measured.scale, measured.distance);
-    if (!is_within(measured.surely_above())) return;
     measured.has_room = has_room_for_plane(measured.distance, measured.scale, largest, double{in_.bound_relaxation});
     if (const auto normal = answered_.separating_normal(pair)) {
       measured.is_separated = true;
       measured.together = (room(pair.name, pair.first, *normal, 1) + room(pair.name, pair.second, *normal, -1)) /
                           std::hypot(double{normal->x}, double{normal->y}, double{normal->z});
     }
-    measured_.local().push_back(measured);
+    return measured;
   }
 
   /// How far a side may come along `sign` n, times the length of n: as far as the vertex that is next to its offset; 0
@@ -134,7 +145,8 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      const bool is_due = pair.has_room && std::ranges::all_of(pair.vertices, is_among_nearest);
+      const bool is_due = pair.has_room && is_within(pair.distance) &&
+                          std::ranges::all_of(pair.vertices, is_among_nearest);
       freedom_.due += is_due ? 1 : 0;
       if (is_due && !pair.is_separated && freedom_.missing++ == 0) freedom_.first_missing = pair.name;
       if (!pair.is_separated) continue;
